@@ -4,10 +4,12 @@
 
     tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--rows] [--short]
     tools/scale.py --program build/release/tooljoint --motions
+    tools/scale.py --program build/release/tooljoint --cut [--most DOFS] [--short]
 
 Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are
 in the work folder already are not run again. --short takes the smallest of each and prints the tables only. --motions
 measures motions divided among ranks alone, on a machine of two cores without other work, and renews their chapter.
+--cut measures blocks cut into substructures against one shift-invert run on the whole, and renews their chapter.
 """
 import argparse
 import csv
@@ -18,6 +20,7 @@ import pathlib
 import platform
 import re
 import shutil
+import subprocess
 import sys
 import time
 
@@ -40,6 +43,8 @@ MOTIONS = [("vertical_5000m", FULL, 0.5), ("vertical_5000m", [], 1), ("extended_
            ("vertical_10000m", FULL, 0.3), ("inclined_1000m", FULL, 1), ("stress_170m", FULL, 2)]
 COUNTED = 0.02
 MESSAGE = 2e-6  # of a few numbers between two ranks of one machine [s]
+CUT_PARTS, CUT_BLOCKS = 16, ((24, 6, 3), (56, 14, 7), (100, 25, 12), (170, 43, 21))
+CUT_CHAPTER = "## Large parts cut into substructures"
 CHAPTER = "## Motions divided among ranks"
 HEAD = """# Scale
 
@@ -92,6 +97,68 @@ def solid(options, counts):
     dofs, entries = map(int, re.search(r"(\d+) dofs, (\d+) entries", made.read_text(encoding="utf-8")).groups())
     row = measured(options, name, ["export", "deck.xml", "--set", f"Reduction/Mode Selection/Modes={MODES}", "--output", "reduced"])
     return dofs, entries, row
+
+
+def block_of(options, counts, joined):
+    """(folder with block.h5, dofs, entries) of a block with so many nodes kept at its tip; -1: none."""
+    folder = pathlib.Path(options.work).resolve() / ("block_" if joined >= 0 else "whole_") / "x".join(map(str, counts))
+    folder.mkdir(parents=True, exist_ok=True)
+    made = folder / "made.txt"
+    if not made.exists():
+        text = os.popen(f"{sys.executable} {BLOCK}/make_block.py {' '.join(map(str, counts))} --joined {joined} --out {folder}/block.h5").read()
+        made.write_text(text, encoding="utf-8")
+    return folder, *map(int, re.search(r"(\d+) dofs, (\d+) entries", made.read_text(encoding="utf-8")).groups())
+
+
+def rival(options, folder, count):
+    """{hertz, wall_s, memory_mb} of the lowest modes of the whole by one shift-invert run: until they are printed."""
+    record = folder / f"rival_{count}.json"
+    if record.exists():
+        return json.loads(record.read_text(encoding="utf-8"))
+    begin, hertz, reading = time.monotonic(), [], False
+    child = subprocess.Popen([options.program, "modes", "deck.xml", "--without", "Reduction", "--count", str(count)], cwd=folder, stdout=subprocess.PIPE, text=True)
+    for line in child.stdout:
+        reading = reading or "full [Hz]" in line
+        found = re.match(r" *(\d+) +(\S+)$", line) if reading else None
+        if found:
+            hertz.append(float(found.group(2)))
+        if len(hertz) == count:
+            break
+    wall = time.monotonic() - begin
+    child.terminate()  # damped modes would follow
+    _, _, usage = os.wait4(child.pid, 0)
+    row = {"hertz": hertz, "wall_s": wall, "memory_mb": usage.ru_maxrss / 1024}
+    record.write_text(json.dumps(row), encoding="utf-8")
+    return row
+
+
+def cut_row(options, counts, ranks):
+    """A line of the table of cut blocks."""
+    folder, dofs, _ = block_of(options, counts, -1)
+    text = re.sub(r".*\"Retained\".*\n", "", (BLOCK / "deck.xml").read_text(encoding="utf-8"))
+    (folder / "deck.xml").write_text(text, encoding="utf-8")
+    name = f"cut_{'x'.join(map(str, counts))}_{ranks}"
+    row = measured(options, name, ["modes", str(folder / "deck.xml"), "--coupled", "--count", str(MODES), "--output", "out",
+                                   "--set", f"Reduction/Mode Selection/Modes={MODES}", "--set", "Reduction/Basis=Multilevel",
+                                   "--set", f"Reduction/Multilevel/Parts={CUT_PARTS}", "--set", "Reduction/Basis Checks=false"], ranks)
+    if row["code"] != 0:
+        return (dofs, ranks, *times(row)[:1], "", "", "", "", "", "")
+    with open(pathlib.Path(options.work) / name / "out/modes.csv", encoding="utf-8") as file:
+        modes = list(csv.DictReader(file))
+    whole = rival(options, folder, MODES)
+    hertz = [float(mode["coupled [Hz]"]) for mode in modes]
+    error = max(abs(a / b - 1) for a, b in zip(hertz, whole["hertz"]))
+    estimate = max(float(mode["estimate"]) for mode in modes)
+    return (dofs, ranks, f"{row['wall_s']:.3g}", f"{row['memory_mb']:.0f}", f"{error:.1e}", f"{estimate:.1e}", f"{whole['wall_s']:.3g}", f"{whole['memory_mb']:.0f}")
+
+
+def cuts(options):
+    chosen = [each for each in CUT_BLOCKS if 3 * math.prod(n + 1 for n in each) <= options.most]
+    lines = [cut_row(options, counts, ranks) for counts in (chosen[:1] if options.short else chosen) for ranks in (1, 2)]
+    return (f"{CUT_CHAPTER}\n\nThe same blocks, clamped at one end, without kept dofs: {MODES} coupled modes by `Basis` = `Multilevel` with {CUT_PARTS} parts, estimates included,\n"
+            f"from the file on (`modes --coupled`, `Basis Checks` = `false`), beside {MODES} modes of the whole by one shift-invert run. Errors are the largest of the {MODES}\n"
+            "frequencies; memory is that of one rank. Times of `tools/scale.py --cut`; other work on the machine lengthens all of them alike.\n\n" +
+            table(("dofs", "ranks", "wall [s]", "memory [MB]", "largest error", "largest estimate", "whole: wall [s]", "memory [MB]"), lines))
 
 
 def table(head, lines):
@@ -191,9 +258,21 @@ def motions(options):
 
 
 def renew(chapter):
-    """The chapter of divided motions, which is the last one, in the document."""
-    text = DOCUMENT.read_text(encoding="utf-8")
-    DOCUMENT.write_text(text.split(CHAPTER)[0].rstrip() + "\n\n" + chapter, encoding="utf-8")
+    """This chapter in the document, at its place or at the end."""
+    head = chapter.splitlines()[0]
+    chapters = re.split(r"\n(?=## )", DOCUMENT.read_text(encoding="utf-8").rstrip())
+    others = [each.rstrip() for each in chapters]
+    place = next((i for i, each in enumerate(others) if each.startswith(head)), len(others))
+    others[place:place + 1] = [chapter.rstrip()]
+    DOCUMENT.write_text("\n\n".join(others) + "\n", encoding="utf-8")
+
+
+def kept(head):
+    """A chapter of the document as it is, or nothing."""
+    for each in re.split(r"\n(?=## )", DOCUMENT.read_text(encoding="utf-8")):
+        if each.startswith(head):
+            return each.rstrip() + "\n"
+    return ""
 
 
 def draw(found):
@@ -224,11 +303,12 @@ def main():
     parser.add_argument("--rows", action="store_true", help="a study of 65 rows on one and two ranks, too: minutes of a machine without other work")
     parser.add_argument("--note", default="", help="a sentence about the circumstances, for the head of the document")
     parser.add_argument("--short", action="store_true")
+    parser.add_argument("--cut", action="store_true", help="blocks cut into substructures alone; renews their chapter of the document")
     parser.add_argument("--motions", action="store_true", help="motions divided among ranks alone; renews their chapter of the document")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
-    if options.motions:
-        chapter = motions(options)
+    if options.motions or options.cut:
+        chapter = motions(options) if options.motions else cuts(options)
         print(chapter)
         if not options.short:
             renew(chapter)
@@ -239,6 +319,8 @@ def main():
     if options.rows:
         text += "\n" + rows(options, 3 if options.short else 15)
     text += "\n" + motions(options)
+    if not options.short and kept(CUT_CHAPTER):
+        text += "\n" + kept(CUT_CHAPTER)
     print(text)
     if not options.short:
         blas = os.popen(f"{options.program} --version").read()

@@ -3,7 +3,8 @@
 """A block of hexahedra as a part: make_block.py NX NY NZ [--size LX LY LZ] [--joined N] [--out FILE]
 
 Trilinear elements with eight nodes, 2 x 2 x 2 points of Gauss, consistent mass, steel. The set `root` holds the
-nodes of the end x = 0, the set `tip` N nodes of the other end (all unless given), spread evenly over it.
+nodes of the end x = 0, the set `tip` N nodes of the other end (all unless given), spread evenly over it; with
+N = -1 there is no such set.
 """
 import argparse
 
@@ -75,7 +76,8 @@ def main():
             group["row"], group["column"], group["value"] = A.row, A.col, A.data
         file["positions"] = np.column_stack([numbers, positions])
         file["interfaces/root"] = numbers[positions[:, 0] == 0]
-        file["interfaces/tip"] = spread(numbers[positions[:, 0] == options.size[0]], options.joined)
+        if options.joined >= 0:
+            file["interfaces/tip"] = spread(numbers[positions[:, 0] == options.size[0]], options.joined)
     print(f"{options.out}: {K.shape[0]} dofs, {K.nnz} entries")
 
 

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "app/commands/Commands.hpp"
+#include "app/commands/CoupledModes.hpp"
 #include "app/commands/Pages.hpp"
 #include "app/commands/Scripts.hpp"
 #include "common/Error.hpp"
@@ -243,10 +244,18 @@ void addAnalyses(CLI::App& program, Options& options, std::function<void()>& com
   addDeckOptions(*modesCommand, options, Output::Wanted);
   modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
       ->check(CLI::PositiveNumber);
+  modesCommand->add_flag("--coupled",
+                         "undamped modes of the coupled model and their estimated errors only: the "
+                         "full model is not solved");
   modesCommand->add_option("--time", options.modeTime,
                            "when the laws of time (rotary speed) are looked at for damped modes "
                            "[s] (default: the end of the motion)");
-  modesCommand->callback([&] { command = [&] { tooljoint::app::modes(options); }; });
+  modesCommand->callback([&, modesCommand] {
+    const bool coupled = modesCommand->count("--coupled") > 0;
+    command = [&options, coupled] {
+      coupled ? tooljoint::app::coupledModes(options) : tooljoint::app::modes(options);
+    };
+  });
 
   auto* torqueDragCommand = program.add_subcommand(
       "torque-drag",

@@ -164,6 +164,23 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   if (!options.output.empty()) writeTable(damped, options.output, "damped_modes.csv");
 }
 
+/// Modes of the coupled model without those of the full one.
+void listCoupledModes(const ReducedCase& reduced, const ModesOptions& options) {
+  const auto& parts = reduced.unreduced.parts;
+  const auto& synthesis = reduced.outcome.synthesis;
+  const auto estimates = estimate::estimateFrequencies(parts, synthesis, {options.count, 0});
+  if (synthesis.coupled.interfaceModes >= 0)
+    log::info("The estimates do not include the error of the interface reduction.");
+  log::info(estimate::frequencyTable(estimates, parts));
+  reportTimes();
+  if (options.output.empty()) return;
+  io::Csv table({{"mode", ""}, {"coupled", "Hz"}, {"estimate", ""}, {"definite", ""}});
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    table.row({static_cast<double>(i + 1), estimates[i].frequency(), estimates[i].error,
+               estimates[i].definite ? 1.0 : 0.0});
+  table.writeInto(options.output, "modes.csv");
+}
+
 }  // namespace
 
 double timeOfLaws(const Case& one) {
@@ -175,10 +192,13 @@ void listModes(const Case& one, const ModesOptions& options) {
   const auto rest = one.atRest();
   const auto text = rest->describe();
   if (!text.empty()) log::info(text);
-  const auto full = rest->full();
   const double t = options.time.value_or(timeOfLaws(one));
   if (!one.reduces()) {
-    listFullModes(full.model, options, t);
+    if (options.coupledOnly)
+      throw UsageError(
+          "`modes --coupled` lists the modes of a reduced model, but the deck has no list "
+          "\"Reduction\". Add the list, or leave --coupled out.");
+    listFullModes(rest->full().model, options, t);
     return;
   }
   const auto reduced = reduce(one, *rest);
@@ -186,6 +206,11 @@ void listModes(const Case& one, const ModesOptions& options) {
   log::info(reduction::summaryTable(reduced.parts()));
   log::info(describeCoupling(reduced.coupled()));
   if (!reduced.outcome.rounds.empty()) log::info(estimate::roundTable(reduced.outcome.rounds));
+  if (options.coupledOnly) {
+    listCoupledModes(reduced, options);
+    return;
+  }
+  const auto full = rest->full();
   listComparedModes(full.model, full.maps, reduced.unreduced.parts, reduced.outcome.synthesis,
                     options, t);
 }

@@ -15,6 +15,7 @@ struct ModesOptions {
   std::optional<double> time;  ///< of the matrices of the damped modes [s]; none: the end of the
                                ///< motion
   std::string output;          ///< folder of modes.csv and damped_modes.csv; empty: no files
+  bool coupledOnly = false;    ///< undamped modes of the coupled model alone, with estimated errors
 };
 
 /// When the laws of time are looked at where nothing else says so: at the end of the motion [s], 0
@@ -22,8 +23,8 @@ struct ModesOptions {
 double timeOfLaws(const Case& one);
 
 /// Lists the undamped and damped modes of the full model and, where the deck reduces, those of the
-/// coupled model beside them with MAC values, true and estimated errors. DeckError, ModelError,
-/// ConvergenceError, FileError. Collective.
+/// coupled model beside them with MAC values, true and estimated errors; or those of the coupled
+/// model alone. DeckError, ModelError, ConvergenceError, FileError. Collective.
 void listModes(const Case& one, const ModesOptions& options);
 
 }  // namespace tooljoint::cases

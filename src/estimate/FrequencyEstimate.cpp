@@ -42,16 +42,13 @@ std::vector<Share> shares(const model::Substructure& part, const reduction::Basi
   const ResidualFlexibility flexibility(part, basis, K);
   const Matrix inertia = part.model.mass * shapes;
   const Matrix residual = K * shapes - inertia * eigenvalues.asDiagonal();
-  const auto interior = [&](const Matrix& rows, Eigen::Index j) {
-    Vector inner(static_cast<Eigen::Index>(flexibility.interior().size()));
-    for (Eigen::Index i = 0; i < inner.size(); ++i)
-      inner[i] = rows(flexibility.interior()[static_cast<std::size_t>(i)], j);
-    return inner;
-  };
+  const auto& interior = flexibility.interior();
+  const auto steps = flexibility.steps(Matrix(residual(interior, Eigen::all)),
+                                       Matrix(inertia(interior, Eigen::all)));
   std::vector<Share> result(static_cast<std::size_t>(shapes.cols()));
   for (Eigen::Index j = 0; j < shapes.cols(); ++j) {
     Share& share = result[static_cast<std::size_t>(j)];
-    share.step = flexibility.step(interior(residual, j), interior(inertia, j));
+    share.step = steps[static_cast<std::size_t>(j)];
     share.work = shapes.col(j).dot(residual.col(j));
     share.mass = shapes.col(j).dot(inertia.col(j));
   }

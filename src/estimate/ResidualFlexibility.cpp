@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
+#include "linalg/MumpsFactor.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::estimate {
@@ -21,44 +23,66 @@ ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
   if (truncated_ == 0) return;
   stiffness_ = reduction::block(stiffness, interior_, interior_);
   mass_ = reduction::block(part.model.mass, interior_, interior_);
-  factor_ = std::make_unique<Eigen::SparseLU<Eigen::SparseMatrix<double>>>();
-  factor_->compute(Eigen::SparseMatrix<double>(stiffness_));
-  if (factor_->info() != Eigen::Success)
-    throw ModelError("Part \"" + part.name +
-                     "\": its interior is a mechanism with its interface and retained dofs fixed, "
-                     "so the error of its reduction cannot be "
-                     "estimated. Retain more dofs there, or remove \"Error Estimate\".");
+  const std::string mechanism =
+      "Part \"" + part.name +
+      "\": its interior is a mechanism with its interface and retained dofs fixed, so the error of "
+      "its reduction cannot be estimated. Retain more dofs there, or remove \"Error Estimate\".";
+  if (linalg::suitsMumps(stiffness_)) {
+    try {
+      large_ = std::make_unique<linalg::DirectSolver>(stiffness_);
+    } catch (const ModelError& error) {
+      throw ModelError(mechanism + " " + error.what());
+    }
+  } else {
+    factor_ = std::make_unique<Eigen::SparseLU<Eigen::SparseMatrix<double>>>();
+    factor_->compute(Eigen::SparseMatrix<double>(stiffness_));
+    if (factor_->info() != Eigen::Success) throw ModelError(mechanism);
+  }
   if (columns.empty()) return;
   modes_ = reduction::block(basis.vectors, interior_, columns);
   const Matrix projected = modes_.transpose() * (stiffness_ * modes_);
   modalFactor_.compute(projected);
 }
 
+Matrix ResidualFlexibility::solve(const Matrix& r) const {
+  return large_ ? large_->solve(r) : Matrix(factor_->solve(r));
+}
+
 Matrix ResidualFlexibility::apply(const Matrix& r) const {
   if (truncated_ == 0) return Matrix::Zero(r.rows(), r.cols());
-  Matrix x = factor_->solve(r);
+  Matrix x = solve(r);
   if (modes_.cols() > 0) x.noalias() -= modes_ * modalFactor_.solve(modes_.transpose() * r);
   return x;
 }
 
 ResidualFlexibility::Step ResidualFlexibility::step(const Vector& r, const Vector& g) const {
-  Step step;
-  if (truncated_ == 0) return step;
-  Matrix V(r.size(), 2);
-  V.col(0) = apply(r);
-  const double size = V.col(0).norm();
-  if (!(size > 0)) return step;
-  V.col(0) /= size;
-  V.col(1) = apply(mass_ * V.col(0));
-  const double before = V.col(1).norm();
-  V.col(1) -= V.col(0) * V.col(0).dot(V.col(1));
-  const double after = V.col(1).norm();
-  V.col(1) *= truncated_ > 1 && after > 1e-8 * before ? 1.0 / after : 0.0;
-  step.residual = V.transpose() * r;
-  step.inertia = V.transpose() * g;
-  step.stiffness = V.transpose() * (stiffness_ * V);
-  step.mass = V.transpose() * (mass_ * V);
-  return step;
+  return steps(r, g).front();
+}
+
+std::vector<ResidualFlexibility::Step> ResidualFlexibility::steps(const Matrix& R,
+                                                                  const Matrix& G) const {
+  std::vector<Step> result(at(R.cols()));
+  if (truncated_ == 0) return result;
+  Matrix first = apply(R);
+  for (Eigen::Index j = 0; j < R.cols(); ++j)
+    if (const double size = first.col(j).norm(); size > 0) first.col(j) /= size;
+  const Matrix second = apply(mass_ * first);
+  for (Eigen::Index j = 0; j < R.cols(); ++j) {
+    if (!(first.col(j).norm() > 0)) continue;
+    Step& step = result[at(j)];
+    Matrix V(R.rows(), 2);
+    V.col(0) = first.col(j);
+    V.col(1) = second.col(j);
+    const double before = V.col(1).norm();
+    V.col(1) -= V.col(0) * V.col(0).dot(V.col(1));
+    const double after = V.col(1).norm();
+    V.col(1) *= truncated_ > 1 && after > 1e-8 * before ? 1.0 / after : 0.0;
+    step.residual = V.transpose() * R.col(j);
+    step.inertia = V.transpose() * G.col(j);
+    step.stiffness = V.transpose() * (stiffness_ * V);
+    step.mass = V.transpose() * (mass_ * V);
+  }
+  return result;
 }
 
 double ResidualFlexibility::Step::excess(double lambda, double mu) const {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "linalg/trilinos/DirectSolver.hpp"
 #include "model/Substructure.hpp"
 #include "reduction/ReductionMethod.hpp"
 
@@ -50,16 +51,21 @@ class ResidualFlexibility {
     double pole() const;
   };
   Step step(const Vector& r, const Vector& g) const;
+  /// The same for the columns of R and G, solved together.
+  std::vector<Step> steps(const Matrix& R, const Matrix& G) const;
 
  private:
+  Matrix solve(const Matrix& r) const;
+
   std::vector<int> interior_;
   int truncated_ = 0;
   Sparse mass_;
   Sparse stiffness_;
   std::unique_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> factor_;
-  Matrix modes_;                             ///< W
-  Matrix stiffModes_;                        ///< K_II' W
-  Eigen::PartialPivLU<Matrix> modalFactor_;  ///< of W' K_II W
+  std::unique_ptr<linalg::DirectSolver> large_;  ///< instead, where the factors fill
+  Matrix modes_;                                 ///< W
+  Matrix stiffModes_;                            ///< K_II' W
+  Eigen::PartialPivLU<Matrix> modalFactor_;      ///< of W' K_II W
 };
 
 }  // namespace tooljoint::estimate

@@ -16,6 +16,7 @@
 #include "common/report/StageTimes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "model/DofNames.hpp"
+#include "reduction/CollectiveMethod.hpp"
 #include "reduction/methods/WholePart.hpp"
 #include "reduction/project/BasisChecks.hpp"
 #include "reduction/project/Distribution.hpp"
@@ -227,7 +228,7 @@ class Team {
     for (std::size_t p = 0; p < parts_.size(); ++p)
       if (open(p)) owner_[p] = owners[next++];
     const int idle = parallel::size() - static_cast<int>(weights.size());
-    if (idle > 0 && !cache_.remembers)
+    if (idle > 0 && !cache_.remembers && !together())
       log::warn("There are " + std::to_string(weights.size()) + " different substructures for " +
                 std::to_string(parallel::size()) + " ranks: " + std::to_string(idle) +
                 " of them are idle during the reduction.");
@@ -264,6 +265,8 @@ class Team {
   }
 
  private:
+  /// All ranks work on each part.
+  bool together() const { return dynamic_cast<const CollectiveMethod*>(&basis_) != nullptr; }
   bool first(std::size_t p) const { return representative_[p] == static_cast<int>(p); }
   /// To be reduced now.
   bool open(std::size_t p) const { return first(p) && !cores_[p]; }
@@ -319,6 +322,10 @@ class Team {
   }
 
   void build(const std::vector<char>& wanted) {
+    if (together()) {
+      buildTogether(wanted);
+      return;
+    }
     parallel::agree([&] {
       forOwned([&](std::size_t p) {
         if (wanted[p])
@@ -327,6 +334,23 @@ class Team {
                           : basis_.build(views_[p], requests_[p]);
       });
     });
+  }
+
+  /// Part after part by all ranks, of a collective method.
+  void buildTogether(const std::vector<char>& wanted) {
+    const auto kind = options_.modes.kind;
+    if (kind == ModeRule::Kind::InterfaceMass || kind == ModeRule::Kind::InterfaceMoment)
+      throw DeckError("The basis \"" + options_.basis +
+                      "\" does not select its modes by an interface criterion. Give \"Modes\" or "
+                      "\"Cut-off Frequency\", or choose the basis \"Craig-Bampton\".");
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (owner_[p] < 0 || !wanted[p]) continue;
+      if (requests_[p].kind == ModeRequest::Kind::Whole)
+        parallel::agree([&] { bases_[p] = wholePart(views_[p]); });
+      else
+        bases_[p] = basis_.build(views_[p], requests_[p]);
+      if (owner_[p] != parallel::rank()) bases_.erase(p);
+    }
   }
 
   /// Total Modes: compute until every spectrum is long enough, then cut all at the same

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/PartialFactor.hpp"
+
+#include <algorithm>
+#include <dmumps_c.h>
+#include <mpi.h>
+#include <string>
+#include <vector>
+
+#include "common/Error.hpp"
+#include "common/Index.hpp"
+
+namespace tooljoint::linalg {
+
+namespace {
+
+/// Columns solved at a time: enough for level-3 BLAS, little memory beside the factors.
+constexpr int blockOfColumns = 64;
+/// Room beside the estimate of the analysis [%], at first and at most.
+constexpr int firstRoom = 30, mostRoom = 500;
+
+/// Jobs of MUMPS, and of its errors (Users' guide 5.5, section 8).
+constexpr int initialise = -1, finish = -2, analyse = 1, decompose = 2, substitute = 3;
+constexpr int realRoom = -8, noRoom = -9, singular = -10, noMemory = -13, notDefinite = -40;
+
+}  // namespace
+
+struct PartialFactor::Impl {
+  DMUMPS_STRUC_C id{};
+  bool open = false;
+  int inner = 0;
+  std::vector<int> rows, columns, others;  ///< counted from 1
+  std::vector<double> values;
+
+  ~Impl() { close(); }
+  int& control(int number) { return id.icntl[number - 1]; }
+  int info(int number) const { return id.infog[number - 1]; }
+  int status() const { return info(1); }
+
+  void call(int job) {
+    id.job = job;
+    dmumps_c(&id);
+  }
+
+  void close() {
+    if (open) call(finish);
+    open = false;
+  }
+
+  void start() {
+    close();
+    id = {};
+    id.par = 1;
+    id.sym = 1;
+    id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(MPI_COMM_SELF));
+    call(initialise);
+    open = true;
+    for (const int stream : {1, 2, 3}) control(stream) = -1;  // no output
+    control(4) = 0;
+    control(7) = 5;  // ordering by METIS
+    control(14) = firstRoom;
+    control(27) = blockOfColumns;
+  }
+
+  /// Entries of the lower triangle; whether the pattern is another one.
+  bool take(const Sparse& A) {
+    const std::vector<int> rowsBefore = std::move(rows), columnsBefore = std::move(columns);
+    rows.clear(), columns.clear(), values.clear();
+    forEachEntry(A, [&](int row, int column, double value) {
+      if (column > row) return;
+      rows.push_back(row + 1);
+      columns.push_back(column + 1);
+      values.push_back(value);
+    });
+    return rows != rowsBefore || columns != columnsBefore;
+  }
+
+  void release() {
+    for (auto* list : {&rows, &columns}) std::vector<int>().swap(*list);
+    std::vector<double>().swap(values);
+  }
+
+  [[noreturn]] void fail() const {
+    if (status() == noMemory)
+      throw ModelError("The factors of a matrix of " + std::to_string(id.n) + " rows need " +
+                       std::to_string(std::max(info(16), info(17))) +
+                       " MB of memory, more than there is. Cut the part into more parts.");
+    throw ModelError("MUMPS could not factor a matrix of " + std::to_string(id.n) +
+                     " rows: error " + std::to_string(status()) + " (" + std::to_string(info(2)) +
+                     ").");
+  }
+};
+
+PartialFactor::PartialFactor() : impl_(std::make_unique<Impl>()) {}
+PartialFactor::~PartialFactor() = default;
+PartialFactor::PartialFactor(PartialFactor&&) noexcept = default;
+PartialFactor& PartialFactor::operator=(PartialFactor&&) noexcept = default;
+
+bool PartialFactor::factor(const Sparse& A, int inner, Matrix& schur) {
+  Impl& m = *impl_;
+  const int rest = static_cast<int>(A.rows()) - inner;
+  const bool another = m.take(A) || m.inner != inner || !m.open;
+  if (another) m.start();
+  m.inner = inner;
+  m.id.n = static_cast<MUMPS_INT>(A.rows());
+  m.id.nnz = static_cast<MUMPS_INT8>(m.rows.size());
+  m.id.irn = m.rows.data();
+  m.id.jcn = m.columns.data();
+  m.id.a = m.values.data();
+  schur.setZero(rest, rest);
+  if (rest > 0) {
+    m.others = range(rest, inner + 1);
+    m.control(19) = 1;  // the Schur complement of `others`, its lower triangle by rows
+    m.id.size_schur = rest;
+    m.id.listvar_schur = m.others.data();
+    m.id.schur = schur.data();
+  }
+  if (another) {
+    m.call(analyse);
+    if (m.status() < 0) m.fail();
+  }
+  m.call(decompose);
+  while ((m.status() == noRoom || m.status() == realRoom) && m.control(14) < mostRoom) {
+    m.control(14) *= 2;
+    m.call(decompose);
+  }
+  if (m.status() == singular || m.status() == notDefinite) return false;
+  if (m.status() < 0) m.fail();
+  if (m.info(12) > 0) return false;  // negative pivots
+  // by rows, hence the upper triangle of a matrix by columns
+  schur.triangularView<Eigen::StrictlyLower>() = schur.transpose();
+  return true;
+}
+
+Matrix PartialFactor::solve(const Matrix& b) const {
+  Impl& m = *impl_;
+  Matrix x = Matrix::Zero(m.id.n, b.cols());
+  x.topRows(m.inner) = b;
+  if (b.cols() == 0) return b;
+  m.id.rhs = x.data();
+  m.id.nrhs = static_cast<MUMPS_INT>(x.cols());
+  m.id.lrhs = static_cast<MUMPS_INT>(x.rows());
+  m.control(26) = 0;  // of the inner rows
+  m.call(substitute);
+  if (m.status() < 0) m.fail();
+  return x.topRows(m.inner);
+}
+
+long PartialFactor::entries() const {
+  // INFOG(29): entries of the factors, in millions with a minus where they are many
+  const long entries = impl_->info(29);
+  return entries < 0 ? -1000000L * entries : entries;
+}
+
+}  // namespace tooljoint::linalg

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/multilevel/TreeFactor.hpp"
+
+#include <utility>
+
+#include "common/Message.hpp"
+#include "common/Parallel.hpp"
+#include "common/report/StageTimes.hpp"
+#include "reduction/multilevel/RankRows.hpp"
+#include "reduction/part/Partition.hpp"
+
+namespace tooljoint::reduction {
+
+/// What a subtree adds to the equations of its boundary: to K + shift M, and its derivative.
+struct TreeFactor::Update {
+  Matrix stiffness, mass;
+};
+
+namespace {
+
+/// A(dofs, [dofs boundary]) + factor B(..) with empty rows for the boundary: of a leaf, the rows
+/// and, mirrored, the columns of its dofs; what the boundary has of its own is left to the
+/// ancestors.
+Sparse bordered(const Sparse& jj, const Sparse& jb) {
+  const auto inner = static_cast<int>(jj.rows()), rest = static_cast<int>(jb.cols());
+  Triplets entries;
+  entries.reserve(at(jj.nonZeros() + jb.nonZeros()));
+  forEachEntry(jj, [&](int i, int k, double value) {
+    if (k <= i) entries.emplace_back(i, k, value);
+  });
+  forEachEntry(jb, [&](int i, int k, double value) { entries.emplace_back(inner + k, i, value); });
+  for (int k = 0; k < rest; ++k) entries.emplace_back(inner + k, inner + k, 0.0);
+  return sparse(inner + rest, inner + rest, entries);
+}
+
+/// K + shift M with the pattern of both.
+Sparse shifted(const Sparse& K, const Sparse& M, double shift) { return K + shift * M; }
+
+Matrix rowsOf(const Matrix& X, const std::vector<int>& rows) { return X(rows, Eigen::all); }
+
+}  // namespace
+
+TreeFactor::TreeFactor(std::shared_ptr<const SubstructureTree> tree, const Sparse& K,
+                       const Sparse& M, double shift, double step)
+    : tree_(std::move(tree)), shift_(shift), pieces_(tree_->pieces.size()) {
+  const Stage stage("elimination of substructures");
+  const int count = sizeOf(pieces_);
+  std::vector<Update> updates(pieces_.size());
+  bool good = true;
+  parallel::agree([&] {
+    for (int i = 0; i < count && good; ++i)
+      if (tree_->pieces[at(i)].owner == parallel::rank()) good = eliminate(i, K, M, step, updates);
+  });
+  definite_ = parallel::maximum(good ? 0.0 : 1.0) == 0.0;
+  if (!definite_) return;
+  for (int i = 0; i < count; ++i) {  // subtrees to the pieces above them
+    const auto& piece = tree_->pieces[at(i)];
+    if (piece.owner == SubstructureTree::everyRank || piece.parent < 0 ||
+        tree_->pieces[at(piece.parent)].owner != SubstructureTree::everyRank)
+      continue;
+    parallel::broadcast(updates[at(i)].stiffness, piece.owner);
+    parallel::broadcast(updates[at(i)].mass, piece.owner);
+  }
+  parallel::agree([&] {
+    for (int i = 0; i < count && good; ++i)
+      if (tree_->pieces[at(i)].owner == SubstructureTree::everyRank)
+        good = eliminate(i, K, M, step, updates);
+  });
+  definite_ = parallel::maximum(good ? 0.0 : 1.0) == 0.0;
+}
+
+bool TreeFactor::eliminate(int number, const Sparse& K, const Sparse& M, double step,
+                           std::vector<Update>& updates) {
+  const auto& piece = tree_->pieces[at(number)];
+  EliminatedPiece& done = pieces_[at(number)];
+  done.mass = block(M, piece.dofs, piece.dofs);
+  done.massCoupling = block(M, piece.dofs, piece.boundary);
+  return piece.leaf ? eliminateLeaf(number, K, M, step, updates[at(number)])
+                    : eliminateSeparator(number, K, M, step, updates);
+}
+
+bool TreeFactor::eliminateLeaf(int number, const Sparse& K, const Sparse& M, double step,
+                               Update& update) {
+  static_cast<void>(M);
+  const auto& piece = tree_->pieces[at(number)];
+  EliminatedPiece& done = pieces_[at(number)];
+  const Sparse jj = block(K, piece.dofs, piece.dofs), jb = block(K, piece.dofs, piece.boundary);
+  const auto at_ = [&](double shift) {
+    return bordered(shifted(jj, done.mass, shift), shifted(jb, done.massCoupling, shift));
+  };
+  const int inner = sizeOf(piece.dofs);
+  if (!piece.boundary.empty() &&
+      !done.sparse.factor(at_(shift_ + step), inner, update.mass))  // S(tau + step)
+    return false;
+  if (!done.sparse.factor(at_(shift_), inner, update.stiffness)) return false;
+  if (update.mass.size() > 0) update.mass = (update.mass - update.stiffness) / step;
+  done.coupling = shifted(jb, done.massCoupling, shift_);
+  done.stiffness = shifted(jj, done.mass, shift_);
+  return true;
+}
+
+bool TreeFactor::eliminateSeparator(int number, const Sparse& K, const Sparse& M, double step,
+                                    std::vector<Update>& updates) {
+  const auto& piece = tree_->pieces[at(number)];
+  EliminatedPiece& done = pieces_[at(number)];
+  const Eigen::Index own = sizeOf(piece.dofs), rest = sizeOf(piece.boundary), size = own + rest;
+  std::vector<int> position(at(tree_->dofs()), -1);
+  for (Eigen::Index i = 0; i < own; ++i) position[at(piece.dofs[at(i)])] = static_cast<int>(i);
+  for (Eigen::Index i = 0; i < rest; ++i)
+    position[at(piece.boundary[at(i)])] = static_cast<int>(own + i);
+
+  // The front [F_jj F_jb; F_bj F_bb]: of K + shift M, and its derivative.
+  Matrix stiffness = Matrix::Zero(size, size), mass = Matrix::Zero(size, size);
+  const auto assemble = [&](const Sparse& A, double factor, Matrix& front) {
+    for (Eigen::Index i = 0; i < own; ++i)
+      forEachInRow(A, piece.dofs[at(i)], [&](int column, double value) {
+        const int j = position[at(column)];
+        if (j < 0) return;
+        front(i, j) += factor * value;
+        if (j >= own) front(j, i) += factor * value;
+      });
+  };
+  assemble(K, 1.0, stiffness);
+  assemble(M, shift_, stiffness);
+  assemble(M, 1.0, mass);
+  for (int child : piece.children) {
+    Update& update = updates[at(child)];
+    std::vector<int> to;
+    for (int dof : tree_->pieces[at(child)].boundary) to.push_back(position[at(dof)]);
+    for (int j = 0; j < sizeOf(to); ++j)
+      for (int i = 0; i < sizeOf(to); ++i) {
+        stiffness(to[at(i)], to[at(j)]) += update.stiffness(i, j);
+        mass(to[at(i)], to[at(j)]) += update.mass(i, j);
+      }
+    update = {};
+  }
+  done.condensedMass = mass.topLeftCorner(own, own);
+  const auto condense = [&](const Matrix& front, linalg::DenseCholesky& factor, Matrix& half,
+                            Matrix& schur) {
+    if (!factor.factor(front.topLeftCorner(own, own))) return false;
+    half = front.topRightCorner(own, rest);
+    factor.solveLower(half);  // L^-1 F_jb
+    schur = front.bottomRightCorner(rest, rest);
+    linalg::subtractSquare(half, schur);
+    return true;
+  };
+  Update& update = updates[at(number)];
+  mass = stiffness + step * mass;
+  {
+    linalg::DenseCholesky other;
+    Matrix half;
+    if (rest > 0 && !condense(mass, other, half, update.mass)) return false;
+  }
+  mass.resize(0, 0);
+  if (!condense(stiffness, done.dense, done.static_, update.stiffness)) return false;
+  if (rest > 0) update.mass = (update.mass - update.stiffness) / step;
+  done.dense.solveUpper(done.static_);
+  return true;
+}
+
+Matrix TreeFactor::solvePiece(int number, const Matrix& B) const {
+  const EliminatedPiece& done = piece(number);
+  return tree_->pieces[at(number)].leaf ? done.sparse.solve(B) : done.dense.solve(B);
+}
+
+Matrix TreeFactor::staticShape(int number, const Matrix& boundary) const {
+  const EliminatedPiece& done = piece(number);
+  if (tree_->pieces[at(number)].leaf) return done.sparse.solve(-Matrix(done.coupling * boundary));
+  Matrix shape = Matrix::Zero(done.static_.rows(), boundary.cols());
+  linalg::addProduct(-1.0, done.static_, boundary, shape);
+  return shape;
+}
+
+/// b_b -= K_bj K_jj^-1 b_j
+void TreeFactor::forward(int number, Matrix& X) const {
+  const auto& piece = tree_->pieces[at(number)];
+  if (piece.boundary.empty() || piece.dofs.empty()) return;
+  const EliminatedPiece& done = pieces_[at(number)];
+  const Matrix own = rowsOf(X, piece.dofs);
+  const Matrix change = piece.leaf ? Matrix(done.coupling.transpose() * done.sparse.solve(own))
+                                   : linalg::transposedTimes(done.static_, own);
+  for (int i = 0; i < sizeOf(piece.boundary); ++i) X.row(piece.boundary[at(i)]) -= change.row(i);
+}
+
+/// x_j = K_jj^-1 (b_j - K_jb x_b)
+void TreeFactor::backward(int number, Matrix& X) const {
+  const auto& piece = tree_->pieces[at(number)];
+  if (piece.dofs.empty()) return;
+  const EliminatedPiece& done = pieces_[at(number)];
+  const Matrix outer = rowsOf(X, piece.boundary);
+  Matrix own = rowsOf(X, piece.dofs);
+  if (piece.leaf) {
+    if (outer.rows() > 0) own -= done.coupling * outer;
+    own = done.sparse.solve(own);
+  } else {
+    own = done.dense.solve(own);
+    linalg::addProduct(-1.0, done.static_, outer, own);
+  }
+  X(piece.dofs, Eigen::all) = own;
+}
+
+Matrix TreeFactor::solve(const Matrix& B) const {
+  const Stage stage("solution by substructures");
+  const int count = sizeOf(pieces_);
+  std::vector<int> above;  // dofs of the pieces of every rank
+  for (const auto& piece : tree_->pieces)
+    if (piece.owner == SubstructureTree::everyRank)
+      above.insert(above.end(), piece.dofs.begin(), piece.dofs.end());
+  Matrix X = B;
+  parallel::agree([&] {
+    for (int i = 0; i < count; ++i)
+      if (tree_->pieces[at(i)].owner == parallel::rank()) forward(i, X);
+  });
+  if (parallel::size() > 1 && !above.empty())
+    X(above, Eigen::all) = rowsOf(B, above) + sumOverRanks(rowsOf(X, above) - rowsOf(B, above));
+  parallel::agree([&] {
+    for (int i = 0; i < count; ++i)
+      if (tree_->pieces[at(i)].owner == SubstructureTree::everyRank) forward(i, X);
+    for (int i = count - 1; i >= 0; --i)
+      if (tree_->mine(i)) backward(i, X);
+  });
+  gather(X);
+  return X;
+}
+
+double TreeFactor::entries() const {
+  double sum = 0.0;
+  for (int i = 0; i < sizeOf(pieces_); ++i) {
+    const auto& piece = tree_->pieces[at(i)];
+    const bool counted = piece.owner == parallel::rank() ||
+                         (piece.owner == SubstructureTree::everyRank && parallel::rank() == 0);
+    if (!counted) continue;
+    const double n = sizeOf(piece.dofs);
+    sum += piece.leaf ? static_cast<double>(pieces_[at(i)].sparse.entries())
+                      : n * (0.5 * n + sizeOf(piece.boundary));
+  }
+  return parallel::sum(sum);
+}
+
+void TreeFactor::gather(Matrix& X) const {
+  if (parallel::size() == 1) return;
+  for (int rank = 0; rank < parallel::size(); ++rank) {
+    std::vector<int> rows;
+    for (const auto& piece : tree_->pieces)
+      if (piece.owner == rank) rows.insert(rows.end(), piece.dofs.begin(), piece.dofs.end());
+    if (rows.empty()) continue;
+    Matrix own;
+    if (rank == parallel::rank()) own = rowsOf(X, rows);
+    parallel::broadcast(own, rank);
+    X(rows, Eigen::all) = own;
+  }
+}
+
+}  // namespace tooljoint::reduction
