@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <scotch.h>
 #include <string>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"

@@ -5,6 +5,7 @@
 #include <dmumps_c.h>
 #include <mpi.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/Error.hpp"

@@ -7,12 +7,14 @@
 #include <LOCA_MultiContinuation_AbstractGroup.H>
 #include <LOCA_Parameter_Vector.H>
 #include <NOX_LAPACK_Vector.H>
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/Error.hpp"

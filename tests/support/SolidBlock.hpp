@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "common/Index.hpp"
 #include "tests/support/SampleParts.hpp"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/report/StageTimes.hpp"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "common/Index.hpp"
 #include "model/laws/Friction.hpp"

@@ -2,6 +2,7 @@
 #include "substructures/drillstring/scene/BucklingParameters.hpp"
 
 #include <Teuchos_ParameterList.hpp>
+#include <string>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

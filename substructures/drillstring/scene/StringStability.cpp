@@ -2,6 +2,7 @@
 #include "substructures/drillstring/scene/StringStability.hpp"
 
 #include <fmt/format.h>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
