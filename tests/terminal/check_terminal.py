@@ -90,7 +90,7 @@ def last_screen():
 
 def terminals():
     """A bar with rate and remaining time, and colours where they are wanted."""
-    words = run("shown", "--set", "Transient/Progress=true", "--set", "Transient/End Time=3", "--set", "Output/Report=false")
+    words = run("shown", "--set", "Transient/Progress=true", "--set", "Transient/End Time=60", "--set", "Output/Report=false")
     code, text = on_terminal(*words)
     expect("on a terminal: the run succeeds", code == 0, text[-400:])
     expect("with a bar that is drawn over itself", "\r\x1b[Ktransient [" in text and "100 %" in text, text[-800:])

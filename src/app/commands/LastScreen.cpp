@@ -17,6 +17,7 @@
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
 #include "common/report/Terminal.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/ResultsReader.hpp"
 #include "io/TextFile.hpp"
 
@@ -27,7 +28,6 @@ namespace {
 using Json = nlohmann::json;
 using terminal::Colour;
 
-constexpr double kilo = 1e3;
 constexpr std::size_t column = 20;  ///< width of the names and of the values
 
 /// A number with so many decimals.
@@ -42,6 +42,12 @@ std::string brief(double value, int digits) {
   std::ostringstream out;
   out << std::setprecision(digits) << value;
   return out.str();
+}
+
+/// An SI value in the unit it is printed in, `usual` or that of the field.
+std::string quantity(double si, const char* usual, int decimals) {
+  const deck::PrintedUnit unit(usual);
+  return fixed(unit(si), decimals) + " " + unit.name();
 }
 
 std::string padded(const std::string& text) {
@@ -107,17 +113,17 @@ void line(const std::string& name, const std::string& value, const std::string& 
 
 /// Hook load, surface torque and the largest side force of a string at rest.
 void ofString(const Json& summary, const std::string& folder) {
-  line("hook load", fixed(*number(summary, "/static/top_axial_force") / kilo, 1) + " kN",
+  line("hook load", quantity(*number(summary, "/static/top_axial_force"), "kN", 1),
        "effective tension at the surface");
   if (const auto torque = number(summary, "/static/top_torque"))
-    line("surface torque", fixed(-*torque / kilo, 2) + " kN m", "at rest, against the rotation");
+    line("surface torque", quantity(-*torque, "kN m", 2), "at rest, against the rotation");
   const auto force = number(summary, "/static/max_normal_force");
   const auto node = number(summary, "/static/max_normal_force_node");
   if (!force || !node || *node < 1.0) return;  // nothing touches
   const io::ResultsReader results(folder + "/results.h5");
   const auto depth = results.rows("/model/s", static_cast<std::size_t>(*node) - 1, 1).front();
-  line("largest side force", fixed(*force / kilo, 2) + " kN",
-       "at a measured depth of " + fixed(depth, 1) + " m");
+  line("largest side force", quantity(*force, "kN", 2),
+       "at a measured depth of " + quantity(depth, "m", 1));
 }
 
 void ofMotion(const Json& summary) {

@@ -40,6 +40,8 @@ constexpr double kilo = 1e3;
 constexpr double smallUpdate = 1e-8;
 /// Steps over bifurcations, as a part of the largest step.
 constexpr double bifurcationShare = 1.0 / 64.0;
+/// Steps in which a string may become crooked, before the weight grows.
+constexpr int stepsOfBending = 1000;
 
 /// The scene without what moves, and without the weight on bit.
 Scene atRest(const Scene& scene) {
@@ -112,6 +114,7 @@ class Model {
     growing.direction = lateral;
     growing.contained = growing.scale = 1.0;
     options.from = 0.0, options.to = 1.0;
+    options.maxSteps = stepsOfBending;  // those of the deck are of the weight on bit
     const equilibrium::LoadPath bending(input, growing);
     options.tolerance *= std::max(1.0, scaleOfPath() / bending.problem().largestLoad());
     const auto report =
