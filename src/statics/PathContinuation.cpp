@@ -199,7 +199,8 @@ void conclude(const PathOptions& options, bool began, bool stopped, const std::s
     report.explanation = "The path turned and came back to its beginning" + at + ".";
   } else if (thrown.empty() && report.steps + report.failedSteps >= options.maxSteps) {
     report.end = PathEnd::Steps;
-    report.explanation = "The path ended" + at + " (" + std::to_string(report.failedSteps) +
+    report.explanation = "The path ended" + at + " after " + std::to_string(report.steps) +
+                         " steps (" + std::to_string(report.failedSteps) +
                          " more were tried again in half): no more were allowed.";
   } else {
     report.end = PathEnd::Failed;

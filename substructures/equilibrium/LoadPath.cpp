@@ -47,7 +47,11 @@ std::optional<int> LoadPath::negativePivots(const Vector& x, double) const {
   const Sparse K = symmetricTangent(x);
   Sparse identity(K.rows(), K.cols());
   identity.setIdentity();
-  return linalg::eigenvaluesBelow(K, identity, 0.0);
+  try {
+    return linalg::eigenvaluesBelow(K, identity, 0.0);
+  } catch (const ConvergenceError&) {
+    return {};  // almost singular, as at the bifurcations and turning points of a path
+  }
 }
 
 }  // namespace tooljoint::equilibrium

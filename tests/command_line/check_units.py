@@ -89,6 +89,7 @@ def of_strings():
     both("run", SCENE, "--set", "Transient/End Time=0.1", at_least=20, files=["motion.csv", "static_nodes.csv", "static_elements.csv", "figures_nodes.csv"])
     expect("run: the numbers of summary.json stay SI", figures("usual") == figures("field"))
     both("run", str(SOURCES / "tests/effects/log.xml"), at_least=4, files=["measured.csv", "measured_peaks.csv"], begin="measured    ", end="results ")
+    both("buckling", str(SOURCES / "tests/effects/buckling.xml"), at_least=4, files=["buckling.csv", "buckling_profile.csv"], begin="crookedness ", end="contact force")
     both("modes", SCENE, "--set", "Reduction/Mode Selection/Modes=2", "--count", "3", at_least=10)
     # the heading of the table, and numbers that a file has in SI
     out = both("torque-drag", str(SOURCES / "xml/build_hold_1400m.xml"), "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Stiff String=None", at_least=10,
@@ -130,7 +131,7 @@ def of_the_option():
         done = tooljoint("check", SCENE, "--units", word)
         sentence = f'--units "{word}" is no system of units.' + (f' Did you mean "{meant}"?' if meant else "") + ' Available: "si", "field".'
         expect(f"--units {word}: exit code 1 and the sentence", done.returncode == 1 and sentence in done.stderr and done.stdout == "", f"({done.returncode}) {done.stderr}")
-    for command in ("run", "check", "modes", "torque-drag", "bha", "campbell", "response", "study", "map", "export"):
+    for command in ("run", "check", "modes", "torque-drag", "bha", "buckling", "campbell", "response", "study", "map", "export"):
         expect(f"{command} has the option", "--units {si,field}" in tooljoint(command, "--help").stdout)
     listed = tooljoint("doc", "units").stdout
     for name, factor in FIELD.values():

@@ -41,9 +41,12 @@ LogRecorder::LogRecorder(const MeasuredLog& log, const RestingCase& rest,
     Source source;
     if (quantity.ofNode()) {
       const auto row = findRow(rest, model, column.dof);
-      const auto node =
-          std::find(model.recoveryNodes.begin(), model.recoveryNodes.end(), row.number) -
-          model.recoveryNodes.begin();
+      const auto found =
+          std::find(model.recoveryNodes.begin(), model.recoveryNodes.end(), row.number);
+      if (found == model.recoveryNodes.end())
+        throw DeckError(column.dof.where +
+                        " names a node whose motion the model does not recover.");
+      const auto node = found - model.recoveryNodes.begin();
       source.row = node * static_cast<Eigen::Index>(model.componentNames.size()) + row.component;
       source.rates = quantity.rates;
     } else if ((source.value = valueOf(record, quantity.source)) == nullptr) {

@@ -115,8 +115,9 @@ class Multilevel : public CollectiveMethod {
     const Sparse &K = part.symmetricInteriorStiffness(), &M = part.interiorMass();
     const TreeModes modes = treeModes(K, M, factor, request, options_);
     if (modes.values.size() == 0) {
-      vectors.method = "no dof of the interior has mass";
-      vectors.complete = true;
+      vectors.method =
+          modes.complete ? "no dof of the interior has mass" : "no mode below the cut-off";
+      vectors.complete = modes.complete;
       return vectors;
     }
     linalg::EigenPairs pairs;

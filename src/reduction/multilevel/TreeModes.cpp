@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/Error.hpp"
+#include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
 #include "reduction/multilevel/RankRows.hpp"
@@ -180,7 +181,7 @@ std::shared_ptr<const TreeFactor> eliminate(std::shared_ptr<const SubstructureTr
     const double step = std::max(shiftStep * scale, 0.01 * shift);
     auto factor = std::make_shared<const TreeFactor>(tree, K, M, shift, step);
     if (factor->definite()) return factor;
-    log::info("The part is not definite with a shift of " + std::to_string(-shift) +
+    log::info("The part is not definite with a shift of " + formatNumber(-shift) +
               " 1/s^2: a larger one follows.");
   }
   throw ModelError(
@@ -211,7 +212,7 @@ TreeModes treeModes(const Sparse& K, const Sparse& M, const TreeFactor& factor,
   modes.complete = subspace.complete() && found.complete;
   modes.coordinates = subspace.size();
   modes.cutOff = std::sqrt(cut);
-  if (found.values.size() == 0) {  // no dof has mass
+  if (found.values.size() == 0) {  // no dof has mass, or none of the pieces a mode so low
     modes.vectors.resize(n, 0);
     return modes;
   }

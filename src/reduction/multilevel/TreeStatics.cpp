@@ -35,7 +35,10 @@ double solve(const Sparse& K, const TreeFactor& factor, const Matrix& B, Matrix&
     const Vector energy = dots(X, B).cwiseAbs();
     error = 0.0;
     for (Eigen::Index j = 0; j < rho.size(); ++j)
-      if (energy[j] > 0.0) error = std::max(error, std::sqrt(std::abs(rho[j]) / energy[j]));
+      if (energy[j] != 0.0) {
+        const double each = std::sqrt(std::abs(rho[j]) / energy[j]);
+        if (!(each <= error)) error = each;  // also one that is no number
+      }
     if (error < best) best = error, found = X;
     if (error <= enough || (best <= accepted && error > 10.0 * best)) break;
     const Matrix KP = K * P;

@@ -14,6 +14,7 @@
 #include "common/Text.hpp"
 #include "common/report/StageTimes.hpp"
 #include "deck/Defaults.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/buckling/BucklingState.hpp"
@@ -35,7 +36,6 @@ constexpr int mostJumps = 100;
 /// A jump takes place under a weight that is larger by this part of the last weight: where the
 /// states turn there is none just before. Where no state is found, the next one is tried.
 constexpr double beyondLimit[] = {1e-4, 1e-3, 1e-2};
-constexpr double kilo = 1e3;
 /// Relative size of the last Newton step of a state after a jump.
 constexpr double smallUpdate = 1e-8;
 /// Steps over bifurcations, as a part of the largest step.
@@ -308,9 +308,8 @@ class Branches {
       }
     }
     fail((report.end == statics::PathEnd::Stopped
-              ? fmt::format("The state becomes unstable under {:.2f} kN, and no other was found up "
-                            "to {:.2f} kN.",
-                            most / kilo, options_.from / kilo)
+              ? fmt::format("The state becomes unstable under {}, and no other was found up to {}.",
+                            deck::printed(most, "kN", 6), deck::printed(options_.from, "kN", 6))
               : report.explanation) +
          why);
     return false;

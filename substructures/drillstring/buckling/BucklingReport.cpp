@@ -8,13 +8,18 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/report/Log.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/buckling/BucklingPath.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
 
-constexpr double kilo = 1e3;
+/// "102.96 kN": an SI value with so many decimals, in the unit it is printed in.
+std::string quantity(double si, const char* usual, int decimals) {
+  const deck::PrintedUnit unit(usual);
+  return fmt::format("{:.{}f} {}", unit(si), decimals, unit.name());
+}
 /// Rows of the table on the screen.
 constexpr int printedRows = 20;
 
@@ -79,12 +84,12 @@ class Report {
 
   void print() const {
     const auto& theory = path_.theory;
-    log::info(fmt::format("crookedness {:.3g} mm, a turn in {:.3g} m", kilo * path_.crookedness,
-                          path_.pitch));
+    log::info(fmt::format("crookedness {}, a turn in {}", deck::printed(path_.crookedness, "mm", 3),
+                          deck::printed(path_.pitch, "m", 3)));
     log::info(fmt::format("limit       the straight string has a negative pivot {}",
                           path_.limit
-                              ? fmt::format("from {:.2f} kN on the bit on", *path_.limit / kilo)
-                              : fmt::format("nowhere up to {:.2f} kN on the bit", last() / kilo)));
+                              ? "from " + quantity(*path_.limit, "kN", 2) + " on the bit on"
+                              : "nowhere up to " + quantity(last(), "kN", 2) + " on the bit"));
     log::info(fmt::format(
         "formulas    sinusoidal {}, helical {}, sinusoidal no longer {}{}",
         inKilo(theory.sinusoidal), inKilo(theory.helical), inKilo(theory.spontaneous),
@@ -142,7 +147,7 @@ class Report {
   double last() const { return path_.states.empty() ? 0.0 : path_.states.back().weight; }
 
   static std::string inKilo(double force) {
-    return std::isfinite(force) && force > 0.0 ? fmt::format("{:.2f} kN", force / kilo) : "none";
+    return std::isfinite(force) && force > 0.0 ? quantity(force, "kN", 2) : "none";
   }
 
   const BucklingState* firstUnstable() const {
@@ -183,8 +188,10 @@ class Report {
     log::info(fmt::format("{:>8} {:>10} {:>9} {:>6} {:>8} {:>7} {:>6} {:>15} {:>17}", "WOB", "bit",
                           "deflected", "walls", "largest", "pivots", "waves", "contact, helix",
                           "strain, helix"));
-    log::info(fmt::format("{:>8} {:>10} {:>9} {:>6} {:>8} {:>7} {:>6} {:>15} {:>17}", "kN", "mm",
-                          "mm", "nodes", "kN", "", "", "N/m", "1e-6"));
+    const deck::PrintedUnit force("kN"), length("mm"), perLength("N/m");
+    log::info(fmt::format("{:>8} {:>10} {:>9} {:>6} {:>8} {:>7} {:>6} {:>15} {:>17}", force.name(),
+                          length.name(), length.name(), "nodes", force.name(), "", "",
+                          perLength.name(), "1e-6"));
     const int count = static_cast<int>(path_.states.size());
     const int stride = std::max(1, count / printedRows);
     for (int i = 0; i < count; ++i) {
@@ -195,9 +202,9 @@ class Report {
       log::info(fmt::format(
           "{:>8.2f} {:>10.3f} {:>9.2f} {:>6} {:>8.3f} {:>7} {:>6} {:>7.1f} {:>7.1f} {:>8.2f} "
           "{:>8.2f}",
-          state.weight / kilo, kilo * state.bitAdvance, kilo * state.lateral, state.contacts,
-          state.largestContact / kilo, state.negativePivots, state.halfWaves,
-          state.middle.contactForce, state.middle.helicalContactForce,
+          force(state.weight), length(state.bitAdvance), length(state.lateral), state.contacts,
+          force(state.largestContact), state.negativePivots, state.halfWaves,
+          perLength(state.middle.contactForce), perLength(state.middle.helicalContactForce),
           1e6 * state.middle.shortening, 1e6 * state.middle.helicalShortening));
     }
   }
@@ -208,9 +215,9 @@ class Report {
     const auto* first = firstUnstable();
     if (first != nullptr && settings_.atLimit == LimitRule::Follow)
       log::warn(
-          fmt::format("From {:.2f} kN on the bit on there are unstable states on the path, which a "
+          fmt::format("From {} on the bit on there are unstable states on the path, which a "
                       "string leaves. \"At A Limit\" \"Jump\" finds where to.",
-                      first->weight / kilo));
+                      quantity(first->weight, "kN", 2)));
   }
 
   io::Csv table() const {
@@ -276,9 +283,8 @@ void reportBuckling(const DrillstringCase& one, const std::string& folder) {
       });
   if (path.report.end != statics::PathEnd::Reached)
     throw ConvergenceError(
-        fmt::format("The states of the string could be followed up to {:.2f} kN on "
-                    "the bit only. ",
-                    path.report.parameter / kilo) +
+        fmt::format("The states of the string could be followed up to {} on the bit only. ",
+                    quantity(path.report.parameter, "kN", 2)) +
         path.report.explanation +
         " The tables have the states before. Give a smaller Largest Step, a "
         "larger Crookedness, more Max Steps or a smaller Last Weight On Bit in "

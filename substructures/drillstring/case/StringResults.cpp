@@ -261,10 +261,10 @@ std::string describeBuckling(const Scene& scene) {
   const auto settings = readBuckling(scene.list().sublist("Buckling"));
   const double last = settings.lastWeight.value_or(scene.weightOnBit());
   return fmt::sprintf(
-      "\nbuckling    `tooljoint buckling` lets the weight on bit grow to %.4g kN: crookedness %.3g "
+      "\nbuckling    `tooljoint buckling` lets the weight on bit grow to %s: crookedness %.3g "
       "of "
       "the clearance, %s",
-      last / 1e3, settings.crookedness,
+      deck::printed(last, "kN", 4), settings.crookedness,
       settings.atLimit == LimitRule::Jump ? "jumps where states become unstable"
                                           : "through unstable states too");
 }

@@ -194,7 +194,8 @@ TEST(MumpsFactor, servesTheModesOfTheSameMatrix) {
     options.stiffness = &factors;
     const EigenPairs shared = lowestModes(K, one, 6, options);
     EXPECT_LT((shared.values - alone.values).cwiseAbs().maxCoeff(), 1e-10);
-    EXPECT_EQ(shared.method.find("shift 0.0e+00,") != std::string::npos, shift == 0.0) << shared.method;
+    EXPECT_EQ(shared.method.find("shift 0.0e+00,") != std::string::npos, shift == 0.0)
+        << shared.method;
   }
 }
 
