@@ -27,7 +27,7 @@ void FrictionWork::allocate(const CompiledModel& model) {
     }
     sets_.push_back(std::move(set));
   }
-  for (auto* points : {&looked_, &steady_, &impacts_}) {
+  for (auto* points : {&looked_, &steady_, &impacts_, &left_}) {
     points->clear();
     points->reserve(most);
   }
@@ -61,7 +61,8 @@ void FrictionWork::step(CompiledModel& model, const State& to) {
     }
 }
 
-/// Of the friction in the step that ends at `to`; its drive is added.
+/// Of the friction in the step that ends at `to`; its drive is added. What acts there is what the
+/// law was last evaluated to, but for impacts, whose force is scaled.
 double FrictionWork::work(PointBatch& batch, Set& set, const State& to) {
   const int w = batch.width();
   steady_.clear();
@@ -76,10 +77,13 @@ double FrictionWork::work(PointBatch& batch, Set& set, const State& to) {
                  std::back_inserter(looked_));
   batch.gatherPositions(looked_, to.q.data());
   batch.gather(looked_, to.v.data(), batch.velocity());
-  batch.law().evaluate(to.t, looked_, batch.d(), batch.v(), with_.data());
+  batch.law().evaluate(to.t, impacts_, batch.d(), batch.v(), with_.data());
   set.smooth->evaluate(to.t, looked_, batch.d(), batch.v(), without_.data());
   batch.gather(looked_, dq_.data(), step_.data());
-  batch.gather(set.points, dq_.data(), step_.data());
+  left_.clear();
+  std::set_difference(set.points.begin(), set.points.end(), looked_.begin(), looked_.end(),
+                      std::back_inserter(left_));
+  batch.gather(left_, dq_.data(), step_.data());
   double done = 0;
   for (const int p : set.points)
     for (int i = p * w; i < (p + 1) * w; ++i) {
@@ -88,7 +92,7 @@ double FrictionWork::work(PointBatch& batch, Set& set, const State& to) {
     }
   for (const int p : steady_)
     for (int i = p * w; i < (p + 1) * w; ++i) {
-      set.force[at(i)] = with_[at(i)] - without_[at(i)];
+      set.force[at(i)] = batch.force()[i] - without_[at(i)];
       done += 0.5 * set.force[at(i)] * step_[at(i)];
     }
   for (const int p : impacts_)

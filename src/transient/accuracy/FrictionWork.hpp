@@ -47,7 +47,7 @@ class FrictionWork {
   double work(PointBatch& batch, Set& set, const State& to);
 
   std::vector<Set> sets_;
-  std::vector<int> looked_, steady_, impacts_;
+  std::vector<int> looked_, steady_, impacts_, left_;
   std::vector<double> with_, without_, step_;
   Vector q_, dq_;
   double time_ = 0, friction_ = 0, drive_ = 0;
