@@ -33,7 +33,10 @@ class PointRecord {
   const model::PointSet* set_;
   Eigen::Index firstState_ = 0;  ///< of the set among the states of the model
   std::vector<model::Channel> channels_;
-  linalg::GroupedRows rows_;
+  std::vector<Eigen::Index> recovered_;  ///< rows of the recovery that are the rows of the set;
+                                         ///< empty where some are not among them
+  Vector shift_;                         ///< d less these
+  linalg::GroupedRows rows_;             ///< of the set, where they are needed
   Vector d_, v_, values_;
 };
 

@@ -4,14 +4,18 @@
 namespace tooljoint::transient {
 
 Sampler::Sampler(const CompiledModel& model, const TransientOptions& options, SampleSink& sink,
-                 long done)
+                 long done, const RankShare* share)
     : model_(model),
+      share_(share),
       begin_(options.start),
       end_(options.end),
       interval_(options.sampling),
       sink_(sink),
       count_(done) {
+  if (share != nullptr) gathering_ = dynamic_cast<ShareSink*>(&sink);
+  if (gathering_ != nullptr && !gathering_->gathers()) gathering_ = nullptr;
   middle_.resize(model.size(), model.stateSize());
+  if (gathering_ != nullptr) return;
   for (Vector* x : {&q_, &v_, &a_}) x->setZero(model.wholeSize());
 }
 
@@ -41,16 +45,23 @@ const State& Sampler::between(const State& from, const State& to, double x) {
 }
 
 void Sampler::give(double t, const State& state) {
+  ++count_;
+  if (gathering_ != nullptr)
+    return guard([&] { gathering_->sampleShare({t, *share_, state.q, state.v, state.a}); });
   model_.toDofs(state.q, q_);
   model_.toDofs(state.v, v_);
   model_.toDofs(state.a, a_);
-  ++count_;
-  if (!model_.cut().isDivided()) return pass(t, state);
-  if (failure_) return;
+  if (share_ == nullptr) return pass(t, state);
+  if (!failure_) guard([&] { pass(t, state); });
+}
+
+/// Keeps the first that is thrown.
+template <class Work>
+void Sampler::guard(const Work& work) {
   try {
-    pass(t, state);
+    work();
   } catch (...) {
-    failure_ = std::current_exception();
+    if (!failure_) failure_ = std::current_exception();
   }
 }
 

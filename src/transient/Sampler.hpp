@@ -5,15 +5,17 @@
 
 #include <exception>
 
-#include "transient/Transient.hpp"
+#include "transient/ranks/ShareSink.hpp"
 
 namespace tooljoint::transient {
 
 /// Hands out samples at start + k * interval.
 class Sampler {
  public:
-  /// \param done  samples handed out before
-  Sampler(const CompiledModel& model, const TransientOptions& options, SampleSink& sink, long done);
+  /// \param done   samples handed out before
+  /// \param share  of this rank, null for a motion that is not divided
+  Sampler(const CompiledModel& model, const TransientOptions& options, SampleSink& sink, long done,
+          const RankShare* share);
   long count() const { return count_; }
   /// What the sink of this rank has thrown. The other ranks of a divided motion do not know of it:
   /// the run asks all of them and then throws on all.
@@ -27,13 +29,17 @@ class Sampler {
   const State& between(const State& from, const State& to, double x);
   void give(double t, const State& state);
   void pass(double t, const State& state);
+  template <class Work>
+  void guard(const Work& work);
 
   const CompiledModel& model_;
+  const RankShare* share_;
   double begin_, end_, interval_;
   SampleSink& sink_;
+  ShareSink* gathering_ = nullptr;  ///< the sink, where it gathers
   long count_;
   State middle_;
-  Vector q_, v_, a_;
+  Vector q_, v_, a_;  ///< of the whole, in dofs
   std::exception_ptr failure_;
 };
 

@@ -91,7 +91,8 @@ class Run {
         integrator_(make()),
         share_(shareOf(model, options, *integrator_)),
         model_(share_ ? CompiledModel(*share_) : CompiledModel(model)),
-        sampler_(model_, options, sink, hooks.resume != nullptr ? hooks.resume->samples : 0) {
+        sampler_(model_, options, sink, hooks.resume != nullptr ? hooks.resume->samples : 0,
+                 share_.get()) {
     state_.resize(model_.size(), model_.stateSize());
     next_.resize(model_.size(), model_.stateSize());
   }

@@ -70,7 +70,15 @@ std::vector<SignalComparison> Recorder::comparisons() const {
 }
 
 void Recorder::sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) {
-  const auto sample = recovery_.recover(t, q, qDot, qDDot);
+  take(recovery_.recover(t, q, qDot, qDDot));
+}
+
+void Recorder::sampleShare(const transient::SampleShare& mine) {
+  if (const auto sample = recovery_.gather(mine)) take(*sample);
+}
+
+void Recorder::take(const Sample& sample) {
+  const double t = sample.t;
   record_->sample(sample);
   table_.row(record_->row());
   tableSeries_->append(record_->row().data());

@@ -27,7 +27,7 @@ struct TimeSpan {
 /// Samples go into time series of the results file, which continue by themselves
 /// (ResultsFile::continueFrom()); save() and restore() are about everything else: extremes, counts,
 /// what is due next.
-class Recorder : public transient::SampleSink {
+class Recorder : public transient::ShareSink {
  public:
   /// Opens the series of /transient that the list Output asks for. `model` and `file` must outlive
   /// the recorder.
@@ -42,6 +42,10 @@ class Recorder : public transient::SampleSink {
 
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
   void states(const Vector& x) override { recovery_.states(x); }
+  /// Of a motion that ranks divide rank 0 alone has the samples, but for one that is compared with
+  /// a measured log.
+  bool gathers() const override { return !measured_; }
+  void sampleShare(const transient::SampleShare& mine) override;
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
@@ -57,6 +61,7 @@ class Recorder : public transient::SampleSink {
     const double* values;
   };
   void addTable();
+  void take(const Sample& sample);
   io::XdmfFrame frame(const Sample& sample) const;
 
   std::unique_ptr<MotionRecord> record_;

@@ -3,33 +3,48 @@
 /// From the coordinates of a model to the motion of its nodes, sample by sample.
 #pragma once
 
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "cases/MotionRecord.hpp"
 #include "linalg/blocks/GroupedRows.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "transient/Transient.hpp"
+#include "transient/ranks/RankGather.hpp"
+#include "transient/ranks/ShareSink.hpp"
 
 namespace tooljoint::cases {
 
 class SampleRecovery {
  public:
   /// `model` must outlive the object.
-  explicit SampleRecovery(const model::SecondOrderModel& model)
-      : model_(model), recovery_(model.recovery) {}
+  explicit SampleRecovery(const model::SecondOrderModel& model) : model_(model) {}
 
   /// States of the point laws at the next sample.
   void states(const Vector& x) { states_ = x; }
   /// D = offset + Phi q and its rates. What it refers to is that of this object, until the next
   /// call, and `q` and `qDot`.
-  Sample recover(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) {
-    // D = offset + Phi q, D' = Phi q', D'' = Phi q''
-    recovery_.multiply({&q, &qDot, &qDDot}, {&displacement_, &velocity_, &acceleration_});
-    displacement_ += model_.recoveryOffset;
-    return {t, q, qDot, displacement_, velocity_, acceleration_, states_};
-  }
+  Sample recover(double t, const Vector& q, const Vector& qDot, const Vector& qDDot);
+  /// The same of a motion that ranks divide: each recovers the rows that belong to it. On rank 0;
+  /// nothing elsewhere. Collective.
+  std::optional<Sample> gather(const transient::SampleShare& mine);
 
  private:
+  /// What gather() needs between the samples of one motion.
+  struct Division {
+    explicit Division(const transient::RankShare& share);
+    std::vector<int> rows;         ///< of the recovery that belong to this rank
+    linalg::GroupedRows recovery;  ///< these
+    transient::RankGather gather;
+    std::array<Vector, 3> recovered;
+  };
+
   const model::SecondOrderModel& model_;
-  linalg::GroupedRows recovery_;
+  std::optional<linalg::GroupedRows> recovery_;
+  std::unique_ptr<Division> division_;
+  Vector q_, qDot_;  ///< of all ranks
   Vector displacement_, velocity_, acceleration_, states_;
 };
 
