@@ -188,10 +188,10 @@ class Builder {
 
 PathEquations buildEquations(const EquationInput& input) { return Builder(input).build(); }
 
-StringModel linearise(const PathEquations& equations,
+StringModel linearise(PathEquations equations,
                       const std::vector<Matrix12>& staticGeometricStiffness, const Vector& state,
                       const loads::RayleighDamping& damping, ContactBatch contact) {
-  StringModel model = equations.model;
+  StringModel model = std::move(equations.model);
   model.state = state;
   model.contact = std::move(contact);
   const bool any = std::any_of(staticGeometricStiffness.begin(), staticGeometricStiffness.end(),

@@ -48,7 +48,7 @@ PathEquations buildEquations(const EquationInput& input);
 
 /// The equations of motion about the static state D_s, where the motion starts: with the geometric
 /// stiffness K_gpo(D_s), its share of the Rayleigh damping, and contact.
-StringModel linearise(const PathEquations& equations,
+StringModel linearise(PathEquations equations,
                       const std::vector<beam::Matrix12>& staticGeometricStiffness,
                       const Vector& state, const loads::RayleighDamping& damping,
                       ContactBatch contact = {});

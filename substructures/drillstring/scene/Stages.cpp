@@ -134,10 +134,12 @@ void addDrilling(const Scene& scene, StringModel& model) {
 }
 
 /// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
-/// can touch, is singular. Throws ModelError naming the dof that moves most.
-void requireHeld(const Scene& scene, StringModel equations) {
-  equations.held = scene.heldAtRest();
+/// can touch, is singular. Throws ModelError naming the dof that moves most. `equations` are the
+/// same afterwards.
+void requireHeld(const Scene& scene, StringModel& equations) {
+  auto heldInMotion = std::exchange(equations.held, scene.heldAtRest());
   const auto model = assemble(equations);
+  equations.held = std::move(heldInMotion);
   Triplets walls;
   for (int i = 0; i < scene.contactPoints.size(); ++i)
     for (std::size_t dof = 0; dof < model.dofs.size(); ++dof)
@@ -229,8 +231,10 @@ StaticStage findEquilibrium(const Scene& scene) {
       scene.statics.reference);
   addPretension(input, equations.model);
   const auto solver = staticSolver(scene);
+  const bool onlyOnce = scene.statics.unstable != equilibrium::UnstableRule::Perturb;
   const auto finish = [&] {
-    stage.equations = linearise(equations, stage.state.geometricStiffness, stage.state.displacement,
+    stage.equations = linearise(onlyOnce ? std::move(equations) : PathEquations(equations),
+                                stage.state.geometricStiffness, stage.state.displacement,
                                 scene.damping, contactInMotion(scene, stage.path));
     addBends(input, stage.state, stage.equations);
     addDrilling(scene, stage.equations);
@@ -243,7 +247,7 @@ StaticStage findEquilibrium(const Scene& scene) {
     throw;
   }
   finish();
-  if (scene.statics.unstable != equilibrium::UnstableRule::Perturb) return stage;
+  if (onlyOnce) return stage;
   while (stage.stability.diverges()) {
     if (++stage.perturbations > mostPerturbations)
       throw ConvergenceError(
