@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimate/ModeMatching.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <complex>
+
+#include "linalg/DenseDecompositions.hpp"
 
 namespace tooljoint::estimate {
 
@@ -81,7 +82,7 @@ double leastCosine(const Sparse& M, const Cluster& cluster, const ComplexMatrix&
     theirs.col(static_cast<Eigen::Index>(k)) = others.col(cluster.partners[k]);
   const ComplexMatrix cosines = cluster.weighted.adjoint() * orthonormal(M, theirs);
   if (cosines.size() == 0) return 0.0;
-  const double least = Eigen::JacobiSVD<ComplexMatrix>(cosines).singularValues().minCoeff();
+  const double least = linalg::singularValues(cosines).minCoeff();
   return std::min(1.0, least * least);
 }
 

@@ -42,7 +42,7 @@ ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
   if (columns.empty()) return;
   modes_ = reduction::block(basis.vectors, interior_, columns);
   const Matrix projected = modes_.transpose() * (stiffness_ * modes_);
-  modalFactor_.compute(projected);
+  modalFactor_ = linalg::DenseLu(projected);
 }
 
 Matrix ResidualFlexibility::solve(const Matrix& r) const {
@@ -52,7 +52,7 @@ Matrix ResidualFlexibility::solve(const Matrix& r) const {
 Matrix ResidualFlexibility::apply(const Matrix& r) const {
   if (truncated_ == 0) return Matrix::Zero(r.rows(), r.cols());
   Matrix x = solve(r);
-  if (modes_.cols() > 0) x.noalias() -= modes_ * modalFactor_.solve(modes_.transpose() * r);
+  if (modes_.cols() > 0) x.noalias() -= modes_ * modalFactor_.solve(Matrix(modes_.transpose() * r));
   return x;
 }
 
@@ -97,9 +97,7 @@ double ResidualFlexibility::Step::excess(double lambda, double mu) const {
 double ResidualFlexibility::Step::pole() const {
   if (mass(0, 0) == 0) return std::numeric_limits<double>::infinity();
   if (mass(1, 1) == 0) return stiffness(0, 0) / mass(0, 0);
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(stiffness, mass,
-                                                                   Eigen::EigenvaluesOnly)
-      .eigenvalues()[0];
+  return linalg::symmetricPairs(Matrix(stiffness), Matrix(mass)).values[0];
 }
 
 }  // namespace tooljoint::estimate

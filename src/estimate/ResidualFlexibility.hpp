@@ -4,11 +4,11 @@
 /// flexibility.
 #pragma once
 
-#include <Eigen/Dense>
 #include <Eigen/SparseLU>
 #include <memory>
 #include <vector>
 
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "model/Substructure.hpp"
 #include "reduction/ReductionMethod.hpp"
@@ -65,7 +65,7 @@ class ResidualFlexibility {
   std::unique_ptr<linalg::DirectSolver> large_;  ///< instead, where the factors fill
   Matrix modes_;                                 ///< W
   Matrix stiffModes_;                            ///< K_II' W
-  Eigen::PartialPivLU<Matrix> modalFactor_;      ///< of W' K_II W
+  linalg::DenseLu modalFactor_;                  ///< of W' K_II W
 };
 
 }  // namespace tooljoint::estimate

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimate/TruncatedStart.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "linalg/DenseDecompositions.hpp"
 #include "reduction/part/Partition.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
@@ -46,11 +45,11 @@ void TruncatedStart::begin(const PartResidual& part, const Vector& displacement,
                                     interior_, interior_);
   const Matrix W = Matrix(reduction::modalColumns(*part.reduced().basis));
   const Matrix MW = M * W;
-  const Eigen::LDLT<Matrix> gram(Matrix(W.transpose() * MW));
+  const Matrix gram = W.transpose() * MW;
   const auto left = [&](const Vector& x) {
     const Vector inner = restricted(x, interior_);
     if (W.cols() == 0) return inner;
-    return Vector(inner - W * gram.solve(Vector(MW.transpose() * inner)));
+    return Vector(inner - W * linalg::solveSymmetric(gram, Vector(MW.transpose() * inner)));
   };
   const Vector d = left(displacement), v = left(velocity);
   Matrix Q(d.size(), 0);
@@ -60,9 +59,9 @@ void TruncatedStart::begin(const PartResidual& part, const Vector& displacement,
       if (!append(M, part.flexibility().apply(Matrix(M * Q.rightCols(1))).col(0), Q)) break;
   }
   if (Q.cols() == 0) return;
-  const Eigen::SelfAdjointEigenSolver<Matrix> ritz(Matrix(Q.transpose() * Matrix(K * Q)));
-  shapes_ = Q * ritz.eigenvectors();
-  omega_ = ritz.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const auto ritz = linalg::symmetricPairs(Q.transpose() * Matrix(K * Q));
+  shapes_ = Q * ritz.vectors;
+  omega_ = ritz.values.cwiseMax(0.0).cwiseSqrt();
   displacement_ = shapes_.transpose() * Vector(M * d);
   velocity_ = shapes_.transpose() * Vector(M * v);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "common/Error.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
@@ -24,11 +24,11 @@ EigenPairs symmetricModes(const Matrix& K, const Matrix& M, const DofNamer& name
     modes.vectors.resize(0, 0);
     return modes;
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver{Matrix(k), Matrix(m)};
-  if (solver.info() != Eigen::Success)
+  const auto pairs = symmetricPairs(Matrix(k), Matrix(m));
+  if (!pairs.converged)
     throw ConvergenceError("The QR iteration of a dense symmetric eigenproblem did not converge.");
-  modes.values = solver.eigenvalues();
-  modes.vectors = solver.eigenvectors();
+  modes.values = pairs.values;
+  modes.vectors = pairs.vectors;
   applyConventions(modes, m);
   recomputeErrors(modes, k, m, 1e-8, 1e-8);
   return modes;
@@ -99,13 +99,13 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
   A.topRightCorner(n, n).setIdentity();
   A.bottomLeftCorner(n, n) = -stiff / (gamma * gamma);
   A.bottomRightCorner(n, n) = -damp / gamma;
-  const Eigen::EigenSolver<Matrix> solver(A);
-  if (solver.info() != Eigen::Success)
+  const auto pairs = generalPairs(A);
+  if (!pairs.converged)
     throw ConvergenceError("The QR iteration of a quadratic eigenproblem did not converge.");
 
   std::vector<Eigen::Index> order(static_cast<std::size_t>(2 * n));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
-  const auto mu = solver.eigenvalues();
+  const auto& mu = pairs.values;
   std::sort(order.begin(), order.end(),
             [&](Eigen::Index a, Eigen::Index b) { return comesFirst(mu[a], mu[b], 0.0); });
   // Equal up to rounding: an insertion sort keeps conjugates and repeated values in a defined
@@ -121,8 +121,8 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
     const Eigen::Index from = order[static_cast<std::size_t>(j)];
     std::complex<double> s = gamma * mu[from];
     // Of x and y = mu x the larger one is the more accurate shape.
-    const Eigen::VectorXcd top = solver.eigenvectors().col(from).head(n),
-                           bottom = solver.eigenvectors().col(from).tail(n);
+    const Eigen::VectorXcd top = pairs.vectors.col(from).head(n),
+                           bottom = pairs.vectors.col(from).tail(n);
     Eigen::VectorXcd phi = std::abs(mu[from]) > 1.0 ? bottom : top;
     Eigen::Index largest = 0;
     phi.cwiseAbs().maxCoeff(&largest);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linalg/InverseLanczos.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "common/Error.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/DenseKernels.hpp"
 #include "linalg/Deterministic.hpp"
 
@@ -40,15 +39,14 @@ int wantedOf(const Vector& mu, const RitzRequest& request) {
 RitzVectors dense(const InversePencil& pencil, const RitzRequest& request) {
   // M phi = mu K phi
   const Matrix M = pencil.mass(Matrix::Identity(pencil.size, pencil.size));
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(0.5 * (M + M.transpose()),
-                                                                pencil.stiffness());
-  if (solver.info() != Eigen::Success)
+  const auto pairs = symmetricPairs(0.5 * (M + M.transpose()), pencil.stiffness());
+  if (!pairs.converged)
     throw ConvergenceError("The QR iteration for the modes of a substructure did not converge.");
-  const Vector mu = solver.eigenvalues().reverse();
+  const Vector mu = pairs.values.reverse();
   int finite = 0;
   while (finite < mu.size() && mu[finite] > infinite * mu[0]) ++finite;
   const int wanted = wantedOf(mu.head(finite), request);
-  const Matrix decreasing = solver.eigenvectors().rowwise().reverse();
+  const Matrix decreasing = pairs.vectors.rowwise().reverse();
   return {mu.head(wanted).cwiseInverse(), decreasing.leftCols(wanted), wanted == finite};
 }
 
@@ -100,13 +98,13 @@ class Iteration {
       }
       if (Q.cols() == 0) return;
       const Matrix gram = transposedTimes(Q, KQ);
-      const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (gram + gram.transpose()));
+      const auto pairs = symmetricPairs(0.5 * (gram + gram.transpose()));
       const double least = pass == 0 ? dependent * dependent : 0.5;
       Eigen::Index first = 0;
-      while (first < Q.cols() && !(solver.eigenvalues()[first] > least)) ++first;
+      while (first < Q.cols() && !(pairs.values[first] > least)) ++first;
       const Eigen::Index kept = Q.cols() - first;
-      const Matrix R = solver.eigenvectors().rightCols(kept) *
-                       solver.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+      const Matrix R = pairs.vectors.rightCols(kept) *
+                       pairs.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
       Q = Q * R;
       KQ = KQ * R;
     }
@@ -144,9 +142,9 @@ class Iteration {
   /// Ritz values of H, and whether the wanted ones have converged.
   bool converged(const Matrix& coupling, Eigen::Index last) {
     const Matrix H = H_.topLeftCorner(size_, size_);
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (H + H.transpose()));
-    mu_ = solver.eigenvalues().reverse();
-    Y_ = solver.eigenvectors().rowwise().reverse();
+    const auto pairs = symmetricPairs(0.5 * (H + H.transpose()));
+    mu_ = pairs.values.reverse();
+    Y_ = pairs.vectors.rowwise().reverse();
     finite_ = 0;
     while (finite_ < size_ && mu_[finite_] > infinite * mu_[0]) ++finite_;
     wanted_ = wantedOf(mu_.head(finite_), request_);

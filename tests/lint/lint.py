@@ -5,6 +5,7 @@
     lint.py PROJECT         prints file:line: what is wrong, exit code 1 if anything is
     lint.py --self-test     shows that each rule catches what it is for
     lint.py --rooms         prints the table of rooms for docs/architecture.md
+    lint.py --counts PROJECT  prints the lines of product code and of tests, and the fullest folders
 """
 import pathlib
 import re
@@ -99,6 +100,21 @@ def lint(root):
     return complaints, len(files)
 
 
+def counts(root):
+    """Lines and files of each half, and the folders of product code with the most sources."""
+    folders = {}
+    for room in ["src", "substructures", "python", "tests", "tools"]:
+        paths = [path for path in (root / room).rglob("*") if path.is_file() and path.suffix in (".cpp", ".hpp", ".py") and "__pycache__" not in path.parts]
+        lines = sum(len(path.read_text(encoding="utf-8").splitlines()) for path in paths)
+        yield f"{room:<15}{lines:>8} lines{len(paths):>6} files"
+        if room in ("src", "substructures", "python"):
+            for path in paths:
+                folder = path.parent.relative_to(root).as_posix()
+                folders[folder] = folders.get(folder, 0) + 1
+    for folder, files in sorted(folders.items(), key=lambda item: -item[1])[:5]:
+        yield f"{folder:<40}{files:>4} sources"
+
+
 def self_test():
     spdx = "// SPDX-License-Identifier: BSD-3-Clause\n"
     cases = {  # file, text, part of the complaint (None: no complaint)
@@ -151,6 +167,9 @@ def main():
         return self_test()
     if sys.argv[1:] == ["--rooms"]:
         print(rooms.table(), end="")
+        return 0
+    if sys.argv[1:2] == ["--counts"]:
+        print("\n".join(counts(pathlib.Path(sys.argv[2]).resolve())))
         return 0
     complaints, count = lint(pathlib.Path(sys.argv[1]).resolve())
     print("\n".join(complaints))

@@ -2,7 +2,6 @@
 #include "linalg/trilinos/SemidefiniteModes.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/MumpsFactor.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 
@@ -48,13 +48,13 @@ Matrix root(const Sparse& M, const DofNamer& name) {
           dense(massive[static_cast<std::size_t>(i)], massive[static_cast<std::size_t>(j)]) /
           (size(i) * size(j));
   if (n == 0) return Matrix::Zero(M.rows(), 0);
-  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(scaled);
-  const Vector& values = spectrum.eigenvalues();
+  const auto spectrum = symmetricPairs(scaled);
+  const Vector& values = spectrum.values;
   Eigen::Index first = 0;
   while (first < n && values[first] <= massless * values[n - 1]) ++first;
   if (values[0] < -1e-9 * values[n - 1]) {
     Eigen::Index worst = 0;
-    spectrum.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
+    spectrum.vectors.col(0).cwiseAbs().maxCoeff(&worst);
     throw ModelError("The mass matrix is indefinite, most of all in " +
                      nameOf(name, static_cast<int>(massive[static_cast<std::size_t>(worst)])) +
                      ".");
@@ -62,7 +62,7 @@ Matrix root(const Sparse& M, const DofNamer& name) {
   Matrix W = Matrix::Zero(M.rows(), n - first);
   for (Eigen::Index i = 0; i < n; ++i)
     W.row(massive[static_cast<std::size_t>(i)]) =
-        size(i) * spectrum.eigenvectors().row(i).tail(n - first).cwiseProduct(
+        size(i) * spectrum.vectors.row(i).tail(n - first).cwiseProduct(
                       values.tail(n - first).cwiseSqrt().transpose());
   return W;
 }
@@ -81,18 +81,18 @@ double middle(const Sparse& K, const Sparse& M) {
 
 /// Modes from one shift: W' (K - sigma M)^-1 W y = mu y.
 EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sigma, int count) {
-  const Eigen::PartialPivLU<Matrix> factor(K - sigma * Matrix(M));
-  if (!(factor.rcond() > 1e-18))
+  const DenseLu factor(K - sigma * Matrix(M));
+  if (!(factor.reciprocalCondition() > 1e-18))
     throw ModelError(
         "Stiffness and mass are singular together: some dof has neither mass nor stiffness, or a "
         "constraint stands in the model "
         "twice.");
   Matrix answer = factor.solve(W);
-  answer += factor.solve(W - (K * answer - sigma * (M * answer)));
+  answer += factor.solve(Matrix(W - (K * answer - sigma * (M * answer))));
   Matrix H = W.transpose() * answer;
   H = (0.5 * (H + H.transpose())).eval();
-  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(H);
-  const Vector& mu = spectrum.eigenvalues();
+  const auto spectrum = symmetricPairs(H);
+  const Vector& mu = spectrum.values;
   const double largest = mu.size() > 0 ? mu.cwiseAbs().maxCoeff() : 0.0;
   std::vector<Eigen::Index> finite;
   for (Eigen::Index i = 0; i < mu.size(); ++i)
@@ -106,7 +106,7 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
   modes.vectors.resize(K.rows(), modes.values.size());
   for (std::size_t j = 0; j < finite.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
-    modes.vectors.col(column) = answer * spectrum.eigenvectors().col(finite[j]);
+    modes.vectors.col(column) = answer * spectrum.vectors.col(finite[j]);
     const auto x = modes.vectors.col(column);
     modes.values[column] = x.dot(K * x) / x.dot(M * x);
   }
@@ -121,7 +121,7 @@ Vector betterScale(const Sparse& K, const Sparse& M, double sigma) {
   const Vector given = Vector::Ones(K.rows()), masses = binaryMassScale(K, M);
   if (A.rows() == 0) return given;
   const auto condition = [&](const Vector& d) {
-    return Eigen::PartialPivLU<Matrix>(d.asDiagonal() * A * d.asDiagonal()).rcond();
+    return DenseLu(d.asDiagonal() * A * d.asDiagonal()).reciprocalCondition();
   };
   return condition(masses) > condition(given) ? masses : given;
 }

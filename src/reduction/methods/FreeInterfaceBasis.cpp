@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/methods/FreeInterfaceBasis.hpp"
 
-#include <Eigen/Dense>
-
+#include "linalg/DenseDecompositions.hpp"
 #include "reduction/methods/BasisBuilder.hpp"
 #include "reduction/vectors/FreeInterfaceModes.hpp"
 
@@ -41,28 +40,28 @@ Matrix toModeAmplitudes(const PartView& part, FreeInterfaceBasis& free) {
   const Matrix AD = amplitudes.rightCols(ritz);
   basis.orthonormal = false;
   if (ritz == 0) return amplitudes;
-  const Eigen::BDCSVD<Matrix> svd(AD, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  const auto svd = linalg::divideAndConquerSvd(AD, Eigen::ComputeThinU | Eigen::ComputeFullV);
   Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] >= leastShare) ++rank;
+  while (rank < svd.values.size() && svd.values[rank] >= leastShare) ++rank;
   Matrix changed = vectors, p = Matrix::Zero(modes, boundary + ritz);
   if (rank == modes &&
       rank == ritz) {  // p are the amplitudes of the modes themselves; decoupled ones stay apart
-    changed.rightCols(ritz) =
-        AD.transpose().partialPivLu().solve(vectors.rightCols(ritz).transpose()).transpose();
+    changed.rightCols(ritz) = linalg::DenseLu(AD.transpose())
+                                  .solve(Matrix(vectors.rightCols(ritz).transpose()))
+                                  .transpose();
     changed.leftCols(boundary) -= changed.rightCols(ritz) * AC;
     p.rightCols(modes).setIdentity();
     for (Eigen::Index k = 0; k < modes; ++k)
       basis.eigenvalues[k] = free.modes.vectors[at(k)].eigenvalue;
   } else {
-    const Matrix U1 = svd.matrixU().leftCols(rank);
-    const Matrix toW =
-        svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).cwiseInverse().asDiagonal();
+    const Matrix U1 = svd.U.leftCols(rank);
+    const Matrix toW = svd.V.leftCols(rank) * svd.values.head(rank).cwiseInverse().asDiagonal();
     changed.middleCols(boundary, rank) = vectors.rightCols(ritz) * toW;
-    changed.rightCols(ritz - rank) = vectors.rightCols(ritz) * svd.matrixV().rightCols(ritz - rank);
+    changed.rightCols(ritz - rank) = vectors.rightCols(ritz) * svd.V.rightCols(ritz - rank);
     changed.leftCols(boundary) -= changed.middleCols(boundary, rank) * (U1.transpose() * AC);
     p.leftCols(boundary) = AC - U1 * (U1.transpose() * AC);
     p.middleCols(boundary, rank) = U1;
-    p.rightCols(ritz - rank) = AD * svd.matrixV().rightCols(ritz - rank);
+    p.rightCols(ritz - rank) = AD * svd.V.rightCols(ritz - rank);
     const Sparse& K = part.symmetricStiffness();
     for (Eigen::Index k = 0; k < ritz; ++k) {
       const auto y = changed.col(boundary + k);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/multilevel/TreeModes.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +11,7 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "reduction/multilevel/RankRows.hpp"
 #include "reduction/multilevel/TreeSubspace.hpp"
 
@@ -77,12 +77,11 @@ class RitzSteps {
   /// The lowest `count` Ritz vectors of the span.
   static void rayleighRitz(Block& block, Eigen::Index count) {
     const Matrix k = gram(block.X, block.KX), m = gram(block.X, block.MX);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(0.5 * (k + k.transpose()),
-                                                                  0.5 * (m + m.transpose()));
-    if (solver.info() != Eigen::Success)
+    const auto pairs = linalg::symmetricPairs(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()));
+    if (!pairs.converged)
       throw ConvergenceError("The QR iteration for the modes of a cut part did not converge.");
-    block.values = solver.eigenvalues().head(count);
-    turn(block, solver.eigenvectors().leftCols(count));
+    block.values = pairs.values.head(count);
+    turn(block, pairs.vectors.leftCols(count));
   }
 
   /// Adds what is new in Z to mass-orthonormal vectors.
@@ -99,10 +98,10 @@ class RitzSteps {
     }
     const Matrix m = gram(more.X, more.MX);
     if (m.size() == 0) return;
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (m + m.transpose()));
-    const Eigen::Index kept = (solver.eigenvalues().array() > dependent).count();
-    turn(more, solver.eigenvectors().rightCols(kept) *
-                   solver.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal());
+    const auto pairs = linalg::symmetricPairs(0.5 * (m + m.transpose()));
+    const Eigen::Index kept = (pairs.values.array() > dependent).count();
+    turn(more, pairs.vectors.rightCols(kept) *
+                   pairs.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal());
     const Eigen::Index known = block.X.cols();
     for (auto [A, added] : {std::pair{&block.X, &more.X}, std::pair{&block.KX, &more.KX},
                             std::pair{&block.MX, &more.MX}}) {
@@ -182,7 +181,7 @@ std::shared_ptr<const TreeFactor> eliminate(std::shared_ptr<const SubstructureTr
     auto factor = std::make_shared<const TreeFactor>(tree, K, M, shift, step);
     if (factor->definite()) return factor;
     log::info("The part is not definite with a shift of " + formatNumber(-shift) +
-              " 1/s^2: a larger one follows.");
+              " 1/s^2: a larger one is tried.");
   }
   throw ModelError(
       "no shift makes stiffness and mass positive definite: the mass is indefinite, or some motion "

@@ -9,6 +9,7 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
 
@@ -82,12 +83,12 @@ void InteriorStatics::findMechanisms(const InteriorVectors& modes) {
     Matrix combined = all(p.interior, Eigen::all);
     if (!p.boundary.empty()) {
       const Matrix moved = boundaryMass.asDiagonal() * all(p.boundary, Eigen::all);
-      const Eigen::JacobiSVD<Matrix> svd(moved, Eigen::ComputeFullV);
+      const auto svd = linalg::jacobiSvd(moved, Eigen::ComputeFullV);
       Eigen::Index rank = 0;
-      while (rank < svd.singularValues().size() && svd.singularValues()[rank] > notMoved) ++rank;
-      combined = (combined * svd.matrixV().rightCols(all.cols() - rank)).eval();
+      while (rank < svd.values.size() && svd.values[rank] > notMoved) ++rank;
+      combined = (combined * svd.V.rightCols(all.cols() - rank)).eval();
       carriers_.conservativeResize(p.size, carriers_.cols() + rank);
-      carriers_.rightCols(rank) = all * svd.matrixV().leftCols(rank);
+      carriers_.rightCols(rank) = all * svd.V.leftCols(rank);
     }
     mechanisms_.conservativeResize(combined.rows(), mechanisms_.cols() + combined.cols());
     mechanisms_.rightCols(combined.cols()) = combined;

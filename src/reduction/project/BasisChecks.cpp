@@ -10,6 +10,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "common/report/StageTimes.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/MumpsFactor.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
@@ -81,12 +82,10 @@ void checkRank(const Basis& basis, BasisReport& report) {
     const double length = scaled.col(j).norm();
     if (length > 0) scaled.col(j) /= length;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix> gram(scaled.transpose() * scaled,
-                                                   Eigen::EigenvaluesOnly);
-  const double largest = gram.eigenvalues().maxCoeff();
-  report.rank = static_cast<int>((gram.eigenvalues().array() > 1e-14 * largest).count());
-  report.conditioning =
-      std::sqrt(largest / std::max(gram.eigenvalues().minCoeff(), 1e-16 * largest));
+  const Vector gram = linalg::symmetricValues(scaled.transpose() * scaled);
+  const double largest = gram.maxCoeff();
+  report.rank = static_cast<int>((gram.array() > 1e-14 * largest).count());
+  report.conditioning = std::sqrt(largest / std::max(gram.minCoeff(), 1e-16 * largest));
 }
 
 /// Sets of coupled dofs without any of the basis' interface dofs.
@@ -154,7 +153,7 @@ void checkStatics(const PartView& part, const Basis& basis, const ProjectedMatri
         "boundary dofs");
     return;
   }
-  const Matrix recovered = basis.vectors * k.partialPivLu().solve(small);
+  const Matrix recovered = basis.vectors * linalg::DenseLu(k).solve(small);
   report.staticDefect = 0;
   for (Eigen::Index c = 0; c < exact.cols(); ++c) {
     const Vector error = Vector(recovered.col(c))(positions) - exact.col(c);
@@ -235,15 +234,15 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
       throw ModelError(part.who() +
                        "its reduced mass matrix is not positive definite. Give every dof of the "
                        "part a mass, or retain fewer massless dofs.");
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> pairs(k, m);
-    if (pairs.info() != Eigen::Success)
+    const auto pairs = linalg::symmetricPairs(k, m);
+    if (!pairs.converged)
       throw ConvergenceError(
           part.who() +
           "the QR iteration for the eigenvalues of the reduced part did not converge.");
-    const Matrix& shapes = pairs.eigenvectors();
-    report.largestOmega = std::sqrt(std::max(0.0, pairs.eigenvalues().maxCoeff()));
+    const Matrix& shapes = pairs.vectors;
+    report.largestOmega = std::sqrt(std::max(0.0, pairs.values.maxCoeff()));
     report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
-    report.zeroEnergyReduced = countZeroEnergy(K, vectors, shapes, pairs.eigenvalues());
+    report.zeroEnergyReduced = countZeroEnergy(K, vectors, shapes, pairs.values);
   }
   report.zeroEnergyFull = zeroEnergyOfWhole(part);
 }

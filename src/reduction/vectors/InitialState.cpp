@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/vectors/InitialState.hpp"
 
-#include <Eigen/QR>
-
+#include "linalg/DenseDecompositions.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::reduction {
@@ -17,8 +16,7 @@ Vector fitState(const Basis& basis, const Vector& x) {
   const Vector rest = x - basis.vectors * q;  // x_I - phi_C x_C on the interior
   const Vector target = rest(basis.partition.interior);
   if (target.isZero(0.0)) return q;
-  q.segment(sizeOf(boundary), modes) =
-      Matrix(modalColumns(basis)).colPivHouseholderQr().solve(target);
+  q.segment(sizeOf(boundary), modes) = linalg::leastSquares(Matrix(modalColumns(basis)), target);
   return q;
 }
 

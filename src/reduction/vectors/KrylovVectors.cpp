@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/vectors/KrylovVectors.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +11,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
@@ -188,9 +188,9 @@ class DrivenBlock {
       const Vector& factor = factors[at(j)];
       R.col(j).head(factor.size() - old) = factor.tail(factor.size() - old);
     }
-    const Eigen::JacobiSVD<Matrix> svd(R, Eigen::ComputeThinU);
-    directions_ = grown.basis().rightCols(fresh) * svd.matrixU();
-    sizes_ = svd.singularValues();
+    const auto svd = linalg::jacobiSvd(R, Eigen::ComputeThinU);
+    directions_ = grown.basis().rightCols(fresh) * svd.U;
+    sizes_ = svd.values;
   }
 
   const InteriorBlock& block_;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/vectors/ModalVectors.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/Deterministic.hpp"
 #include "reduction/methods/BasisBuilder.hpp"
 
@@ -71,14 +71,13 @@ void addRitzVectors(const Sparse& symmetricK, const Sparse& M, const Matrix& Q, 
   if (Q.cols() == 0) return;
   // (Q' M Q) is the identity but for rounding; keeping it removes the rounding of Q.
   const Matrix k = Q.transpose() * (symmetricK * Q), m = Q.transpose() * (M * Q);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(0.5 * (k + k.transpose()),
-                                                                0.5 * (m + m.transpose()));
-  if (solver.info() != Eigen::Success)
+  const auto pairs = linalg::symmetricPairs(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()));
+  if (!pairs.converged)
     throw ConvergenceError("The QR iteration for the Ritz vectors of a basis did not converge.");
-  Matrix phi = Q * solver.eigenvectors();
+  Matrix phi = Q * pairs.vectors;
   for (Eigen::Index j = 0; j < phi.cols(); ++j) {
     if (phi(linalg::largestEntry(phi.col(j)), j) < 0) phi.col(j) = -phi.col(j);
-    to.vectors.push_back({solver.eigenvalues()[j], group, phi.col(j), 0, kind});
+    to.vectors.push_back({pairs.values[j], group, phi.col(j), 0, kind});
   }
   const Matrix gram = phi.transpose() * (M * phi);
   to.orthogonality = std::max(

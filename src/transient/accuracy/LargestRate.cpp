@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transient/accuracy/LargestRate.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "common/Index.hpp"
+#include "linalg/DenseDecompositions.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -182,7 +182,7 @@ double LargestRate::norm(const Product& times) const {
       x -= V.leftCols(k + 1) * h;
     }
   }
-  return H.jacobiSvd().singularValues()[0];
+  return linalg::jacobiSvd(H).values[0];
 }
 
 }  // namespace tooljoint::transient

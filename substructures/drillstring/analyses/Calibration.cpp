@@ -11,6 +11,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "linalg/DenseDecompositions.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -175,9 +176,9 @@ std::vector<std::size_t> seen(const Model& model) {
 void requireDetermined(const Model& model, const std::vector<std::size_t>& which, Matrix J,
                        const std::string& file) {
   for (Eigen::Index j = 0; j < J.cols(); ++j) J.col(j).normalize();
-  const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeThinV);
-  if (svd.singularValues().minCoeff() > dependent) return;
-  const Vector mixed = svd.matrixV().rightCols<1>();
+  const auto svd = linalg::jacobiSvd(J, Eigen::ComputeThinV);
+  if (svd.values.minCoeff() > dependent) return;
+  const Vector mixed = svd.V.rightCols<1>();
   std::vector<std::string> names;
   for (std::size_t j = 0; j < which.size(); ++j)
     if (std::abs(mixed[static_cast<Eigen::Index>(j)]) > 0.1)
@@ -221,7 +222,7 @@ Calibration calibrate(const Scene& scene, const softstring::TorqueDragSettings& 
   const Matrix J = model.jacobian(p, which);
   requireDetermined(model, which, J, file);
   const Vector r = model.residual(p);
-  const Matrix covariance = (J.transpose() * J).inverse() * r.squaredNorm() / freedom;
+  const Matrix covariance = linalg::inverseOf(J.transpose() * J) * r.squaredNorm() / freedom;
   const double t = boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
 
   Calibration done;

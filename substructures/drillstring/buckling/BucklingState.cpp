@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/buckling/BucklingState.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 
 #include "common/Constants.hpp"
 #include "common/Index.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "substructures/beam/BeamMatrices.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
@@ -137,8 +137,7 @@ void BucklingMeasure::addShape(BucklingState& state) const {
   const bool inclined = scene_.well.inclination(depth_.back()) > vertical &&
                         loads::acceleration(scene_.loads).norm() > 0.0;
   if (!inclined) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(Eigen::Matrix2d(d * d.transpose()));
-    side = axes.eigenvectors().col(1);
+    side = linalg::symmetricPairs(d * d.transpose()).vectors.col(1);
   }
   const Vector deflection = d.transpose() * side;
   const double most = deflection.cwiseAbs().maxCoeff();

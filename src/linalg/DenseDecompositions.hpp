@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Eigen's decompositions of dense matrices behind plain functions: each of them costs a source
+/// that instantiates it seconds of compile time.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "common/Types.hpp"
+
+namespace tooljoint::linalg {
+
+/// Eigenvalues in increasing order and their vectors in the columns.
+struct SymmetricPairs {
+  Vector values;
+  Matrix vectors;
+  bool converged = true;  ///< the QR iteration
+};
+/// A x = lambda x, x' x = 1. Reads the lower triangle.
+SymmetricPairs symmetricPairs(const Matrix& A);
+/// A x = lambda B x, x' B x = 1; B is positive definite. Reads the lower triangles.
+SymmetricPairs symmetricPairs(const Matrix& A, const Matrix& B);
+/// The eigenvalues of symmetricPairs(A).
+Vector symmetricValues(const Matrix& A);
+
+/// A x = lambda x of a matrix that need not be symmetric, |x| = 1, in no order.
+struct GeneralPairs {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+  bool converged = true;  ///< the QR iteration
+};
+GeneralPairs generalPairs(const Matrix& A);
+
+/// A = U diag(values) V', values decreasing.
+struct SingularValues {
+  Vector values;
+  Matrix U, V;  ///< empty where they were not asked for
+};
+/// By Jacobi rotations. \param parts Eigen::ComputeThinU, ComputeFullU, ComputeThinV, ComputeFullV
+SingularValues jacobiSvd(const Matrix& A, unsigned int parts = 0);
+/// By divide and conquer, for large matrices.
+SingularValues divideAndConquerSvd(const Matrix& A, unsigned int parts);
+/// Decreasing.
+Vector singularValues(const Eigen::MatrixXcd& A);
+
+/// A = P' L U with partial pivoting.
+class DenseLu {
+ public:
+  DenseLu() = default;
+  explicit DenseLu(const Matrix& A);
+  Matrix solve(const Matrix& b) const;
+  Vector solve(const Vector& b) const;
+  /// Estimate of 1 / cond(A) in the 1-norm.
+  double reciprocalCondition() const;
+
+ private:
+  Eigen::PartialPivLU<Matrix> lu_;
+};
+/// A^-1 of a matrix of any size.
+Matrix inverseOf(const Matrix& A);
+
+/// A^-1 b of a symmetric matrix, by L D L' with pivoting. Reads the lower triangle.
+Matrix solveSymmetric(const Matrix& A, const Matrix& b);
+Vector solveSymmetric(const Matrix& A, const Vector& b);
+/// The x of least |A x - b|, by QR with column pivoting.
+Vector leastSquares(const Matrix& A, const Vector& b);
+
+}  // namespace tooljoint::linalg
