@@ -85,5 +85,5 @@ def compare_modes(synthesis: _core.Synthesis, count: int, full: HasModel | None 
 
 def estimate_frequencies(synthesis: _core.Synthesis, count: int) -> list[dict[str, Any]]:
     """Estimated relative errors of the lowest coupled frequencies, without the full model: a list of dicts with frequency_hz, error,
-    by_part (what the truncated modes of each part contribute) and definite (False: a part lacks a mode below this frequency)."""
+    by_part (what the truncated modes of each part contribute) and definite (False: modes are missing below this frequency)."""
     return _core.estimate_frequencies(synthesis, count)

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "reduction/selection/ModeSelection.hpp"
 
@@ -98,6 +99,13 @@ class Rounds {
   }
 
  private:
+  /// More modes of this part can be asked for.
+  bool canGrow(std::size_t p) const {
+    const int count = options_.modes.counts[p];
+    return count != reduction::ModeRule::whole &&
+           count < outcome_.synthesis.parts[p].report.interior;
+  }
+
   int modes() const {
     int sum = 0;
     for (const auto& part : outcome_.synthesis.parts) sum += part.modes;
@@ -108,9 +116,17 @@ class Rounds {
     const auto start = std::chrono::steady_clock::now();
     outcome_.frequencies = estimateFrequencies(parts_, outcome_.synthesis, estimates_.window);
     const double allowed = rule_.frequencyTolerance / frequencySafety;
-    for (const auto& e : outcome_.frequencies)
+    // Fewer frequencies than asked for, although parts have more.
+    bool missing =
+        estimates_.window.belowHz <= 0 && sizeOf(outcome_.frequencies) < estimates_.window.count;
+    for (const auto& e : outcome_.frequencies) {
+      missing = missing || !e.definite;
       if (!e.definite || std::abs(e.error) > allowed)
         for (std::size_t p : mark(e.byPart, 0.5 * allowed)) wanted[p] = 1;
+    }
+    // No part has a share in the error of a mode that the coupled model does not have.
+    if (missing && std::count(wanted.begin(), wanted.end(), 1) == 0)
+      for (std::size_t p = 0; p < parts_.size(); ++p) wanted[p] = canGrow(p);
     outcome_.rounds.back().frequencyError = largestError(outcome_.frequencies);
     outcome_.wall += since(start);
   }

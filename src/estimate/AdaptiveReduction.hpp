@@ -69,7 +69,7 @@ Outcome synthesise(const std::vector<model::Substructure>& parts,
                    const Teuchos::ParameterList& reduction, const MotionProbe& probe = {},
                    const coupling::CouplingOptions& coupling = {});
 
-/// Largest error of the estimates, 0 for none. Where a part lacks a mode below a frequency it
+/// Largest error of the estimates, 0 for none. Where modes are missing below a frequency it
 /// counts as 1 at least.
 double largestError(const std::vector<FrequencyEstimate>& estimates);
 

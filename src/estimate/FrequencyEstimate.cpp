@@ -5,11 +5,16 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "common/Constants.hpp"
+#include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Message.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "coupling/ModeCount.hpp"
 #include "estimate/PartResidual.hpp"
 #include "estimate/ResidualFlexibility.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
@@ -106,9 +111,10 @@ Vector workOfConnectors(const std::vector<model::Substructure>& parts,
   return modes.cwiseProduct(Matrix(K * modes)).colwise().sum().transpose();
 }
 
-/// Error and its shares of the j-th mode. \param work D' K D of what belongs to no part
-void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<Share>>& all,
-            double work) {
+/// Error and its shares of the j-th mode; returns the estimate of the full eigenvalue.
+/// \param work D' K D of what belongs to no part
+double assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<Share>>& all,
+              double work) {
   const double lambda = e.eigenvalue;
   double mass = 0;
   std::vector<ResidualFlexibility::Step> steps;
@@ -128,7 +134,77 @@ void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<
   const double truncation = signedRatio(lambda, mu);
   if (sum > 0) e.byPart *= truncation / sum;
   e.error = signedRatio(lambda, full);
+  return full;
 }
+
+/// Counts of the full model at bounds between its estimated eigenvalues.
+class ModeCounts {
+ public:
+  /// \param full estimated eigenvalues, one for each coupled mode
+  ModeCounts(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
+             std::vector<double> full, const std::vector<FrequencyEstimate>& estimates)
+      : parts_(parts), synthesis_(synthesis), full_(std::move(full)) {
+    std::vector<std::size_t> order(full_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return full_[a] < full_[b]; });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const double below = full_[order[i - 1]], above = full_[order[i]];
+      if (above - below > closest * std::abs(above)) gaps_.push_back({below, above});
+    }
+    // Just below the last one.
+    const auto& last = estimates[order.back()];
+    const double above = full_[order.back()];
+    const double margin = std::max(closest, std::abs(last.error)) * std::abs(above);
+    if (!gaps_.empty() && above - margin > gaps_.back().middle())
+      gaps_.push_back({std::max(gaps_.back().middle(), above - 2.0 * margin), above});
+  }
+
+  /// The bound above which modes are missing, if there are any.
+  std::optional<double> missingAbove() const {
+    if (gaps_.empty() || !missing(gaps_.size() - 1)) return {};
+    std::size_t good = 0, bad = gaps_.size();  // the first `good` gaps lack nothing
+    for (--bad; good < bad;) {
+      const std::size_t middle = (good + bad) / 2;
+      if (missing(middle))
+        bad = middle;
+      else
+        good = middle + 1;
+    }
+    return gaps_[bad].middle();
+  }
+
+ private:
+  /// Relative distance of eigenvalues that counts do not part.
+  static constexpr double closest = 1e-4;
+
+  struct Gap {
+    double below, above;
+    double at(double share) const { return below + share * (above - below); }
+    double middle() const { return at(0.5); }
+  };
+
+  bool missing(std::size_t number) const {
+    const Gap& gap = gaps_[number];
+    const auto expected =
+        std::count_if(full_.begin(), full_.end(), [&](double x) { return x < gap.middle(); });
+    return count(gap) > expected;
+  }
+
+  /// A bound that is an eigenvalue of an interior has no count; one beside it has.
+  int count(const Gap& gap) const {
+    try {
+      return coupling::fullEigenvaluesBelow(parts_, synthesis_, gap.middle());
+    } catch (const ConvergenceError&) {
+      return coupling::fullEigenvaluesBelow(parts_, synthesis_, gap.at(0.55));
+    }
+  }
+
+  const std::vector<model::Substructure>& parts_;
+  const coupling::Synthesis& synthesis_;
+  std::vector<double> full_;
+  std::vector<Gap> gaps_;
+};
 
 }  // namespace
 
@@ -163,13 +239,19 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
   const double smallest = smallestEigenvalue(K, M);
   const Vector connectors = workOfConnectors(parts, coupled, pairs.vectors);
   std::vector<FrequencyEstimate> estimates(static_cast<std::size_t>(pairs.values.size()));
+  std::vector<double> full;
   for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
     FrequencyEstimate& e = estimates[static_cast<std::size_t>(j)];
     e.eigenvalue = pairs.values[j];
     e.byPart = Vector::Zero(static_cast<Eigen::Index>(parts.size()));
+    full.push_back(e.eigenvalue);
     if (std::abs(e.eigenvalue) <= smallest) continue;
-    assess(e, j, all, connectors[j]);
+    full.back() = assess(e, j, all, connectors[j]);
   }
+  if (estimates.empty()) return estimates;
+  if (const auto bound = ModeCounts(parts, synthesis, full, estimates).missingAbove())
+    for (std::size_t j = 0; j < full.size(); ++j)
+      if (full[j] > *bound) estimates[j].definite = false;
   return estimates;
 }
 
@@ -185,7 +267,7 @@ std::string frequencyTable(const std::vector<FrequencyEstimate>& estimates,
     const bool known = e.byPart.size() > 0 && e.byPart[worst] > 0;
     text += fmt::format("  {:4}  {:14.8g}  {:16.2e}   {}{}\n", j + 1, e.frequency(), e.error,
                         known ? parts[at(worst)].name : "-",
-                        e.definite ? "" : " (a part lacks a mode below this frequency)");
+                        e.definite ? "" : " (modes are missing below this frequency)");
   }
   return text;
 }

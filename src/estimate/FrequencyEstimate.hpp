@@ -18,8 +18,8 @@ struct FrequencyEstimate {
   double error = 0;  ///< estimate of (f - f_full) / f_full, positive where the reduced frequency is
                      ///< too high; 0 for a rigid body
   Vector byPart;     ///< contribution of the truncated modes of each part to `error`, parts
-  bool definite = true;      ///< false: a part lacks a mode below this frequency, so that modes are
-                             ///< missing and `error` is only known to be large
+  bool definite = true;      ///< false: modes are missing below this frequency, and `error`, that
+                             ///< of the nearest one, is less than the error of this number
   double frequency() const;  ///< sign(omega^2) sqrt(|omega^2|) / 2 pi [Hz]
 };
 
@@ -41,8 +41,11 @@ struct FrequencyWindow {
 /// r is taken on two Krylov vectors, and the first-order formula becomes a Rayleigh-Ritz step on D
 /// and these vectors of all parts, so that large errors are right as well. One factorisation a
 /// part, two solves a part and mode. Compare J.-G. Kim, K.-H. Lee and P.-S. Lee, Comput. Struct.
-/// 139 (2014) 54-64, whose estimator is the term with F_p(0). Every rank passes the same and gets
-/// the same; parts are shared out. Collective.
+/// 139 (2014) 54-64, whose estimator is the term with F_p(0).
+///
+/// The formula gives the distance to the nearest full mode. Whether the full model has more modes
+/// below is counted by Sylvester's law of inertia (coupling::fullEigenvaluesBelow), once where
+/// there are none. Every rank passes the same and gets the same; parts are shared out. Collective.
 std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Substructure>& parts,
                                                    const coupling::Synthesis& synthesis,
                                                    const FrequencyWindow& window = {});

@@ -244,7 +244,7 @@ std::string comparisonTable(const std::vector<ModeComparison>& modes, bool dampe
     else
       text += fmt::format("  {:4}  {:14.8g}  {:14.8g}  {:10.7f}  {:10.2e}   {}{}\n", i + 1,
                           m.fullHz(), m.coupledHz(), m.mac, m.error, estimate,
-                          m.definite ? "" : "  (a part lacks a mode below)");
+                          m.definite ? "" : "  (modes are missing below)");
   }
   return text;
 }

@@ -28,7 +28,7 @@ struct ModeErrors {
   std::vector<double> error;  ///< coupled / full - 1
   std::vector<double>
       estimate;  ///< of `error`, without the full model; empty where a basis has none
-  std::vector<double> definite;  ///< 0 where a part lacks a mode below that frequency
+  std::vector<double> definite;  ///< 0 where modes are missing below that frequency
   bool known() const { return !full.empty(); }
   double worst() const;     ///< largest |error|
   double leastMac() const;  ///< 1 when nothing is known

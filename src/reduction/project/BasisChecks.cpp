@@ -199,9 +199,15 @@ void checkDualStatics(const PartView& part, const Basis& basis, const ProjectedM
   }
 }
 
-/// A coordinate without any mass, which implicit schemes condense.
-bool hasMasslessDof(const Matrix& mass) {
-  return (mass.rowwise().lpNorm<Eigen::Infinity>().array() == 0.0).any();
+/// Modes of a reduced part with coordinates, or combinations of them, that move no mass; implicit
+/// schemes condense these.
+linalg::EigenPairs modesWithoutMass(const PartView& part, const ProjectedMatrices& reduced) {
+  try {
+    return linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
+  } catch (const ModelError& error) {
+    throw ModelError(part.who() + "its reduced mass matrix is not positive semidefinite. " +
+                     error.what());
+  }
 }
 
 void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
@@ -217,9 +223,9 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
     report.largestOmega = 0;
     report.explicitStep = 0;
     report.zeroEnergyReduced = 0;
-  } else if (basis.forces() == 0 && (basis.inertial.size() > 0 || hasMasslessDof(m))) {
-    const linalg::EigenPairs pairs =
-        linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
+  } else if (basis.forces() == 0 &&
+             (basis.inertial.size() > 0 || linalg::hasSingularMass(reduced.mass))) {
+    const linalg::EigenPairs pairs = modesWithoutMass(part, reduced);
     report.largestOmega = pairs.count() > 0 ? std::sqrt(std::max(0.0, pairs.values.maxCoeff())) : 0;
     if (pairs.count() < size)
       report.remarks.push_back("its mass matrix is singular for " +

@@ -7,6 +7,7 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "reduction/methods/BasisBuilder.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
@@ -18,18 +19,25 @@ namespace {
 /// others.
 constexpr double dependent = 1e-10;
 
-/// Adds the Ritz modes of a group. M = P' L L' P; the columns of L' P Z are orthogonalised by
-/// Householder reflections with pivoting.
-void addRitzModes(const PartView& part, const VectorGroup& group, const std::string& kind,
-                  InteriorVectors& to) {
-  const Sparse M = block(part.mass(), group.positions, group.positions),
-               k = block(part.symmetricStiffness(), group.positions, group.positions);
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor{Eigen::SparseMatrix<double>(M)};
-  if (factor.info() != Eigen::Success)
+/// M-orthonormal columns of the span of Z for a singular M. The vectors are answers K_II^-1 M phi,
+/// of which none but zero moves no mass, as long as K is symmetric.
+Matrix orthonormalWithoutMass(const PartView& part, const Sparse& M, const Matrix& Z) {
+  if (!part.symmetric())
     throw ModelError(part.who() +
-                     "its interior mass matrix is not positive definite. Give every interior dof a "
-                     "mass, or retain the massless dofs.");
-  Matrix scaled = factor.matrixU() * (factor.permutationP() * group.columns);
+                     "its interior has dofs without mass and its stiffness is not symmetric. Give "
+                     "every interior dof a mass, retain the massless dofs, or choose the basis "
+                     "\"Craig-Bampton\".");
+  OrthonormalSet set(M, dependent, part.who());
+  for (Eigen::Index j = 0; j < Z.cols(); ++j) set.add(Z.col(j));
+  return set.basis();
+}
+
+/// M-orthonormal columns of the span of Z. M = P' L L' P; the columns of L' P Z are orthogonalised
+/// by Householder reflections with pivoting.
+Matrix orthonormal(const PartView& part, const Sparse& M, const Matrix& Z) {
+  if (linalg::hasSingularMass(M)) return orthonormalWithoutMass(part, M, Z);
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor{Eigen::SparseMatrix<double>(M)};
+  Matrix scaled = factor.matrixU() * (factor.permutationP() * Z);
   Eigen::Index used = 0;
   for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
     const double length = scaled.col(j).norm();
@@ -40,8 +48,15 @@ void addRitzModes(const PartView& part, const VectorGroup& group, const std::str
   const Eigen::Index rank = used > 0 ? qr.rank() : 0;
   Matrix Q = Matrix::Identity(scaled.rows(), rank);
   Q.applyOnTheLeft(qr.householderQ());
-  const Matrix W = factor.permutationPinv() * Matrix(factor.matrixU().solve(Q));
-  addRitzVectors(k, M, W, sizeOf(to.groups) - 1, kind, to);
+  return factor.permutationPinv() * Matrix(factor.matrixU().solve(Q));
+}
+
+/// Adds the Ritz modes of a group.
+void addRitzModes(const PartView& part, const VectorGroup& group, const std::string& kind,
+                  InteriorVectors& to) {
+  const Sparse M = block(part.mass(), group.positions, group.positions),
+               k = block(part.symmetricStiffness(), group.positions, group.positions);
+  addRitzVectors(k, M, orthonormal(part, M, group.columns), sizeOf(to.groups) - 1, kind, to);
 }
 
 /// Columns of `all` (interior x columns) that are not zero on the dofs of a group.

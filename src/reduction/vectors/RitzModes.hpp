@@ -23,7 +23,9 @@ struct VectorGroup {
 /// by omega^2. Vectors that depend on the others to 1e-10 in the mass norm are left out. The groups
 /// must not be joined by mass or stiffness. Whatever vectors span the space, these coordinates give
 /// the same reduced model, with the structure of Craig and Bampton's. Sets vectors, eigenvalues,
-/// modeKind, orthonormal, orthogonality. Throws ModelError when M_II is not positive definite.
+/// modeKind, orthonormal, orthogonality. M_II may be singular where K is symmetric: vectors that
+/// move no mass are left out, static answers are those of the constraint modes. ModelError
+/// otherwise, and where M_II is indefinite.
 void completeWithRitzModes(const PartView& part, const ConstraintModes& constraint,
                            const std::vector<VectorGroup>& groups, const std::string& kind,
                            Basis& basis);

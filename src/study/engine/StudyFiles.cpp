@@ -41,7 +41,7 @@ void writeRow(io::ResultsFile& file, const std::string& group, const StudyRow& r
   writeCurve(file, group + "/mode_estimate", m.estimate, "1",
              "The same estimated without the full model");
   writeCurve(file, group + "/mode_definite", m.definite, "1",
-             "0 where a part lacks a mode below that frequency");
+             "0 where modes are missing below that frequency");
   writeCurve(file, group + "/error_time", c.errorTime, "s", "Times of eps_t");
   writeCurve(file, group + "/eps_t", c.errorOverTime, "1", "eps_t against the reference");
   writeCurve(file, group + "/bit_time", c.bitTime, "s", "Times of the bit speed");

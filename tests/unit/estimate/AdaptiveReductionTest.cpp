@@ -56,6 +56,21 @@ TEST(FrequencyTolerance, IsMetAndTighterOnesTakeMoreModes) {
   EXPECT_LT(before, full.size() - 9) << "even the tightest one leaves modes out";
 }
 
+/// A small part between two grounds, and more frequencies than its first reduction has.
+TEST(FrequencyTolerance, GivesAllFrequenciesThatAreAskedFor) {
+  std::vector<model::Substructure> parts{samples::bar("left", 1, 10, 100.0, 1.0, {1}),
+                                         samples::bar("right", 11, 8, 90.0, 1.0, {19})};
+  for (auto& part : parts) samples::classify(part, {11});
+  const auto full = coupling::couple(parts);
+  const auto outcome = estimate::synthesise(parts, *craigBampton(), tolerance(0.5), lowest(12));
+  ASSERT_GE(outcome.frequencies.size(), 12u);
+  for (const auto& mode : estimate::compareModes(full, parts, outcome.synthesis, 12))
+    EXPECT_LE(std::abs(mode.error), 0.5);
+  // All there are, and no more.
+  const auto all = estimate::synthesise(parts, *craigBampton(), tolerance(0.5), lowest(100));
+  EXPECT_EQ(static_cast<int>(all.frequencies.size()), full.size());
+}
+
 TEST(FrequencyTolerance, PartsThatDoNotMatterGetNoModes) {
   // A stiff short bar between two soft ones.
   std::vector<model::Substructure> parts{samples::bar("soft", 1, 20, 100.0, 1.0, {1}),

@@ -13,6 +13,7 @@
 #include "Reduced.hpp"
 #include "common/Constants.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "estimate/AdaptiveReduction.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -133,6 +134,43 @@ TEST(FrequencyEstimate, TellsAFrequencyAboveAMissingMode) {
   const auto estimates = estimate::estimateFrequencies(bars(), reduced(bars(), 0), {2, 0});
   EXPECT_TRUE(estimates[0].definite);
   EXPECT_FALSE(estimates[1].definite);
+}
+
+/// A mass on a stiff spring that carries oscillators: two equal ones, which a spring joins, so that
+/// their difference, lambda = (10 + 2 * 20) / 1, moves nothing else, and a light one.
+model::Substructure oscillators() {
+  model::Substructure part;
+  part.name = "oscillators";
+  part.model.componentNames = {"u"};
+  const Matrix spring = (Matrix(2, 2) << 1, -1, -1, 1).finished();
+  Triplets stiffness;
+  samples::add(stiffness, Matrix::Constant(1, 1, 4000.0), {0});
+  for (const int i : {1, 2, 3}) samples::add(stiffness, 10.0 * spring, {0, i});
+  samples::add(stiffness, 20.0 * spring, {1, 2});
+  for (const int node : {1, 2, 3, 4}) part.model.dofs.push_back(model::DofLabel::physical(node, 0));
+  part.model.mass = samples::square(4, {{0, 0, 4.0}, {1, 1, 1.0}, {2, 2, 1.0}, {3, 3, 1e-3}});
+  part.model.stiffness.push_back({"elastic", samples::square(4, stiffness), 0});
+  samples::complete(part);
+  part.retained = {0};
+  return part;
+}
+
+// No residual has the missing motion: only a count finds it.
+TEST(FrequencyEstimate, CountsModesThatNoResidualSees) {
+  const std::vector<model::Substructure> parts{oscillators()};
+  const auto synthesis = reduced(parts, 1);  // the sum of the equal oscillators
+  ASSERT_EQ(synthesis.coupled.model.size(), 2);
+  const Vector coupled = frequencies(synthesis.coupled.model, 2);
+  const Vector full = frequencies(coupling::couple(parts), 4);
+  EXPECT_NEAR(full[1], std::sqrt(50.0), 1e-9);
+  EXPECT_NEAR(coupled[1], full[2], 1e-3 * full[2]);
+  const auto estimates = estimate::estimateFrequencies(parts, synthesis, {2, 0});
+  EXPECT_TRUE(estimates[0].definite);
+  EXPECT_NEAR(estimates[1].error, coupled[1] / full[2] - 1.0, 1e-9);
+  EXPECT_FALSE(estimates[1].definite);
+  EXPECT_EQ(estimate::largestError(estimates), 1.0);
+  for (const auto& e : estimate::estimateFrequencies(parts, reduced(parts, 2), {3, 0}))
+    EXPECT_TRUE(e.definite);
 }
 
 }  // namespace
