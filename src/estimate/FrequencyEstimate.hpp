@@ -43,9 +43,10 @@ struct FrequencyWindow {
 /// part, two solves a part and mode. Compare J.-G. Kim, K.-H. Lee and P.-S. Lee, Comput. Struct.
 /// 139 (2014) 54-64, whose estimator is the term with F_p(0).
 ///
-/// The formula gives the distance to the nearest full mode. Whether the full model has more modes
-/// below is counted by Sylvester's law of inertia (coupling::fullEigenvaluesBelow), once where
-/// there are none. Every rank passes the same and gets the same; parts are shared out. Collective.
+/// The formula gives the distance to the full mode that is like it, whatever its number. Whether
+/// the full model has more modes below is counted by Sylvester's law of inertia
+/// (coupling::fullEigenvaluesBelow), once where there are none. Every rank passes the same and gets
+/// the same; parts are shared out. Collective.
 std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Substructure>& parts,
                                                    const coupling::Synthesis& synthesis,
                                                    const FrequencyWindow& window = {});

@@ -199,8 +199,13 @@ void checkDualStatics(const PartView& part, const Basis& basis, const ProjectedM
   }
 }
 
-/// Modes of a reduced part with coordinates, or combinations of them, that move no mass; implicit
-/// schemes condense these.
+/// Some coordinates, or combinations of them, move no mass because dofs of the part have none.
+/// Where they all have mass, a singular reduced mass is that of dependent vectors.
+bool lacksMass(const PartView& part, const ProjectedMatrices& reduced) {
+  return linalg::hasSingularMass(reduced.mass) && linalg::hasSingularMass(part.mass());
+}
+
+/// Modes of such a part; implicit schemes condense what moves no mass.
 linalg::EigenPairs modesWithoutMass(const PartView& part, const ProjectedMatrices& reduced) {
   try {
     return linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
@@ -223,8 +228,7 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
     report.largestOmega = 0;
     report.explicitStep = 0;
     report.zeroEnergyReduced = 0;
-  } else if (basis.forces() == 0 &&
-             (basis.inertial.size() > 0 || linalg::hasSingularMass(reduced.mass))) {
+  } else if (basis.forces() == 0 && (basis.inertial.size() > 0 || lacksMass(part, reduced))) {
     const linalg::EigenPairs pairs = modesWithoutMass(part, reduced);
     report.largestOmega = pairs.count() > 0 ? std::sqrt(std::max(0.0, pairs.values.maxCoeff())) : 0;
     if (pairs.count() < size)
