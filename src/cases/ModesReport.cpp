@@ -20,6 +20,7 @@
 #include "estimate/ModeComparison.hpp"
 #include "io/Csv.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
+#include "model/DofNames.hpp"
 #include "reduction/part/Partition.hpp"
 #include "stability/StateStability.hpp"
 
@@ -117,7 +118,8 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
   }
   if (!options.output.empty()) table.writeInto(options.output, "modes.csv");
   const auto m = estimate::linearise(full, t);
-  const auto damped = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, count);
+  const auto damped =
+      linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, count, model::namer(full));
   log::info(dampedHeading(t) + ":");
   log::info("  mode  full |s| [Hz]  full Im s [Hz]       damping");
   io::Csv dampedTable({{"mode", ""}, {"full", "Hz"}, {"full_damping", ""}, {"full_im", "Hz"}});

@@ -6,6 +6,7 @@
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
+#include "model/DofNames.hpp"
 #include "reduction/part/Partition.hpp"
 
 namespace tooljoint::estimate {
@@ -114,7 +115,8 @@ linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& model,
                                            const Linearised& m, int count,
                                            const linalg::EnergyRounding& rounding) {
   for (int looked = std::min(count, model.size());; looked = std::min(2 * looked, model.size())) {
-    auto modes = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, looked, {}, rounding);
+    auto modes = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, looked,
+                                           model::namer(model), rounding);
     const auto spurious = coupling::spuriousShapes(model, modes.vectors);
     Eigen::Index kept = 0;
     for (Eigen::Index j = 0; j < modes.values.size(); ++j) {

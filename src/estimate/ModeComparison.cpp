@@ -15,6 +15,7 @@
 #include "estimate/FrequencyEstimate.hpp"
 #include "estimate/PartResidual.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
+#include "model/DofNames.hpp"
 
 namespace tooljoint::estimate {
 
@@ -194,8 +195,9 @@ std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& fu
                                                const coupling::Synthesis& synthesis, int count,
                                                double t, const std::vector<Sparse>& maps) {
   const Linearised whole = linearise(full, t), small = linearise(synthesis.coupled.model, t);
-  const auto exact = linalg::lowestDampedModes(whole.mass, whole.damping, whole.stiffness,
-                                               std::min(count + moreModes, full.size()));
+  const auto exact =
+      linalg::lowestDampedModes(whole.mass, whole.damping, whole.stiffness,
+                                std::min(count + moreModes, full.size()), model::namer(full));
   const auto coupled = physicalDampedModes(synthesis.coupled.model, small, count + 2 * moreModes,
                                            roundingOfParts(parts, synthesis));
   const bool estimated = isRitz(synthesis);

@@ -8,6 +8,7 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "estimate/PartResidual.hpp"
+#include "model/DofNames.hpp"
 #include "model/SteadyRotation.hpp"
 
 namespace tooljoint::response {
@@ -69,7 +70,8 @@ std::vector<estimate::Linearised> RotatingCase::partsAt(double speed) const {
 linalg::QuadraticModes RotatingCase::modes(const estimate::Linearised& m, int count) const {
   const int most = std::min(count, model().size());
   return reduced_ ? estimate::physicalDampedModes(model(), m, most, rounding_)
-                  : linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, most);
+                  : linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, most,
+                                              model::namer(model()));
 }
 
 std::vector<estimate::ModeComparison> RotatingCase::compare(double speed, int count) const {

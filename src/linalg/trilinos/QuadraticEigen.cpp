@@ -228,10 +228,31 @@ std::optional<DampedMode> refinedMode(const ScaledPencil& pencil, Complex s,
   return mode && std::abs(mode->s - s) <= sameValue * std::abs(s) ? mode : std::nullopt;
 }
 
+/// Where a mode is to be looked for: a real value of a singular mass at the massless dof that
+/// relaxes fastest, at -k/c, of which the vector may have no digit; others where they move most.
+std::string placeOf(const ScaledPencil& pencil, Complex s, const ComplexVector& phi,
+                    const DofNamer& name) {
+  const Vector k = pencil.K.diagonal(), c = pencil.C.diagonal(), m = pencil.M.diagonal();
+  int fastest = -1;
+  if (s.imag() == 0.0)
+    for (int i = 0; i < m.size(); ++i)
+      if (m[i] == 0.0 && c[i] > 0.0 && (fastest < 0 || k[i] / c[i] > k[fastest] / c[fastest]))
+        fastest = i;
+  if (fastest >= 0)
+    return " No mass acts at " + nameOf(name, fastest) + ", and damping (" +
+           scientific(c[fastest] / (pencil.scale[fastest] * pencil.scale[fastest])) +
+           ") so small that it relaxes far faster than all vibrations. Leave that damping out, or "
+           "give the dof more of it, or a mass.";
+  Eigen::Index largest = 0;
+  pencil.scale.cwiseProduct(phi.cwiseAbs()).maxCoeff(&largest);
+  return " It moves most at " + nameOf(name, static_cast<int>(largest)) + ".";
+}
+
 /// The first `wanted` pairs, without those that are infinite and repeated zeros. ConvergenceError
 /// where a finite one is not accurate.
 DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse,
-                         const Upper& found, const RitzPairs& ritz, std::size_t wanted) {
+                         const Upper& found, const RitzPairs& ritz, std::size_t wanted,
+                         const DofNamer& name) {
   DampedModes out;
   std::size_t zeros = 0;
   const double farthest = 1.0 / infiniteNu(ritz, inverse.shift());
@@ -250,10 +271,10 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
     const bool accurate = error <= acceptedError + rounding;
     const auto refined = accurate ? std::nullopt : refinedMode(pencil, s, better);
     if (!accurate && !refined)
-      throw ConvergenceError("Damped mode " + std::to_string(j + 1) +
-                             " (s = " + scientific(s.real()) + " + " + scientific(s.imag()) +
-                             " i) has a relative error of " + scientific(error) + " where " +
-                             scientific(acceptedError + rounding) + " is allowed.");
+      throw ConvergenceError(
+          "Damped mode " + std::to_string(j + 1) + " (s = " + scientific(s.real()) + " + " +
+          scientific(s.imag()) + " i) has a relative error of " + scientific(error) + " where " +
+          scientific(acceptedError + rounding) + " is allowed." + placeOf(pencil, s, better, name));
     if (refined) s = refined->s, better = refined->shape;
     if (isZero(pencil, s, better)) {
       s = 0;
@@ -309,7 +330,7 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
       before = worst;
       continue;
     }
-    DampedModes modes = checkedModes(pencil, *inverse, found, ritz, wanted);
+    DampedModes modes = checkedModes(pencil, *inverse, found, ritz, wanted, name);
     if (static_cast<int>(modes.values.size()) >= count || found.s.size() <= wanted) return modes;
     wanted +=
         static_cast<std::size_t>(count) - modes.values.size();  // chains at zero have been left out

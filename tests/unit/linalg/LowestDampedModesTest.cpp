@@ -351,6 +351,25 @@ TEST(LowestDampedModes, OfMasslessDofsTheDampedOnesHaveFiniteValues) {
       }
 }
 
+// Damping too faint for a value that is told from infinity: the refusal says where it is.
+TEST(LowestDampedModes, FaintDampingOnAMasslessDofIsNamed) {
+  const int n = 6;
+  const Shaft s = shaft(n, 0.4, 0.05, false);
+  for (const double damping : {5e-5, 2e-5}) {
+    Matrix M = s.M, C = s.C, K = s.K;
+    for (const int i : {2, 3, 4, 7, 8, 9}) M(i, i) = 0, C.row(i).setZero(), C.col(i).setZero();
+    C(4, 4) = 2 * damping, C(7, 7) = damping;
+    try {
+      lowestDampedModes(sparse(M), sparse(C), sparse(K), 2 * n,
+                        [](int i) { return "place " + std::to_string(i); });
+      ADD_FAILURE() << "-k/c = " << -200 / damping << " was found";
+    } catch (const ConvergenceError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("No mass acts at place 7, and damping ("), std::string::npos) << text;
+    }
+  }
+}
+
 // Without damping the stage has nothing to do but to repeat the undamped modes: s = i omega, and
 // +-sqrt(-omega^2) where omega^2 < 0.
 TEST(LowestDampedModes, WithoutDampingTheyAreTheSymmetricModes) {
