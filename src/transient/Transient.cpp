@@ -350,6 +350,7 @@ class Run {
                 "\" does not measure its steps. Compare with a run of half the step.");
       return;
     }
+    warnOfDamping();
     const double error = stepError_->value();
     if (error <= options_.stepErrorWarning) return;
     const bool tooLarge = error > options_.stepErrorLimit;
@@ -358,6 +359,17 @@ class Run {
          << (tooLarge ? "too large" : "coarse") << ": step error " << percent(error) << " %. "
          << integrator_->stepAdvice();
     if (tooLarge) throw ConvergenceError(text.str());
+    log::warn(text.str());
+  }
+
+  /// The scheme may hold down what grows, which neither S nor the balance of energy sees.
+  void warnOfDamping() const {
+    if (stepError_->damped() <= options_.stepErrorWarning) return;
+    std::ostringstream text;
+    text << "The scheme damps vibration: steps of " << integrator_->counters().maxStep << " s take "
+         << percent(stepError_->damped()) << " % of its amplitude in " << stepError_->span()
+         << " s. What friction makes grow may stay small. "
+         << stepError_->damping()->dampingAdvice();
     log::warn(text.str());
   }
 

@@ -8,6 +8,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "coupling/input/ComponentAxes.hpp"
+#include "transient/accuracy/StepControl.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -24,6 +25,12 @@ constexpr int corrections = 2;
 /// Motion in windows that is less than this part of the displacement since the start is rest: what
 /// iterations leave is a part of the displacement, too, of the order of their tolerance.
 constexpr double negligible = 1e-3;
+/// Motion that is less than this part of the displacement has no damping that means anything.
+constexpr double quiet = 1e-6;
+constexpr double golden = 0.6180339887498949;
+/// The damping of the scheme is looked at in so many first steps, in which what the start excites
+/// is lost, and then once in so many: a look costs some products with M.
+constexpr long dampingStart = 64, dampingStride = 11;
 /// Over longer times [s] contact parts any two motions.
 constexpr double longest = 3.0;
 
@@ -46,11 +53,23 @@ Sparse translationsOf(const CompiledModel& model) {
   return result;
 }
 
+/// Mass over the number of nodes, or of coordinates.
+double inertiaOf(const CompiledModel& model, bool translated) {
+  MassNorm norm;
+  norm.bind(model);
+  const auto& source = model.source();
+  const auto components = static_cast<Eigen::Index>(source.componentNames.size());
+  const auto lengths = translated ? source.recovery.rows() / components
+                                  : static_cast<Eigen::Index>(model.wholeSize());
+  return norm.mass() / static_cast<double>(lengths);
+}
+
 }  // namespace
 
 StepError::StepError(CompiledModel& model, const Integrator& run,
                      std::unique_ptr<Integrator> second, const Window& window, const State& start)
     : model_(&model),
+      damping_(dynamic_cast<const NumericalDamping*>(&run)),
       second_(std::move(second)),
       translations_(translationsOf(model)),
       begin_(window.begin),
@@ -66,6 +85,7 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
       difference_(start.q) {
   translated_ = model.cut().any(translations_.rows() > 0);
   product_.setZero(translations_.rows());
+  inertia_ = inertiaOf(model, translated_);
   run.saveHistory(history_);  // nothing is allocated in the step loop
   points_ = model.makePoints();
   for (const auto& batch : points_) scales_.resize(scales_.size() + at(batch.points()));
@@ -89,7 +109,6 @@ void StepError::withModel(const Work& work) {
 
 /// next = s (i + frac(g i)), g the golden ratio: no vibration is always met in the same phase.
 void StepError::plan() {
-  constexpr double golden = 0.6180339887498949;
   const double i = static_cast<double>(seen_), spread = golden * (i + 1);
   next_ = static_cast<long>(static_cast<double>(stride_) * (i + spread - std::floor(spread)));
   if (stride_ == inWindow) next_ = stride_ * seen_;  // one after the other
@@ -119,7 +138,27 @@ void StepError::before(const Integrator& run, const State& from) {
     for (int p = 0; p < batch.points(); ++p) scales_.push_back(batch.scale(p));
 }
 
+/// Spread as windows are, so that no vibration is always met in the same phase.
+long StepError::nextLook() const {
+  if (taken_ < dampingStart) return taken_;
+  const double i = static_cast<double>(looks_), spread = golden * i;
+  return dampingStart +
+         static_cast<long>(static_cast<double>(dampingStride) * (i + spread - std::floor(spread)));
+}
+
+void StepError::lookAtDamping(const State& from, const State& to) {
+  if (damping_ == nullptr) return;
+  const bool first = taken_ < dampingStart;
+  if (taken_++ < nextLook()) return;
+  if (!first) ++looks_;
+  const double weight = first ? 1.0 : static_cast<double>(dampingStride);
+  difference_ = to.q - from.q;
+  vibrated_ += weight * square(difference_) / (to.t - from.t);
+  lost_ += weight * damping_->dissipated(from, to);
+}
+
 void StepError::after(const State& from, const State& to) {
+  lookAtDamping(from, to);
   if (end_ < 0) return;
   const double dt = to.t - from.t;
   difference_ = to.q - from.q;
@@ -182,10 +221,18 @@ double StepError::value() const {
   return std::max(1.0, turns) * std::sqrt(errors_ / std::max(moved_, least));
 }
 
+double StepError::damped() const {
+  const double energy = 0.5 * inertia_ * vibrated_;  // integral over the time looked at
+  if (count_ < fewestSaying || !(std::sqrt(moved_) > quiet * std::sqrt(sizes_)) || !(energy > 0))
+    return 0.0;
+  return 1 - std::exp(-std::max(0.0, 0.25 * turning_ * lost_ / energy));
+}
+
 void StepError::save(std::vector<double>& memory) const {
   memory.insert(memory.end(),
                 {static_cast<double>(seen_), static_cast<double>(end_), most_,
-                 static_cast<double>(count_), errors_, moved_, sizes_, speeds_, offsets_, looked_});
+                 static_cast<double>(count_), errors_, moved_, sizes_, lost_, vibrated_, speeds_,
+                 offsets_, looked_, static_cast<double>(taken_), static_cast<double>(looks_)});
   if (end_ >= 0) {
     from_.save(memory);
     memory.insert(memory.end(), first_.begin(), first_.end());
@@ -202,7 +249,11 @@ void StepError::restore(const double*& memory) {
   end_ = static_cast<long>(*memory++);
   most_ = *memory++;
   count_ = static_cast<long>(*memory++);
-  for (double* sum : {&errors_, &moved_, &sizes_, &speeds_, &offsets_, &looked_}) *sum = *memory++;
+  for (double* sum :
+       {&errors_, &moved_, &sizes_, &lost_, &vibrated_, &speeds_, &offsets_, &looked_})
+    *sum = *memory++;
+  taken_ = static_cast<long>(*memory++);
+  looks_ = static_cast<long>(*memory++);
   plan();
   if (end_ >= 0) {
     from_.restore(memory);

@@ -88,7 +88,7 @@ void AlphaStep::startLike(const AlphaStep& other) {
 }
 
 void AlphaStep::bind(const Vector& a) {
-  A_ = nextA_ = error_ = a;
+  A_ = nextA_ = error_ = work_ = a;
   for (Impacts* impacts : {&impacts_, &lastImpacts_}) {
     impacts->a.setZero(a.size());
     impacts->blocks.clear();
@@ -201,6 +201,27 @@ const Vector& AlphaStep::localError(double h, bool impacts) {
   if (impacts)
     addImpacts(1.0 / scheme(h).acceleration, impacts_, error_);  // h^2/2 M^-1 R'f, see complete()
   return error_;
+}
+
+/// With the mean x and the change Dx of a step, the formulas of Newmark for A give
+///
+///     D(v'M v/2 + h^2 (b - g/2) A'M A / 2) = Dq'M q'' - e,
+///     e = -Dq'M (A - q'' + (g - 1/2) DA) + h^2 (b - g/2) (g - 1/2) DA'M DA
+///
+/// of which the first term on the right is the work of all forces. A product of two vectors is
+/// x'M y = ((x + y)'M (x + y) - (x - y)'M (x - y)) / 4.
+double AlphaStep::dissipated(const State& from, const State& to, double h) const {
+  if (model_->cut().any(!impacts_.blocks.empty() || !lastImpacts_.blocks.empty())) return 0.0;
+  const Vector &A = A_, &before = nextA_;  // swapped by keep()
+  const double square = h * h;
+  const auto lag = 0.5 * (A + before - to.a - from.a) + (gamma_ - 0.5) * (A - before);
+  work_ = to.q - from.q + square * lag;
+  const double sum = model_->massForm(work_.data());
+  work_ = to.q - from.q - square * lag;
+  const double difference = model_->massForm(work_.data());
+  work_ = A - before;
+  return (difference - sum) / (4 * square) +
+         square * (beta_ - 0.5 * gamma_) * (gamma_ - 0.5) * model_->massForm(work_.data());
 }
 
 void AlphaStep::save(std::vector<double>& memory) const {

@@ -47,6 +47,9 @@ class AlphaStep {
   /// moved.
   const Vector& localError(double h, bool impacts);
   const Vector& lastError() const { return error_; }
+  /// Energy [J] that the scheme has taken in the step kept last, of length h; 0 where it met walls
+  /// as impacts, which the balance leaves out.
+  double dissipated(const State& from, const State& to, double h) const;
   const ImplicitStep& equation() const { return equation_; }
   /// After start().
   const MassFactor& mass() const { return *mass_; }
@@ -86,6 +89,7 @@ class AlphaStep {
   Vector X_, nextX_, base_;        ///< the same for states of point laws; x_{n+1} without x'_{n+1}
   Impacts impacts_, lastImpacts_;  ///< of the step under way and of the one before
   Vector error_;
+  mutable Vector work_;
 };
 
 }  // namespace tooljoint::transient

@@ -48,6 +48,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "transient/Integrator.hpp"
+#include "transient/accuracy/NumericalDamping.hpp"
 #include "transient/accuracy/StepControl.hpp"
 #include "transient/accuracy/StepGrid.hpp"
 #include "transient/contact/ImpactResolution.hpp"
@@ -120,7 +121,7 @@ constexpr double defaultStep = 1e-3;
 /// Halves are solved better than the steps of a run, so that what its iterations leave is seen.
 constexpr double strictness = 0.1;
 
-class GeneralizedAlpha final : public Integrator {
+class GeneralizedAlpha final : public Integrator, public NumericalDamping {
  public:
   explicit GeneralizedAlpha(const Teuchos::ParameterList& given) {
     const auto own = withDefaults(given, specification());
@@ -146,6 +147,12 @@ class GeneralizedAlpha final : public Integrator {
            " or Transient/Generalized-alpha/Spectral Radius";
   }
   std::string stepAdvice() const override;
+  double dissipated(const State& from, const State& to) const override {
+    return scheme_->dissipated(from, to, to.t - from.t);
+  }
+  std::string dampingAdvice() const override {
+    return "Set Transient/Generalized-alpha/Spectral Radius nearer to 1, or reduce Transient/Step.";
+  }
   void checkParameters(double step) const override;
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// A time step that is too large ends a run; smaller ones, and models at rest, pass.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <string>
+#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -149,6 +151,30 @@ TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
   EXPECT_GT(coarse, 0.02);
   EXPECT_LT(coarse, 0.5);
   EXPECT_LT(fine, 0.02);
+}
+
+/// The string of stress_170m on a wall of 1e8 N/m without damping: friction makes it vibrate. RK4
+/// in steps of 0.01 ms has a lateral speed of 0.16 m/s rms from 1 to 2 s. Steps of 1 ms with a
+/// radius of 0.2 hold that at a tenth, with a step error of 2 %, a closed balance of energy, and
+/// halves that do so, too. On the wall of the scene the scheme takes nothing that matters.
+TEST(StepAccuracy, warnsOfDampingThatHoldsVibrationDown) {
+  const auto said = [](std::vector<std::string> more) {
+    more.insert(more.end(), {"Transient/End Time=2", "Transient/Progress=false", "!Study"});
+    const auto scene =
+        drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/stress_170m.xml", more);
+    const auto model = drillstring::fullModel(drillstring::solveStatic(scene));
+    NoSamples sink;
+    log::clearWarnings();
+    EXPECT_LT(integrate(model, scene.list().sublist("Transient"), sink).stepError, 0.05);
+    const auto all = log::warnings();
+    return std::any_of(all.begin(), all.end(), [](const std::string& line) {
+      return line.find("The scheme damps vibration") != std::string::npos &&
+             line.find("Spectral Radius nearer to 1") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(said({"Contact/Law=Clamped", "Contact/Stiffness=1e8", "Contact/Damping=0",
+                    "Transient/Generalized-alpha/Spectral Radius=0.2"}));
+  EXPECT_FALSE(said({}));
 }
 
 }  // namespace
