@@ -18,6 +18,8 @@ namespace tooljoint::cases {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 /// A name of a part as a name of a file.
 std::string fileName(std::string name) {
   for (char& c : name)
@@ -43,6 +45,55 @@ ExportKind kindOf(io::ExportFormat format) {
       return {parts::FileKind::Hdf5, ".h5", true};
   }
 }
+
+/// Files and folders of rank 0 that have names of their own until all of them are written: a
+/// failure leaves none of them, and what was there before.
+class StagedFiles {
+ public:
+  StagedFiles() = default;
+  ~StagedFiles() {
+    std::error_code ignored;
+    for (const auto& one : open_)  // and what a writer has not finished
+      for (const char* ending : {"", ".part"})
+        fs::remove_all(one.staged.string() + ending, ignored);
+  }
+  StagedFiles(const StagedFiles&) = delete;
+  StagedFiles& operator=(const StagedFiles&) = delete;
+
+  /// Where to write what will be called `path`. FileError when something of the other kind is
+  /// there.
+  std::string add(const fs::path& path, bool folder) {
+    if (parallel::rank() == 0 && fs::exists(path) && fs::is_directory(path) != folder)
+      throw FileError("The part cannot be written to " + path.string() + ": that is a " +
+                      (folder ? "file" : "folder") + ". Remove it, or name another folder.");
+    auto staged = path;
+    staged += ".part";
+    if (parallel::rank() == 0) open_.push_back({staged, path});
+    return staged.string();
+  }
+
+  void finish() {
+    for (const auto& one : open_) {
+      std::error_code failed;
+      if (fs::is_directory(one.staged)) {  // files there of other names stay
+        fs::create_directories(one.path, failed);
+        for (const auto& file : fs::directory_iterator(one.staged))
+          if (!failed) fs::rename(file.path(), one.path / file.path().filename(), failed);
+      } else {
+        fs::rename(one.staged, one.path, failed);
+      }
+      if (failed)
+        throw FileError("The part " + one.staged.string() + " cannot be renamed to " +
+                        one.path.string() + ": " + failed.message() + ".");
+    }
+  }
+
+ private:
+  struct Staged {
+    fs::path staged, path;
+  };
+  std::vector<Staged> open_;
+};
 
 }  // namespace
 
@@ -78,19 +129,23 @@ void exportParts(const std::vector<parts::PartContent>& originals,
   parallel::agree([&] {
     if (parallel::rank() == 0) {
       std::error_code failed;
-      std::filesystem::create_directories(folder, failed);
+      fs::create_directories(folder, failed);
       if (failed)
         throw FileError("The folder \"" + folder +
                         "\" for exported parts cannot be made: " + failed.message() + ".");
     }
+    StagedFiles files;
+    const bool folders = format == io::ExportFormat::MatrixMarket;
     for (std::size_t p = 0; p < reduced.size(); ++p) {
       const auto content = parts::reducedContent(originals[p], reduced[p]);
       for (const auto& law : content.omitted)
         log::warn("Part \"" + reduced[p].name + "\" is exported without its point law \"" + law +
                   "\", which a part file cannot hold.");
-      parts::writePart(content, (std::filesystem::path(folder) / written[p]).string(),
-                       kindOf(format).kind, times);
+      auto path = fs::path(folder) / written[p];
+      if (folders) path = path.parent_path();  // without the slash at the end
+      parts::writePart(content, files.add(path, folders), kindOf(format).kind, times);
     }
+    files.finish();
   });
   log::info("exported    " + folder + ": " + join(written, ", "));
   if (!kindOf(format).whole)
@@ -110,7 +165,6 @@ void exportCase(const Case& one, io::ExportFormat format, const std::string& fol
   if (!text.empty()) log::info(text);
   const auto reduced = reduce(one, *rest);
   log::info(reduction::summaryTable(reduced.parts()));
-  namespace fs = std::filesystem;
   exportParts(rest->contents(reduced.unreduced.parts), reduced.parts(), format,
               folder.empty()
                   ? (fs::path("results") / fs::path(deck.file()).stem() / "parts").string()
