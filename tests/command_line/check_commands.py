@@ -29,11 +29,11 @@ OPTIONS_OF_DECKS = ("--set", "--without")
 PLACES = re.compile(r"\b(DECK|DIR|FILE|NAME|[A-Z]{2,})\b")
 
 
-def blocks(page):
-    """Commands in the blocks `sh` of a page, lines that go on joined, and the text of the block before each."""
+def blocks(page, kinds=("sh",)):
+    """Commands in the blocks of a page, lines that go on joined, and the text of the block before each."""
     text, before, found = (PROJECT / page).read_text(encoding="utf-8"), "", []
     for kind, body in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S):
-        if kind == "sh":
+        if kind in kinds:
             lines = body.replace("\\\n", " ").splitlines()
             found += [(line, before) for line in lines if line.strip() and not line.startswith("#")]
         before = body
@@ -44,7 +44,8 @@ def stage(folder):
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "bin").mkdir(parents=True)
     (folder / "build/release").mkdir(parents=True)
-    for name in ("tools", "xml", "tests", "examples", "python"):
+    shutil.copytree(PROJECT / "xml", folder / "xml")  # some commands read a table beside a deck
+    for name in ("tools", "tests", "examples", "python"):
         (folder / name).symlink_to(PROJECT / name)
     for place in ("bin", "build/release"):
         program = folder / place / "tooljoint"
@@ -73,7 +74,7 @@ def run_pages(folder):
                 continue
             measured = re.search(r"Measured=(\S+\.csv)", line)
             if measured:
-                (folder / measured[1]).write_text(before, encoding="utf-8")
+                (folder / "xml" / measured[1]).write_text(before, encoding="utf-8")
             done = subprocess.run(shortened(words), cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False,
                                   timeout=240 * TIME_FACTOR)
             expect(f"{page}: {line.strip()[:110]}", done.returncode == 0, f"({done.returncode}) {done.stderr[-400:]}")
@@ -82,7 +83,7 @@ def run_pages(folder):
 def check_decks():
     """Commands that take minutes: their decks and overrides are read, nothing is solved."""
     seen = set()
-    for line, _ in blocks(CHECKED):
+    for line, _ in blocks(CHECKED, ("sh", "")):
         words = words_of(line)
         if words[:2] != ["tooljoint", "run"]:
             continue
