@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws what `tooljoint bha` left in its folder: tools/plot_bha.py DIR [--output FILE.png]
 

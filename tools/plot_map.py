@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Maps of `tooljoint map` as pictures: plot_map.py DIR
 
@@ -6,6 +6,7 @@ DIR holds map.csv and summary.json. Every value of the list `Map/Values` becomes
 first two axes, contour lines where the grid has three points or more each way, unsafe cells hatched with the limit as a line, failed points
 crossed out. With more than two axes each point of the others has a picture of its own.
 """
+import argparse
 import csv
 import itertools
 import json
@@ -145,7 +146,7 @@ def draw(made, value, rest):
     if np.isfinite(grid).any():
         whole = made.grid[value["name"]]
         cells = axes.pcolormesh(edges(x), edges(y), np.ma.masked_invalid(grid.T), cmap=plots.MAP, vmin=np.nanmin(whole), vmax=np.nanmax(whole), rasterized=grid.size > MOST_CELLS)
-        picture.colorbar(cells, ax=axes, label=value["key"].removeprefix("transient.figures."))
+        picture.colorbar(cells, ax=axes, label=plots.label(value["name"], value.get("unit") or ""))
     lines(axes, x, y, grid, value)
     beyond = unsafe(value, grid)
     if beyond.any():
@@ -164,9 +165,9 @@ def draw(made, value, rest):
 
 
 def main():
-    if len(sys.argv) != 2:
-        fail("give the folder of a map.")
-    folder = pathlib.Path(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path, metavar="DIR", help="folder of a map that ended")
+    folder = parser.parse_args().folder
     try:
         made = Map(folder)
     except NoMap as problem:

@@ -57,7 +57,7 @@ def draw_static(row, results):
 
 def draw_motion(axes, results):
     time, rotary = results["/transient/time"][:], results["/transient/speed"][:]
-    bit = rotary + results["/transient/velocity"][:, -1, 5]
+    bit = results["/transient/motion"][:, 2]
     axes.plot(*plots.envelope(time, RPM * bit), color=BLUE, linewidth=0.6, label="bit")
     axes.plot(*plots.envelope(time, RPM * rotary), color=ORANGE, linewidth=1.2, label="surface")
     axes.set_xlim(time[0], time[-1])
@@ -66,7 +66,7 @@ def draw_motion(axes, results):
 
 
 def draw_string(results):
-    moves = "/transient/velocity" in results
+    moves = "/transient/motion" in results
     made = plt.figure(figsize=(12, 8.5 if moves else 5.8), constrained_layout=True)
     plots.headline(made, f"String of {results['/model/s'][-1]:.0f} m: static state" + (" and speed of the bit" if moves else ""), folder.conditions(results))
     rows = made.subfigures(2 if moves else 1, 1, height_ratios=[2.2, 1] if moves else [1], squeeze=False)[:, 0]
@@ -82,9 +82,14 @@ def texts(dataset):
     return [value.decode() if isinstance(value, bytes) else value for value in dataset[:]]
 
 
+def recorded(results):
+    """Rows (from 0) of the nodes whose motion is recorded."""
+    return results["/transient/node"][:] - 1 if "/transient/node" in results else np.arange(len(results["/static/displacement"]))
+
+
 def draw_nodes(axes, results, start, motion):
-    """A component of all nodes, part by part: at the start, and the range of the motion (samples x nodes, or None)."""
-    part, names = results["/model/part"][:], texts(results["/model/part_names"])
+    """A component of all recorded nodes, part by part: at the start, and the range of the motion (samples x nodes, or None)."""
+    part, names = results["/model/part"][:][recorded(results)], texts(results["/model/part_names"])
     row = np.arange(part.size)
     if motion is not None:
         axes.fill_between(row, motion.min(axis=0), motion.max(axis=0), step="mid", color=COLOURS[5], alpha=0.3, linewidth=0, label="range of the motion")
@@ -98,9 +103,10 @@ def draw_nodes(axes, results, start, motion):
 
 def draw_mover(axes, results, start, motion):
     """The motion over time of the node that moves most."""
-    node = int(np.abs(motion - start).max(axis=0).argmax())
+    column = int(np.abs(motion - start).max(axis=0).argmax())
+    node = recorded(results)[column]
     name = texts(results["/model/part_names"])[results["/model/part"][node] - 1]
-    axes.plot(*plots.envelope(results["/transient/time"][:], motion[:, node]), color=BLUE, linewidth=0.7)
+    axes.plot(*plots.envelope(results["/transient/time"][:], motion[:, column]), color=BLUE, linewidth=0.7)
     axes.set_title(f"node {results['/model/node'][node]} of {name}, which moves most", fontsize=7, fontweight="normal", pad=2)
 
 
@@ -114,7 +120,7 @@ def draw_forces(axes, results, name):
 
 def draw_parts(results):
     components, units = texts(results["/model/components"]), texts(results["/model/component_units"])
-    start = results["/static/displacement"][:]
+    start = results["/static/displacement"][:][recorded(results)]
     motion = results["/transient/displacement"][:] if "/transient/displacement" in results else None
     moving = results.get("/transient", {})
     channels = [f"/transient/{law}/{name}" for law in moving if isinstance(moving[law], h5py.Group) for name in moving[law]]
@@ -200,6 +206,8 @@ def animate(results, path):
     """The motion as an animation of at most MOST_PICTURES samples."""
     if "/transient/displacement" not in results:
         sys.exit("results.h5 has no motion to animate: the run ended with its static state. Run it without --static, or leave --animate out.")
+    if "/transient/node" in results:
+        sys.exit("results.h5 has the motion of chosen nodes alone. Take Output/Depths or Output/Nodes out and run the deck again, or leave --animate out.")
     time = results["/transient/time"][:]
     samples = np.unique(np.linspace(0, len(time) - 1, min(len(time), MOST_PICTURES)).astype(int))
     parts = "/model/part_names" in results

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "app/commands/Commands.hpp"
-#include "app/commands/CoupledModes.hpp"
+#include "app/commands/Modes.hpp"
 #include "app/commands/Pages.hpp"
 #include "app/commands/Scripts.hpp"
 #include "common/Error.hpp"
@@ -240,21 +240,22 @@ void addAnalyses(CLI::App& program, Options& options, std::function<void()>& com
   checkCommand->callback([&] { command = [&] { tooljoint::app::check(options); }; });
 
   auto* modesCommand = program.add_subcommand(
-      "modes", "eigenfrequencies and shapes: fixed-interface, full, coupled");
+      "modes", "eigenfrequencies and damping of the full and the coupled model; bases on request");
   addDeckOptions(*modesCommand, options, Output::Wanted);
   modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
       ->check(CLI::PositiveNumber);
   modesCommand->add_flag("--coupled",
                          "undamped modes of the coupled model and their estimated errors only: the "
                          "full model is not solved");
+  modesCommand->add_flag("--bases",
+                         "the vectors of the basis of each part too, behind the frequencies");
   modesCommand->add_option("--time", options.modeTime,
                            "when the laws of time (rotary speed) are looked at for damped modes "
                            "[s] (default: the end of the motion)");
   modesCommand->callback([&, modesCommand] {
-    const bool coupled = modesCommand->count("--coupled") > 0;
-    command = [&options, coupled] {
-      coupled ? tooljoint::app::coupledModes(options) : tooljoint::app::modes(options);
-    };
+    const tooljoint::app::ModesChoice choice{modesCommand->count("--coupled") > 0,
+                                             modesCommand->count("--bases") > 0};
+    command = [&options, choice] { tooljoint::app::modes(options, choice); };
   });
 
   auto* torqueDragCommand = program.add_subcommand(

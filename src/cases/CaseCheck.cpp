@@ -10,6 +10,7 @@
 
 #include "cases/CaseLists.hpp"
 #include "cases/ReducedCase.hpp"
+#include "cases/run/RecordedNodes.hpp"
 #include "cases/run/Run.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
@@ -66,7 +67,7 @@ void listTransient(const Case& one) {
   list({true, "transient", what});
   const auto& output = one.output();
   const double bytes =
-      8.0 * samples * one.nodes() *
+      8.0 * samples * static_cast<double>(recordedCount(one)) *
       (one.components() * (output.hasField("displacement") + output.hasField("velocity") +
                            output.hasField("acceleration")) +
        output.hasField("normal_force"));

@@ -204,17 +204,18 @@ void listModes(const Case& one, const ModesOptions& options) {
     return;
   }
   const auto reduced = reduce(one, *rest);
-  for (const auto& part : reduced.parts()) log::info(part.report.table());
-  log::info(reduction::summaryTable(reduced.parts()));
   log::info(describeCoupling(reduced.coupled()));
-  if (!reduced.outcome.rounds.empty()) log::info(estimate::roundTable(reduced.outcome.rounds));
   if (options.coupledOnly) {
     listCoupledModes(reduced, options);
-    return;
+  } else {
+    const auto full = rest->full();
+    listComparedModes(full.model, full.maps, reduced.unreduced.parts, reduced.outcome.synthesis,
+                      options, t);
   }
-  const auto full = rest->full();
-  listComparedModes(full.model, full.maps, reduced.unreduced.parts, reduced.outcome.synthesis,
-                    options, t);
+  if (!reduced.outcome.rounds.empty()) log::info(estimate::roundTable(reduced.outcome.rounds));
+  log::info(reduction::summaryTable(reduced.parts()));
+  if (options.bases)
+    for (const auto& part : reduced.parts()) log::info(part.report.table());
 }
 
 }  // namespace tooljoint::cases

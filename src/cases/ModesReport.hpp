@@ -16,6 +16,7 @@ struct ModesOptions {
                                ///< motion
   std::string output;          ///< folder of modes.csv and damped_modes.csv; empty: no files
   bool coupledOnly = false;    ///< undamped modes of the coupled model alone, with estimated errors
+  bool bases = false;          ///< the vectors of all bases too, behind the frequencies
 };
 
 /// When the laws of time are looked at where nothing else says so: at the end of the motion [s], 0

@@ -60,7 +60,12 @@ deck::ListSpec parameters() {
             "line goes first.")
       .textArray("Fields", defaults.fields,
                  {"displacement", "velocity", "acceleration", "normal_force"},
-                 "Motions and forces of all nodes recorded at every sample; {} records none.")
+                 "Motions and forces of nodes recorded at every sample; {} records none.")
+      .realArray("Depths", "m", deck::Optional{}, Range::nonNegative(),
+                 "Of a string: measured depths whose nearest nodes are recorded. By default all "
+                 "nodes are.")
+      .textArray("Nodes", deck::Optional{}, {},
+                 "Of parts: nodes that are recorded, each as part:node. By default all nodes are.")
       .boolean("CSV", defaults.csv, "Write tables for spreadsheets beside results.h5.")
       .boolean(
           "Report", defaults.report,

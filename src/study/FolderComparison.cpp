@@ -23,6 +23,28 @@ struct Motion {
       components = cases::measuredComponents(reader.texts("/model/components"));
     time = reader.numbers("/transient/time");
     displacement = measured("/transient/displacement");
+    const auto all = shape.size() > 1 ? shape[1] : 0;
+    if (reader.has("/transient/node"))
+      for (double row : reader.numbers("/transient/node"))
+        nodes.push_back(static_cast<std::size_t>(row) - 1);
+    else
+      for (std::size_t row = 0; row < all; ++row) nodes.push_back(row);
+  }
+
+  /// Leaves the motion of these nodes alone, which are recorded.
+  void keep(const std::vector<std::size_t>& wanted) {
+    if (wanted == nodes) return;
+    displacement = ofNodes(displacement, nodes, wanted);
+    nodes = wanted;
+    shape[1] = wanted.size();
+  }
+
+  /// Displacements at rest of the nodes that are left.
+  std::vector<double> rest() const {
+    const auto all = measured("/static/displacement");
+    std::vector<std::size_t> rows(all.size() / width());
+    for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = row;
+    return ofNodes(all, rows, nodes);
   }
 
   std::vector<double> measured(const std::string& path) const {
@@ -34,15 +56,34 @@ struct Motion {
     return kept;
   }
 
+  std::size_t width() const { return components.empty() ? shape.back() : components.size(); }
+
+  /// Of values of the nodes `from`, sample by sample, those of the nodes `wanted`; both increasing.
+  std::vector<double> ofNodes(const std::vector<double>& values,
+                              const std::vector<std::size_t>& from,
+                              const std::vector<std::size_t>& wanted) const {
+    std::vector<double> kept;
+    for (std::size_t first = 0; first < values.size(); first += from.size() * width())
+      for (std::size_t node : wanted) {
+        const auto place = static_cast<std::size_t>(
+            std::lower_bound(from.begin(), from.end(), node) - from.begin());
+        const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first + place * width());
+        kept.insert(kept.end(), begin, begin + static_cast<std::ptrdiff_t>(width()));
+      }
+    return kept;
+  }
+
+  std::size_t sceneNodes() const { return reader.shape("/static/displacement").front(); }
+
   HistoryView view() const {
-    const auto width = components.size();
-    if (width == 0) return {time.data(), displacement.data(), shape[0], shape[1], shape[2]};
-    return {time.data(), displacement.data(), shape[0], shape[1], width, width, width};
+    if (components.empty()) return {time.data(), displacement.data(), shape[0], shape[1], shape[2]};
+    return {time.data(), displacement.data(), shape[0], shape[1], width(), width(), width()};
   }
 
   io::ResultsReader reader;
   std::vector<std::size_t> shape;
-  std::vector<int> components;  ///< empty: a string
+  std::vector<int> components;     ///< empty: a string
+  std::vector<std::size_t> nodes;  ///< that are recorded, rows of the arrays of /model
   std::vector<double> time, displacement;
 };
 
@@ -84,8 +125,7 @@ MotionErrors errorsOf(const Motion& motion, const Motion& reference, const Windo
   try {
     return {std::move(times), errorOverTime(motion.view(), reference.view(), window),
             errorOverNodes(motion.view(), reference.view(), window),
-            vibrationError(motion.view(), reference.view(),
-                           reference.measured("/static/displacement"), window)};
+            vibrationError(motion.view(), reference.view(), reference.rest(), window)};
   } catch (const FileError&) {
     throw;
   } catch (const Error& refusal) {  // of the metrics: what the user's files hold cannot be measured
@@ -96,12 +136,20 @@ MotionErrors errorsOf(const Motion& motion, const Motion& reference, const Windo
 }  // namespace
 
 MotionErrors compareFolders(const ComparedFolders& folders, const Window& window) {
-  const Motion motion(folders.folder);
-  const Motion reference(folders.reference);
-  if (motion.shape.size() != 3 || motion.shape[1] != reference.shape[1] ||
+  Motion motion(folders.folder);
+  Motion reference(folders.reference);
+  if (motion.shape.size() != 3 || motion.sceneNodes() != reference.sceneNodes() ||
       motion.components != reference.components)
     throw UsageError(folders.folder + " and " + folders.reference +
                      " hold the motion of different scenes.");
+  std::vector<std::size_t> common;
+  std::set_intersection(motion.nodes.begin(), motion.nodes.end(), reference.nodes.begin(),
+                        reference.nodes.end(), std::back_inserter(common));
+  if (common.empty())
+    throw UsageError(folders.folder + " and " + folders.reference +
+                     " recorded the motion of different nodes (Output/Depths, Output/Nodes).");
+  motion.keep(common);
+  reference.keep(common);
   return errorsOf(motion, reference, window, commonTimes(folders, motion, reference, window));
 }
 

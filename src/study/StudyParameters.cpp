@@ -6,6 +6,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "study/reference/FittedReference.hpp"
 
 namespace tooljoint::study {
 namespace {
@@ -149,15 +150,14 @@ class Reader {
   }
 
   void readReference(const Teuchos::ParameterList& list, StudySettings& s) {
-    const auto spec = parameters();
-    const auto setOf = [&](const char* name) {
-      if (list.isSublist(name)) return texts(list.sublist(name), "Set");
-      return std::get<Texts>(spec.findList(name)->findParameter("Set")->value);
+    const auto read = [&](const char* name, Texts& set) {
+      if (!list.isSublist(name)) return;
+      set = texts(list.sublist(name), "Set");
+      checkOverrides(set, std::string("Study/") + name + "/Set");
     };
-    s.reference = setOf("Reference");
-    s.check = setOf("Check");
-    checkOverrides(s.reference, "Study/Reference/Set");
-    checkOverrides(s.check, "Study/Check/Set");
+    if (list.isSublist("Check")) s.reference = explicitReference();
+    read("Reference", s.reference);
+    read("Check", s.check);
     if (list.isSublist("Reference") && !list.isSublist("Check"))
       fault("Study/Reference",
             "is not the default, so the default Check need not be tighter than it. Add a list "
@@ -259,15 +259,15 @@ ListSpec parameters() {
       .boolean("Pictures", true, "Draw the plots when the study is done.");
   ListSpec reference(
       "Reference",
-      "The reference run, on the full model. By default RK4 at half its stability limit.");
-  reference.textArray(
-      "Set", Texts{"!Transient/Step", "Transient/Integrator=RK4", "Transient/RK4/Safety=0.5"}, {},
-      std::string("What the reference changes in the deck. ") + overrideDoc);
+      "The reference run, on the full model. By default generalized-alpha with a quarter of the "
+      "shortest step of the runs; RK4 at half its stability limit where all runs are explicit or "
+      "choose their steps themselves, or where a Check alone is given.");
+  reference.textArray("Set", deck::Required{}, {},
+                      std::string("What the reference changes in the deck. ") + overrideDoc);
   ListSpec check("Check",
                  "A second run, tighter than the reference or different from it: their difference "
-                 "is the error of the reference. By default RK4 at a "
-                 "quarter of its stability limit.");
-  check.textArray("Set", Texts{"Transient/RK4/Safety=0.25"}, {},
+                 "is the error of the reference. By default half the step of the reference.");
+  check.textArray("Set", deck::Required{}, {},
                   std::string("What it changes in the deck of the reference. ") + overrideDoc);
   ListSpec methods("Methods", "What is compared, one list for each method.");
   methods.namedLists(method());

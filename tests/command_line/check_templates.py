@@ -87,6 +87,10 @@ def parts():
         first = float(next(csv.DictReader(file))["full [Hz]"])
     exact = 2 * math.sqrt(1e6) * math.sin(math.pi / 32) / (2 * math.pi)
     expect("parts: the first frequency is that of eight springs", done.returncode == 0 and abs(first / exact - 1) < 1e-9, f"{first} {exact}")
+    asked = tooljoint("modes", "parts.xml", "--count", "3", "--bases")
+    frequencies, vectors = (text.find(word) for text, word in ((done.stdout, "full [Hz]"), (asked.stdout, "|Phi'M Phi - I|")))
+    expect("parts: frequencies come first, the vectors of the bases behind them where they are asked for",
+           0 < frequencies < done.stdout.find("RK4 step") and "|Phi'M Phi - I|" not in done.stdout and vectors > asked.stdout.find("full [Hz]") > 0, asked.stdout[-600:])
 
 
 def study():

@@ -41,7 +41,8 @@ def string(file, nodes=21, moves=True):
     if moves:
         time = np.linspace(0, 1, 12)
         file["/transient/time"], file["/transient/speed"] = time, np.full(12, 4 * np.pi)
-        file["/transient/velocity"] = np.tile(np.sin(20 * time)[:, None, None], (1, nodes, 6))
+        bit = 4 * np.pi + np.sin(20 * time)
+        file["/transient/motion"] = np.column_stack([time, np.full(12, 4 * np.pi), bit, 0 * time, 0 * time])
         file["/transient/displacement"] = 0.01 * np.tile(np.cos(20 * time)[:, None, None], (1, nodes, 6))
     return file
 

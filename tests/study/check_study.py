@@ -57,6 +57,36 @@ def whole_study():
     expect("the baseline is 1, and so is the best full run at its own error", best["speedup_baseline"] == 1 and abs(best["speedup_best_full"] - 1) < 1e-12)
 
 
+def fitted_reference():
+    """Without the lists Reference and Check: a reference that fits the runs, with its cost."""
+    fitted = ["--without", "Study/Reference", "--without", "Study/Check", "--set", "Study/Repeats=1"]
+    done = tooljoint("study", DECK, "--output", "fitted", *fitted)
+    expect("the reference takes a quarter of the shortest step, and its cost is told before it runs",
+           done.returncode == 0 and "reference   Generalized-alpha, steps of 0.05 ms, a quarter of the shortest: about" in done.stdout, done.stderr[-300:] or done.stdout[:400])
+    reference, before, after = summary("fitted")["reference"], rows("whole"), rows("fitted")
+    expect("the steps are those", reference["integrator"] == "Generalized-alpha" and abs(reference["max_step"] / 5e-5 - 1) < 1e-9, f"({reference['max_step']})")
+    ratio = reference["predicted_cpu_s"] / reference["cpu_s"]
+    expect("it takes about the time that was told", 1 / 3 < ratio < 3, f"({reference['predicted_cpu_s']:.3g} s told, {reference['cpu_s']:.3g} s taken)")
+    own = reference["self_error"]["vibration_error"]
+    methods = {label: row["vibration_error"] for label, row in after.items() if row["kind"] == "method" and row["status"] == "done"}
+    expect("its error is a fraction of that of every run", own < 0.2 * min(methods.values()), f"({own:.1e}, {min(methods.values()):.1e})")
+    apart = max(abs(value - before[label]["vibration_error"]) for label, value in methods.items())
+    # Halving the step halves the error of the reference at least, so that it is at most twice the distance to its check.
+    both = 2 * (own + summary("whole")["reference"]["self_error"]["vibration_error"])
+    expect("errors are those against a much finer reference, within those of both", apart < both, f"({apart:.1e}, {both:.1e})")
+    only = [argument for name in ("Generalized-alpha, full", "Craig-Bampton") for argument in ("--without", f"Study/Methods/{name}")]
+    done = tooljoint("check", DECK, *fitted, *only, "--set", "Study/Baseline=RK4, too coarse")
+    expect("that of explicit runs is RK4", "3 of the reference (RK4)" in done.stdout, done.stdout[-400:] + done.stderr)
+
+
+def step_limits():
+    coarse = ["--set", "Study/Repeats=1", "--set", "Study/Methods/Craig-Bampton/Set={Transient/Step=1 ms}", "--set", "Study/Methods/Craig-Bampton/Sweep/state/Values={Keep static}"]
+    for modes, limited in (("{12, 16, 20}", True), ("{0, 12}", False)):
+        done = tooljoint("study", DECK, "--output", "limited", *coarse, "--set", f"Study/Methods/Craig-Bampton/Sweep/modes/Values={modes}")
+        said, told = summary("limited")["step_limits"], "the step limits them, not the basis" in done.stdout
+        expect(f"modes {modes}: a study says {'that' if limited else 'nothing where not'} the step limits all reduced runs", done.returncode == 0 and told == limited and len(said) == limited, f"{said}")
+
+
 def same_as_separate_runs():
     """The row is what two runs and `compare` give."""
     common = ["--without", "Study", "--set", "Transient/End Time=0.2", "--without", "Reduction", "--without", "Substructures"]
@@ -137,9 +167,9 @@ def pictures():
 
 
 def main():
-    for left in ("whole", "run_reference", "run_method", "broken", "lost_1", "lost_2", "plain", "ranks"):  # of an earlier run of this test
+    for left in ("whole", "fitted", "limited", "run_reference", "run_method", "broken", "lost_1", "lost_2", "plain", "ranks"):  # of an earlier run of this test
         shutil.rmtree(left, ignore_errors=True)
-    for check in (whole_study, same_as_separate_runs, goes_on, interrupted, failures, two_ranks, pictures):
+    for check in (whole_study, fitted_reference, step_limits, same_as_separate_runs, goes_on, interrupted, failures, two_ranks, pictures):
         check()
     return finish()
 

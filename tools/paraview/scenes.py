@@ -126,6 +126,8 @@ def of_run(run):
     """The scene of a run; Unreadable where it has none in space."""
     if run.get("/static/displacement") is None:
         raise results.Unreadable(f"{run.folder} holds no static state: the run ended before it. Run the deck again.")
+    if run.records and not run.moves:
+        raise results.Unreadable(f"{run.folder} holds the motion of {len(run.recorded)} chosen nodes, not of all. Take Output/Depths or Output/Nodes out and run the deck again.")
     if run.time is not None and not run.moves and len(run.time) > 1:
         raise results.Unreadable(f"{run.folder} has no displacements of its motion. Add displacement to Output/Fields and run the deck again.")
     return String(run) if run.is_string else Parts(run)

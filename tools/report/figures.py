@@ -8,6 +8,7 @@ from report import results
 
 BLUE, ORANGE, GREEN = COLOURS[:3]
 PICTURE_ROWS = 240  # of contact forces over time and depth
+STRETCHES = 100  # of a profile that changes from element to element; longer than a joint of pipe
 FLOOR = 1e-8  # of the largest value of a spectrum, below which it is not drawn
 
 
@@ -62,7 +63,9 @@ def static_profiles(run):
         axes.set_xlim(left=0, right=max(1.08 * force.max(), 1e-3))
 
     def radial(axes):
-        axes.fill_betweenx(run.s, 0, 1e3 * run.get("/model/clearance"), step="mid", color="#e2e2e2", linewidth=0, label="clearance")
+        depth, narrow, wide = plots.stretches(run.s, 1e3 * run.get("/model/clearance"), min(STRETCHES, len(run.s) - 1))
+        axes.fill_betweenx(depth, 0, wide, step="mid", color="#eeeeee", linewidth=0)
+        axes.fill_betweenx(depth, 0, narrow, step="mid", color="#dadada", linewidth=0, label="clearance")
         axes.plot(1e3 * results.lateral(run, run.get("/static/displacement")), run.s, color=GREEN, linewidth=1.1, label="string")
         axes.set_xlim(left=0)
         plots.legend_above(axes, 2)
@@ -73,12 +76,20 @@ def static_profiles(run):
     add("radial", "lateral displacement [mm]", "Static distance from the axis of the well, and the clearance.", radial)
     stress = results.von_mises(run, run.get("/static/displacement"))
     if stress is not None:
-        add("stress", "von Mises stress [MPa]", "Static stress at the outer wall: effective tension, bending, torsion.",
-            lambda axes: (axes.plot(stress / 1e6, run.middles, color=COLOURS[4], linewidth=0.7), axes.set_xlim(left=0)))
+        add("stress", "von Mises stress [MPa]", "Static stress at the outer wall: effective tension, bending, torsion" + ("; the largest of each stretch, pale down to the smallest." if len(stress) > 4 * STRETCHES else "."),
+            lambda axes: (banded(axes, stress / 1e6, run.middles, COLOURS[4]), axes.set_xlim(left=0)))
     add("curvature", "dogleg severity [deg/30 m]", "Curvature of the axis of the string at rest.",
         lambda axes: (axes.plot(np.degrees(results.curvature(run, run.get("/static/displacement"))) * 30, run.middles, color=COLOURS[5], linewidth=1.1),
                       axes.set_xlim(left=0)))
     return found
+
+
+def banded(axes, values, depth, colour):
+    """Values along the depth; of many elements the largest of each stretch, and pale the range down to the smallest."""
+    if len(depth) > 4 * STRETCHES:
+        depth, low, values = plots.stretches(depth, values, STRETCHES)
+        axes.fill_betweenx(depth, low, values, color=colour, alpha=0.2, linewidth=0)
+    axes.plot(values, depth, color=colour, linewidth=1.1)
 
 
 def bit_speed(run):
@@ -98,8 +109,11 @@ def bit_speed(run):
 def contact(run, found):
     if found.force is None or not found.largest.max() > 0:
         return []
-    made, axes = plots.figure(plots.WIDE, 3.6)
     s = run.s
+    shares = contact_shares(run, found)
+    if not run.moves:
+        return shares
+    made, axes = plots.figure(plots.WIDE, 3.6)
     # Rows of the picture are equal stretches of depth: the largest force of the nodes whose stretch of the string is in each.
     ends, edges = run.middles, np.linspace(s[0], s[-1], PICTURE_ROWS + 1)
     first, last = np.searchsorted(ends, edges[:-1], side="right"), np.searchsorted(ends, edges[1:], side="left")
@@ -109,25 +123,31 @@ def contact(run, found):
     axes.grid(False)
     axes.set_xlabel("time [s]"), axes.set_ylabel("measured depth [m]")
     made.colorbar(shown, ax=axes, label="contact force [kN]")
-    history = Figure("contact", made, "Contact force over the motion, the largest of each stretch of depth; white: no contact.", True)
-    made, axes = plots.profile("share of time in contact [%]", (s[0], s[-1]))
+    return [Figure("contact", made, "Contact force over the motion, the largest of each stretch of depth; white: no contact.", True), *shares]
+
+
+def contact_shares(run, found):
+    """Of the recorded nodes."""
+    s, limits = run.s[run.recorded], (run.s[0], run.s[-1])
+    made, axes = plots.profile("share of time in contact [%]", limits)
     axes.hlines(s, 0, 100 * found.duty, color=BLUE, linewidth=1.1)
     axes.set_xlim(0, 100)
     duty = Figure("duty", made, "Share of the second half of the motion in contact.")
-    made, axes = plots.profile("largest contact force [kN]", (s[0], s[-1]))
+    made, axes = plots.profile("largest contact force [kN]", limits)
     axes.hlines(s, 0, found.largest / 1e3, color=ORANGE, linewidth=1.1)
     axes.set_xlim(left=0)
-    return [history, duty, Figure("largest", made, "Largest contact force of each node in the motion.")]
+    return [duty, Figure("largest", made, "Largest contact force of each node in the motion.")]
 
 
 def vibration(run, motion):
-    limits = run.s[0], run.s[-1]
+    limits, s = (run.s[0], run.s[-1]), run.s[run.recorded]
+    marks = {} if run.moves else {"marker": "o", "markersize": 4, "linestyle": ":"}
     made, axes = plots.profile("lateral vibration [mm rms]", limits)
-    axes.plot(1e3 * motion.lateral_rms(), run.s, color=GREEN, linewidth=1.1)
+    axes.plot(1e3 * motion.lateral_rms(), s, color=GREEN, linewidth=1.1, **marks)
     axes.set_xlim(left=0)
     found = [Figure("rms", made, "Lateral vibration about the mean position, second half of the motion.")]
     made, axes = plots.profile("torsional vibration [deg rms]", limits)
-    axes.plot(np.degrees(motion.rms[:, 5]), run.s, color=COLOURS[4], linewidth=1.1)
+    axes.plot(np.degrees(motion.rms[:, 5]), s, color=COLOURS[4], linewidth=1.1, **marks)
     axes.set_xlim(left=0)
     return [*found, Figure("twist", made, "Torsional vibration, likewise.")]
 
@@ -168,7 +188,7 @@ def frequency_axes(label):
 def draw_spectrum(axes, values, interval, **line):
     frequency, power = plots.spectrum(values, interval)
     if len(frequency) > 2 and power[1:].max() > 0:
-        axes.plot(frequency[1:], np.maximum(power[1:], FLOOR * power[1:].max()), linewidth=0.9, **line)
+        axes.plot(frequency[1:], np.where(power[1:] > FLOOR * power[1:].max(), power[1:], np.nan), linewidth=0.9, **line)
 
 
 def spectra(run, motion, chosen):

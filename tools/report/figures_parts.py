@@ -23,10 +23,16 @@ def node_name(run, row):
     return f"node {run.get('/model/node')[row]} of {results.texts(run.file['/model/part_names'])[run.get('/model/part')[row] - 1]}"
 
 
+def start_of(run):
+    """Displacements at the start, of the recorded nodes where a motion is."""
+    start = run.get("/static/displacement")
+    return start[run.recorded] if run.records else start
+
+
 def range_of(run):
-    """Smallest and largest displacement of every node and component over the motion."""
-    low = high = run.get("/static/displacement")
-    if run.moves:
+    """Smallest and largest displacement of every recorded node and component over the motion."""
+    low = high = start_of(run)
+    if run.records:
         for _, block in run.blocks("/transient/displacement"):
             low, high = np.minimum(low, block.min(axis=0)), np.maximum(high, block.max(axis=0))
     return low, high
@@ -35,7 +41,9 @@ def range_of(run):
 def displacements(run):
     """Of every node, part by part: at the start, and the range of the motion."""
     part, names = run.get("/model/part"), results.texts(run.file["/model/part_names"])
-    start = run.get("/static/displacement")
+    start = start_of(run)
+    if run.records:
+        part = part[run.recorded]
     low, high = range_of(run)
     row = np.arange(len(part))
     found = []
@@ -43,7 +51,7 @@ def displacements(run):
         if not np.abs(np.stack([low[:, c], high[:, c]])).max() > 0:
             continue
         made, axes = plots.figure(plots.WIDE, 2.2)
-        if run.moves:
+        if run.records:
             axes.fill_between(row, low[:, c], high[:, c], step="mid", color=COLOURS[5], alpha=0.5, linewidth=0, label="range of the motion")
         axes.plot(row, start[:, c], ".", color="black", markersize=3, label="start")
         for first in np.flatnonzero(np.diff(part)):
@@ -55,20 +63,20 @@ def displacements(run):
         axes.set_xlim(-0.5, len(part) - 0.5)
         axes.set_ylabel(label(name, unit)), axes.set_xlabel("nodes, part by part")
         plots.legend_above(axes)
-        found.append(Figure(f"nodes-{c + 1}", made, f"Component {name} of all nodes.", True))
+        found.append(Figure(f"nodes-{c + 1}", made, f"Component {name} of all {'' if run.moves or not run.records else 'recorded '}nodes.", True))
     return found
 
 
 def histories(run):
     """(component, name, unit, node, values) of the node that moves most in each component."""
-    if not run.moves:
+    if not run.records:
         return
     low, high = range_of(run)
     for c, name, unit in components(run):
         reach = high[:, c] - low[:, c]
         if reach.max() > 0:
             node = int(reach.argmax())
-            yield c, name, unit, node, run.file["/transient/displacement"][:, node, c]
+            yield c, name, unit, int(run.recorded[node]), run.file["/transient/displacement"][:, node, c]
 
 
 def movers(run):
@@ -95,7 +103,7 @@ def forces(run):
 
 
 def spectra(run):
-    if not run.moves:
+    if not run.records:
         return []
     interval = float(np.median(np.diff(run.time)))
     found = []

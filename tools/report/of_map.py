@@ -65,7 +65,7 @@ def headline(made, summary):
             found.append((value["name"], "-", "", "no point has this value", True))
         for word, row in ends:
             bad = bool(plot_map.unsafe(value, grid).flat[row])
-            found.append((f"{value['name']}, {word}", plain(grid.flat[row]), point(made, made.rows[row]), limit(value), bad))
+            found.append((f"{value['name']}, {word}", f"{plain(grid.flat[row])} {value.get('unit') or ''}".strip(), point(made, made.rows[row]), limit(value), bad))
     found.append(("Time per point", f"{summary['wall_per_point_s']:.3g} s", f"CPU time {summary['cpu_per_point_s']:.3g} s", "mean of the points that ended", False))
     return cards(found)
 
@@ -79,9 +79,9 @@ def places(texts):
 def grid_tables(made):
     """The parameters that vary, and the values that are mapped."""
     axes = [(axis["name"], axis["parameter"], axis["unit"] or "-", places(axis["texts"])) for axis in made.axes]
-    values = [(value["name"], value["key"], limit(value) or "-", plain(value["min"]), plain(value["max"]), value["known"], value["unsafe"] if limit(value) else "-") for value in made.values]
+    values = [(value["name"], value["key"], value.get("unit") or "-", limit(value) or "-", plain(value["min"]), plain(value["max"]), value["known"], value["unsafe"] if limit(value) else "-") for value in made.values]
     return (tables.table(("axis", "parameter of the deck", "unit", "points"), axes)
-            + tables.table(("value", "key of summary.json", "limit", "least", "largest", "known", "unsafe"), values, range(3, 7), "Values have the units of their keys"))
+            + tables.table(("value", "key of summary.json", "unit", "limit", "least", "largest", "known", "unsafe"), values, range(4, 8)))
 
 
 def caption(made, value, rest):

@@ -73,7 +73,7 @@ def string_sections(page, run):
     page.plots("well", "Well", figures.well(run))
     page.plots("static", "Static state", figures.static_profiles(run))
     of_tables.add_torque_drag(page, run.folder)
-    if run.moves:
+    if run.records:
         motion = results.Motion(run)
         chosen = results.chosen_nodes(run, motion.lateral_rms())
         motion = results.Motion(run, chosen)

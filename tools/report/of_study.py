@@ -53,6 +53,8 @@ def page_of(folder):
         page.note(f"This study is {summary.get('status')}: {summary.get('message')}")
     for warning in summary.get("warnings") or []:
         page.note(warning)
+    for sentence in summary.get("step_limits") or []:
+        page.note(sentence[:1].upper() + sentence[1:])
     for run in study.failed:
         page.note(f"{run.label} failed: {run.row.get('reason', '')}")
     if not page.notes:

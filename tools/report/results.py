@@ -64,7 +64,10 @@ class Run:
             raise Unreadable(f"{folder / 'results.h5'} has no {', '.join(missing)}: it is damaged or of another program. Run the deck again.")
         self.s = self.get("/model/s")
         self.time = self.get("/transient/time")
-        self.moves = self.time is not None and len(self.time) > 1 and "/transient/displacement" in self.file
+        self.records = self.time is not None and len(self.time) > 1 and "/transient/displacement" in self.file
+        chosen = self.get("/transient/node")
+        self.moves = self.records and chosen is None  # the motion of all nodes is there
+        self.recorded = np.arange(self.file["/static/displacement"].shape[0]) if chosen is None and self.records else None if chosen is None else chosen - 1
 
     def get(self, path):
         dataset = self.file.get(path)
@@ -102,6 +105,10 @@ class Run:
         rows = max(1, BLOCK // max(1, math.prod(data.shape[1:])))
         for first in range(0, len(data), rows):
             yield first, data[first:first + rows]
+
+    def column(self, node):
+        """Place of a node (from 0) in the motion, which may be that of chosen nodes alone."""
+        return int(np.searchsorted(self.recorded, node))
 
     def frames(self, most):
         """Numbers of at most `most` samples in equal distances."""
@@ -166,12 +173,12 @@ def lateral(run, displacement):
 
 
 class Motion:
-    """Statistics of the second half of a motion, and the histories of a few nodes."""
+    """Statistics of the second half of a motion, of the recorded nodes, and the histories of a few of them."""
 
     def __init__(self, run, chosen=()):
         self.run = run
         self.first = run.second_half()
-        self.chosen = list(chosen)
+        self.chosen = [run.column(node) for node in chosen]
         shape = run.file["/transient/displacement"].shape
         total, square = np.zeros(shape[1:]), np.zeros(shape[1:])
         self.histories = np.zeros((shape[0], len(self.chosen), shape[2]))
@@ -196,12 +203,12 @@ class Contact:
 
     def __init__(self, run, most=160):
         self.force, self.duty, self.largest = None, None, None
-        if "/transient/normal_force" not in run.file or not run.moves:
+        if "/transient/normal_force" not in run.file or not run.records:
             return
         at = run.frames(most)
         first = run.second_half()
-        touching = np.zeros(len(run.s))
-        self.largest = np.zeros(len(run.s))
+        touching = np.zeros(len(run.recorded))
+        self.largest = np.zeros(len(run.recorded))
         rows = []
         for start, block in run.blocks("/transient/normal_force"):
             rows.append(block[at[(at >= start) & (at < start + len(block))] - start])
@@ -219,9 +226,12 @@ def precession(u, v, time):
 
 
 def chosen_nodes(run, rms, most=4):
-    """At most `most` nodes (from 0) worth a look, by depth, with why: the largest lateral vibration, the largest static side force, above the
-    bit, then quarters of the length."""
+    """At most `most` recorded nodes (from 0) worth a look, by depth, with why: the largest lateral vibration, the largest static side force,
+    above the bit, then quarters of the length; of chosen nodes those that vibrate most."""
     found = {}
+    if not run.moves:
+        places = sorted(np.argsort(-rms)[:most])
+        return {int(run.recorded[place]): "a recorded depth" for place in places}
 
     def add(node, why):
         if all(abs(node - other) > max(2, len(run.s) // 100) for other in found):
@@ -251,9 +261,12 @@ def merits(run, motion):
         if slow > 0:
             rows.append(("Time the bit is stuck", f"{100 * np.mean(np.abs(bit) < slow):.1f} %", "below 5 % of the mean surface speed"))
     rms = motion.lateral_rms()
-    node = int(np.argmax(rms))
-    rows.append(("Largest lateral vibration", f"{1e3 * rms[node]:.2f} mm rms", f"at {run.s[node]:.1f} m, {run.component_at(node) or f'node {node + 1}'}"))
-    rows.append(("Axial vibration of the bit", f"{1e3 * motion.rms[-1, 2]:.3g} mm rms", ""))
+    largest = int(np.argmax(rms))
+    node = int(run.recorded[largest])
+    rows.append(("Largest lateral vibration" + ("" if run.moves else " of the recorded nodes"), f"{1e3 * rms[largest]:.2f} mm rms",
+                 f"at {run.s[node]:.1f} m, {run.component_at(node) or f'node {node + 1}'}"))
+    if run.recorded[-1] == len(run.s) - 1:
+        rows.append(("Axial vibration of the bit", f"{1e3 * motion.rms[-1, 2]:.3g} mm rms", ""))
     return rows + figures_of_summary(run)
 
 

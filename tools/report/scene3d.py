@@ -119,6 +119,8 @@ def entries(names):
 
 def describe(run, at, shown, nodes):
     text = f"{shown} of {nodes} nodes are drawn." if shown < nodes else ""
+    if run.records and not run.moves:
+        text += f" The motion of {len(run.recorded)} chosen nodes is recorded: the picture shows the state at rest."
     if at is not None and len(at) > 1:
         text += f" The motion is played back every {1e3 * (run.time[at[1]] - run.time[at[0]]):.3g} ms ({len(at)} of {len(run.time)} samples)."
     return text.strip()

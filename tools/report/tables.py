@@ -49,9 +49,10 @@ def of_reduction(run):
         return ""
     text = pairs([("Basis", reduction.get("basis") or "-", ""), ("Dofs of the reduced model", plain(reduction.get("reduced_dofs")), f"of {plain(run.value('model.free_dofs'))}"),
                   ("Predicted cost of a step", percent(reduction.get("cost_ratio")), "of a step of the full model"),
-                  ("Start not in the basis", percent(reduction.get("start_misfit")), "of its energy"),
-                  ("Estimated error of frequencies", percent(run.value("reduction.estimate.frequency_error")), "largest, without the full model"),
-                  ("Estimated vibration error", percent(run.value("reduction.estimate.motion_error")), "of the reduction alone")])
+                  ("Start not in the basis", percent(reduction.get("start_misfit")), "of its energy")]
+                 + [(name, percent(value), what) for name, value, what in (
+                     ("Estimated error of frequencies", run.value("reduction.estimate.frequency_error"), "largest, without the full model"),
+                     ("Estimated vibration error", run.value("reduction.estimate.motion_error"), "of the reduction alone")) if value is not None])
     text += table(("part", "interior", "interface", "retained", "modes", "cut-off [Hz]"),
                   [[part["name"], *(plain(part[key]) for key in COUNTS), part["cut-off"]] for part in grouped(parts)],
                   (1, 2, 3, 4, 5), "Parts and their dofs; neighbours of equal dofs stand in one row")

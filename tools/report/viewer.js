@@ -104,11 +104,12 @@
       const place = (v) => { const p = corner.clone(); p[key] = v; return p; };
       for (let v = Math.ceil(low[key] / step) * step; v <= high[key]; v += step) {
         if (isString && axis === 1 && v > 1e-9 * size) continue;
+        if (length < 0.25 * size) break;  // the box is too narrow there for numbers beside each other
         const at = place(v);
         points.push(at, at.clone().add(out));
         label((sign * v + 0).toFixed(digits(step)).replace(/^-(0(\.0+)?)$/, "$1"), at.clone().addScaledVector(out, 1.6), axis === 0 ? 0.5 : 1);
       }
-      const away = [new THREE.Vector3(0, -0.075, 0), new THREE.Vector3(-0.14, 0, 0), new THREE.Vector3(-0.06, -0.07, 0)][axis];
+      const away = [new THREE.Vector3(0, -0.075, 0), new THREE.Vector3(-0.14, 0, 0), new THREE.Vector3(-0.1, -0.1, 0)][axis];
       label(names[axis], place((low[key] + high[key]) / 2).addScaledVector(away, size), axis === 0 ? 0.5 : 1);
     }
     scene.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({color: 0x8a8a8a})));

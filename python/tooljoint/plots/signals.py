@@ -25,6 +25,16 @@ def envelope(times: Any, values: Any, most: int = 1200) -> tuple[Any, Any]:
     return times[at], values[at]
 
 
+def stretches(depth: Any, values: Any, most: int = 240) -> tuple[Any, Any, Any]:
+    """Values along an increasing depth in at most `most` equal stretches of it: middle, smallest and largest value of each that holds some.
+    Where values change from element to element, a line through all of them is a smear."""
+    depth, values = np.asarray(depth, float), np.asarray(values, float)
+    edges = np.linspace(depth[0], depth[-1], most + 1)
+    first = np.unique(np.searchsorted(depth, edges[:-1]))
+    count = np.diff(np.append(first, len(depth)))
+    return np.add.reduceat(depth, first) / count, np.minimum.reduceat(values, first), np.maximum.reduceat(values, first)
+
+
 def spectrum(values: Any, interval: float) -> tuple[Any, Any]:
     """One-sided power spectral density by Welch's method (1967): Hann windows of a quarter of the samples (at least 64), half overlapping,
     the mean of each taken out. Frequencies [Hz], density [unit^2/Hz]; its integral is the variance."""

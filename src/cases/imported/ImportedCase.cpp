@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "cases/CaseKinds.hpp"
+#include "cases/CaseLists.hpp"
 #include "cases/ListText.hpp"
 #include "cases/ReducedCase.hpp"
 #include "cases/imported/ImportedRecord.hpp"
 #include "cases/imported/MeasuredComponents.hpp"
+#include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "parts/PartsGeometry.hpp"
@@ -187,6 +189,42 @@ ImportedCase::ImportedCase(ImportedDeck lists, std::shared_ptr<Shared> shared)
 std::unique_ptr<Case> ImportedCase::with(const std::vector<std::string>& overrides) const {
   ImportedDeck lists(deck().with(overrides));
   return std::unique_ptr<Case>(new ImportedCase(std::move(lists), shared_));
+}
+
+/// Numbers in the scene of "part:node".
+std::vector<std::int64_t> ImportedCase::recordedNodes() const {
+  const auto& scene = joined_->scene;
+  const auto wanted = cases::listOrDefaults(list(), io::parameters());
+  if (wanted.isParameter("Depths"))
+    throw DeckError(deck().error(
+        "Output/Depths", "gives depths of a string. Nodes of parts are chosen by Output/Nodes."));
+  std::map<std::string, std::int64_t> numbers;
+  for (const auto& [number, names] : scene.nodes)
+    for (const auto& name : names)
+      numbers.emplace(
+          scene.parts[static_cast<std::size_t>(name.part)].name + ":" + std::to_string(name.node),
+          number);
+  std::set<std::int64_t> chosen;
+  if (!wanted.isParameter("Nodes")) return {};
+  for (const auto& name : wanted.get<Teuchos::Array<std::string>>("Nodes")) {
+    const auto found = numbers.find(name);
+    if (found == numbers.end()) throw DeckError(deck().error("Output/Nodes", unknownNode(name)));
+    chosen.insert(found->second);
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
+std::string ImportedCase::unknownNode(const std::string& name) const {
+  std::vector<std::string> parts;
+  for (const auto& part : joined_->scene.parts) parts.push_back(part.name);
+  const auto part = name.substr(0, name.rfind(':'));
+  const auto near = closest(part, parts);
+  const bool known = std::find(parts.begin(), parts.end(), part) != parts.end();
+  return "names " + inQuotes(name) +
+         (known ? ", a node its part does not have."
+                : ", but nodes are given as part:node, and there is no such part.") +
+         (known || near.empty() ? "" : " Did you mean the part " + inQuotes(near) + "?") +
+         (known ? "" : " The parts are " + quotedList(parts) + ".");
 }
 
 std::string ImportedCase::files() const {

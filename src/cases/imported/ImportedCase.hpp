@@ -10,6 +10,7 @@
 
 #include "cases/Case.hpp"
 #include "cases/imported/ImportedDeck.hpp"
+#include "cases/run/RecordedNodes.hpp"
 
 namespace tooljoint::cases {
 
@@ -20,7 +21,7 @@ struct JoinedParts {
   bool started = false;      ///< the parts hold the state they start from
 };
 
-class ImportedCase : public Case {
+class ImportedCase : public Case, public NodeChoice {
  public:
   /// Reads the parts and puts them together. ModelError, FileError, DeckError.
   explicit ImportedCase(ImportedDeck lists);
@@ -30,6 +31,8 @@ class ImportedCase : public Case {
   std::vector<std::string> reductionLists() const override { return {"Reduction"}; }
   bool reducesWithoutMotion() const override { return true; }
   const io::OutputSettings& output() const override { return lists_->common.output; }
+  /// `Output/Nodes`.
+  std::vector<std::int64_t> recordedNodes() const override;
   /// The matrices and loads that were read.
   std::string files() const override;
   int nodes() const override { return static_cast<int>(joined_->scene.nodes.size()); }
@@ -48,6 +51,8 @@ class ImportedCase : public Case {
   /// Joined parts by the lists they depend on.
   using Shared = std::map<std::string, std::shared_ptr<JoinedParts>>;
   ImportedCase(ImportedDeck lists, std::shared_ptr<Shared> shared);
+  /// A sentence on a name that is not there.
+  std::string unknownNode(const std::string& name) const;
 
   std::shared_ptr<const ImportedDeck> lists_;
   std::shared_ptr<Shared> shared_;

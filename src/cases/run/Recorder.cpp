@@ -12,13 +12,15 @@ namespace tooljoint::cases {
 namespace {
 
 constexpr const char* motionSeries = "/transient/motion";
+/// The channel that has a value for each node.
+constexpr const char* contactForces = "/transient/normal_force";
 /// Part of the motion between two flushes of the results file.
 constexpr double flushFraction = 0.1;
 
 }  // namespace
 
 Recorder::Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrderModel& model,
-                   const io::OutputSettings& output, TimeSpan span, io::ResultsFile& file)
+                   const Recorded& wanted, TimeSpan span, io::ResultsFile& file)
     : record_(std::move(record)),
       model_(model),
       file_(file),
@@ -27,7 +29,10 @@ Recorder::Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrde
       table_(record_->columns()),
       flushInterval_(flushFraction * (span.end - span.start)),
       nextFlush_(span.start + flushInterval_) {
-  const io::Shape shape{model.recoveryNodes.size(), model.componentNames.size()};
+  const auto& output = wanted.output;
+  choose(wanted.nodes);
+  const std::size_t nodes = rows_.empty() ? model.recoveryNodes.size() : rows_.size();
+  const io::Shape shape{nodes, model.componentNames.size()};
   const auto texts = record_->fields();
   const auto field = [&](const char* name, const FieldText& text) -> io::TimeSeries* {
     if (!output.hasField(name)) return nullptr;
@@ -36,12 +41,36 @@ Recorder::Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrde
   displacementSeries_ = field("displacement", texts[0]);
   velocitySeries_ = field("velocity", texts[1]);
   accelerationSeries_ = field("acceleration", texts[2]);
-  for (const auto& channel : record_->channels())
-    channels_.push_back({&file.series(channel.path, channel.shape, channel.unit, channel.longName),
-                         channel.values});
+  for (const auto& channel : record_->channels()) {
+    const bool ofNodes = channel.path == contactForces;
+    channels_.push_back({&file.series(channel.path, ofNodes ? io::Shape{nodes} : channel.shape,
+                                      channel.unit, channel.longName),
+                         channel.values, ofNodes});
+  }
   if (output.xdmf && record_->picture() != nullptr)
     pictures_ = std::make_unique<io::XdmfRecorder>(file, *record_->picture(), output.xdmfInterval);
   addTable();
+}
+
+/// Rows of the recovery of the chosen nodes, and the dataset that names them.
+void Recorder::choose(const std::vector<std::int64_t>& nodes) {
+  std::vector<int> numbers;
+  for (std::size_t row = 0; row < model_.recoveryNodes.size(); ++row) {
+    if (!std::binary_search(nodes.begin(), nodes.end(), model_.recoveryNodes[row])) continue;
+    rows_.push_back(row);
+    numbers.push_back(static_cast<int>(row) + 1);
+  }
+  if (!rows_.empty())
+    file_.write("/transient/node", numbers, {numbers.size()}, "1",
+                "Rows of the recorded nodes in the arrays of /model, counted from 1");
+}
+
+void Recorder::append(io::TimeSeries& series, const double* values, std::size_t width) {
+  if (rows_.empty()) return series.append(values);
+  chosen_.clear();
+  for (const auto row : rows_)
+    chosen_.insert(chosen_.end(), values + row * width, values + (row + 1) * width);
+  series.append(chosen_.data());
 }
 
 /// The series of the rows of motion.csv, and the rows that a run before this one has left there.
@@ -83,10 +112,13 @@ void Recorder::take(const Sample& sample) {
   table_.row(record_->row());
   tableSeries_->append(record_->row().data());
   time_.append(t);
-  if (displacementSeries_) displacementSeries_->append(sample.displacement.data());
-  if (velocitySeries_) velocitySeries_->append(sample.velocity.data());
-  if (accelerationSeries_) accelerationSeries_->append(sample.acceleration.data());
-  for (const auto& channel : channels_) channel.series->append(channel.values);
+  const std::size_t width = model_.componentNames.size();
+  if (displacementSeries_) append(*displacementSeries_, sample.displacement.data(), width);
+  if (velocitySeries_) append(*velocitySeries_, sample.velocity.data(), width);
+  if (accelerationSeries_) append(*accelerationSeries_, sample.acceleration.data(), width);
+  for (const auto& channel : channels_)
+    channel.ofNodes ? append(*channel.series, channel.values, 1)
+                    : channel.series->append(channel.values);
   if (measured_) measured_->sample(sample);
   if (pictures_ && pictures_->due(t)) pictures_->append(frame(sample));
   if (t >= nextFlush_) file_.flush();

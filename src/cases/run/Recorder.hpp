@@ -4,6 +4,7 @@
 /// its MotionRecord adds.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,12 @@ struct TimeSpan {
   double end = 0.0;
 };
 
+/// What of a motion is recorded.
+struct Recorded {
+  const io::OutputSettings& output;
+  std::vector<std::int64_t> nodes;  ///< increasing; empty: all
+};
+
 /// Samples go into time series of the results file, which continue by themselves
 /// (ResultsFile::continueFrom()); save() and restore() are about everything else: extremes, counts,
 /// what is due next.
@@ -32,7 +39,7 @@ class Recorder : public transient::ShareSink {
   /// Opens the series of /transient that the list Output asks for. `model` and `file` must outlive
   /// the recorder.
   Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrderModel& model,
-           const io::OutputSettings& output, TimeSpan span, io::ResultsFile& file);
+           const Recorded& wanted, TimeSpan span, io::ResultsFile& file);
 
   /// Records what a measured log is compared with. The log and `rest` must outlive the recorder.
   /// Call before the first sample. Collective; errors are those of LogRecorder.
@@ -59,9 +66,13 @@ class Recorder : public transient::ShareSink {
   struct Series {
     io::TimeSeries* series;
     const double* values;
+    bool ofNodes;  ///< one value for each node
   };
+  void choose(const std::vector<std::int64_t>& nodes);
   void addTable();
   void take(const Sample& sample);
+  /// Appends the values of the chosen nodes, of `width` each.
+  void append(io::TimeSeries& series, const double* values, std::size_t width);
   io::XdmfFrame frame(const Sample& sample) const;
 
   std::unique_ptr<MotionRecord> record_;
@@ -73,6 +84,8 @@ class Recorder : public transient::ShareSink {
   io::TimeSeries* velocitySeries_ = nullptr;
   io::TimeSeries* accelerationSeries_ = nullptr;
   std::vector<Series> channels_;
+  std::vector<std::size_t> rows_;  ///< of the chosen nodes; empty: all
+  std::vector<double> chosen_;     ///< their values
   std::unique_ptr<LogRecorder> measured_;
   std::unique_ptr<io::XdmfRecorder> pictures_;
   io::Csv table_;

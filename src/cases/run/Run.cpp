@@ -10,6 +10,7 @@
 #include "cases/ReducedCase.hpp"
 #include "cases/measured/LogReport.hpp"
 #include "cases/measured/MeasuredLog.hpp"
+#include "cases/run/RecordedNodes.hpp"
 #include "cases/run/Report.hpp"
 #include "cases/run/ResultsWriter.hpp"
 #include "common/Error.hpp"
@@ -134,7 +135,7 @@ class Run {
   void integrate(const model::SecondOrderModel& model) {
     const auto& list = case_.transient();
     recorder_ = std::make_unique<Recorder>(
-        rest_->record(model), model, case_.output(),
+        rest_->record(model), model, Recorded{case_.output(), recordedNodes(case_)},
         TimeSpan{list.get<double>("Start Time"), list.get<double>("End Time")}, files_.results());
     if (log_.isCompared()) compareWithLog();
     if (estimates_ && files_.goesOn())

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <vector>
 
+#include "cases/run/RecordedNodes.hpp"
 #include "cases/run/ResultsWriter.hpp"
 #include "cases/run/RunIdentity.hpp"
 #include "common/Parallel.hpp"
@@ -57,7 +58,7 @@ double expectedBytes(const Case& one) {
   const auto& list = one.transient();
   const double samples = (list.get<double>("End Time") - list.get<double>("Start Time")) /
                          list.get<double>("Sampling Interval");
-  const double numbers = static_cast<double>(one.nodes()) * one.components() *
+  const double numbers = static_cast<double>(recordedCount(one)) * one.components() *
                          static_cast<double>(one.output().fields.size());
   return beside + 8.0 * samples * numbers;
 }

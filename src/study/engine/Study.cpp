@@ -191,6 +191,7 @@ class Study {
     const auto speedUps = ratios(rows_->result().rows, plan_.settings.baseline);
     log::info(printedTable(rows_->result().rows, speedUps));
     log::info(describeReference(rows_->result()));
+    for (const auto& sentence : stepLimits(rows_->result())) log::info("limit       " + sentence);
     stamp("finished", "");
     parallel::agree([&] {
       stageAll();

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cases/ListText.hpp"
 #include "cases/run/ResultsWriter.hpp"
 #include "common/Constants.hpp"
 #include "common/Text.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/TextFile.hpp"
+#include "study/StepLimit.hpp"
 
 namespace tooljoint::study {
 
@@ -195,14 +197,27 @@ void summarise(const StudyResult& result, io::Summary& summary) {
     summary.set("reference.sensitivity.at_window_end", growthAt(*moved, result.plan.windowEnd));
     summary.set("reference.sensitivity.at_end", growthAt(*moved, result.plan.end));
   }
+  if (result.predictedCpu) summary.set("reference.predicted_cpu_s", *result.predictedCpu);
+  summary.set("step_limits", stepLimits(result));
   const auto speedUps = ratios(result.rows, result.plan.settings.baseline);
   for (std::size_t i = 0; i < result.rows.size(); ++i)
     summary.append("study", summaryRow(result.rows[i], speedUps[i]));
 }
 
+std::vector<std::string> stepLimits(const StudyResult& result) {
+  std::vector<std::string> lists;
+  for (const auto& run : result.plan.runs)
+    lists.push_back(run.scene ? cases::canonicalText(run.scene->transient()) : "");
+  return stepLimits(result.rows, lists);
+}
+
 std::string describeReference(const StudyResult& result) {
   char line[256];
   std::string text;
+  const auto* same = result.find(RunKind::Check);
+  if (same != nullptr && same->errors && same->errors->vibration == 0.0)
+    return "reference   its check has the same motion to the last digit: it says nothing of the "
+           "error of the reference. Change Study/Check/Set.";
   if (const auto* check = result.find(RunKind::Check); check != nullptr && check->errors) {
     std::snprintf(
         line, sizeof line,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct StudyResult {
   std::shared_ptr<const cases::RestingCase> rest;  ///< of the reference; null: not found
   std::vector<StudyRow> rows;
   std::string machine;
+  std::optional<double> predictedCpu = std::nullopt;  ///< of the reference, before it ran [s]
 
   /// The row of this kind when its run is done, else null.
   const StudyRow* find(RunKind kind) const;
@@ -29,6 +31,9 @@ struct StudyResult {
 void stageStudyTable(const StudyResult& result, io::OutputFolder& folder);
 void stageStudyFile(const StudyResult& result, io::OutputFolder& folder);
 void summarise(const StudyResult& result, io::Summary& summary);
+
+/// Where the step, not the basis, limits the reduced runs: a sentence each (StepLimit.hpp).
+std::vector<std::string> stepLimits(const StudyResult& result);
 
 /// What the reference is worth, in two lines.
 std::string describeReference(const StudyResult& result);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "cases/CaseLists.hpp"
@@ -13,6 +14,9 @@
 #include "deck/reading/FileName.hpp"
 #include "io/TextFile.hpp"
 #include "study/engine/RunDecks.hpp"
+#include "study/reference/FittedReference.hpp"
+#include "transient/TransientParameters.hpp"
+#include "transient/schemes/DefaultStep.hpp"
 
 namespace tooljoint::study {
 
@@ -56,6 +60,21 @@ std::vector<std::string> vectorFiles(const cases::Case& scene) {
   return files;
 }
 
+bool changesTransient(const std::string& override) {
+  const std::string list = "Transient";
+  const auto begin = override.find_first_not_of("!/ ");
+  return begin != std::string::npos && override.compare(begin, list.size(), list) == 0;
+}
+
+/// Step of an implicit integrator [s]; 0 for one that chooses its own.
+double stepOf(const cases::Case& scene) {
+  const auto& list = scene.transient();
+  if (transient::isExplicit(list)) return 0.0;
+  if (list.isType<double>("Step")) return list.get<double>("Step");
+  return list.get<std::string>("Integrator") == "Generalized-alpha" ? transient::defaultAlphaStep
+                                                                    : 0.0;
+}
+
 /// "reference" is 0, "1" too.
 std::size_t numberOf(std::size_t runs, const std::string& row) {
   return row == "reference" ? 0 : rowNumber(row, runs, "study");
@@ -76,9 +95,10 @@ class Planner {
           "Study", "compares motions, and the scene has no Transient list. Add one."));
     plan_.settings = readStudy(scene_.list().sublist("Study"));
     span();
+    auto methods = expand(plan_.settings, scene_.reductionLists());
+    if (plan_.settings.check.empty()) fitReference(plan_.settings, shortestStep(methods));
     auto planned = references(plan_.settings, scene_.reductionLists());
-    for (auto& run : expand(plan_.settings, scene_.reductionLists()))
-      planned.push_back(std::move(run));
+    for (auto& run : methods) planned.push_back(std::move(run));
     baseline(planned);
     const auto only = row_.empty() ? 0 : numberOf(planned.size(), row_);
     for (std::size_t i = 0; i < planned.size(); ++i) {
@@ -116,6 +136,27 @@ class Planner {
                                 formatNumber(transientNumber(scene_, "Sampling Interval")) +
                                 " s): no motion would be compared.");
     decks_.raise();
+  }
+
+  /// Of the implicit runs whose steps the deck gives [s]; 0 without any. The lists Transient of all
+  /// runs are read, each once.
+  double shortestStep(const std::vector<PlannedRun>& methods) {
+    std::set<std::string> seen;
+    double shortest = 0.0;
+    for (auto run : methods) {
+      auto& own = run.overrides;
+      own.erase(
+          std::remove_if(own.begin(), own.end(),
+                         [](const SourcedOverride& one) { return !changesTransient(one.text); }),
+          own.end());
+      std::string key;
+      for (const auto& one : own) key += one.text + "\n";
+      if (!seen.insert(key).second) continue;
+      const auto moved = decks_.read(run, {});
+      const double step = moved && moved->moves() ? stepOf(*moved) : 0.0;
+      if (step > 0.0) shortest = shortest > 0.0 ? std::min(shortest, step) : step;
+    }
+    return shortest;
   }
 
   void add(PlannedRun run) {
@@ -206,8 +247,10 @@ std::string describe(const StudyPlan& plan) {
   const auto runs = plan.runs.size() - plan.referenceRuns();
   return std::to_string(runs) + " runs of " + std::to_string(plan.settings.methods.size()) +
          " methods, each " + std::to_string(plan.settings.repeats) + " times, and " +
-         std::to_string(plan.referenceRuns()) + " of the reference; to " + formatNumber(plan.end) +
-         " s, compared up to " + formatNumber(plan.windowEnd) + " s (tooljoint study)";
+         std::to_string(plan.referenceRuns()) + " of the reference (" +
+         describeReference(plan.settings, plan.runs.front().scene->transient()) + "); to " +
+         formatNumber(plan.end) + " s, compared up to " + formatNumber(plan.windowEnd) +
+         " s (tooljoint study)";
 }
 
 std::string contentOf(const cases::Case& scene) {

@@ -2,16 +2,21 @@
 #include "study/engine/StudyRows.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
+#include "study/reference/FittedReference.hpp"
 
 namespace tooljoint::study {
 namespace {
 
+/// CPU time of the reference and its companions from which the way to a cheaper one is told [s].
+constexpr double longReference = 60.0;
 constexpr int kStoreFormat = 4;  ///< raised when the meaning of a stored row changes
 
 void again(StudyRow& row, const PreparedModel& prepared, const Execution& execution) {
@@ -140,6 +145,7 @@ void StudyRows::moveReference() {
   const auto& first = plan_.runs[0];
   result_.rest = first.scene->atRest();
   const auto prepared = runner_.prepare(*first.scene, 0);
+  sayCost(prepared);
   auto execution = runner_.move(*first.scene, prepared, {"reference", true, 0.0, std::nullopt});
   parallel::agree([&] {
     if (parallel::rank() != 0) return;
@@ -150,6 +156,19 @@ void StudyRows::moveReference() {
     store_->keep(keys_[0], result_.rows[0]);
   });
   timed_[0] = 1;
+}
+
+/// The check is of the same model; the perturbed run takes the steps of the reference.
+void StudyRows::sayCost(const PreparedModel& prepared) {
+  result_.predictedCpu = runner_.predictedCpu(*plan_.runs[0].scene, prepared);
+  const auto check = runner_.predictedCpu(*plan_.runs[1].scene, prepared);
+  if (!result_.predictedCpu || !check) return;
+  const double all =
+      *check + static_cast<double>(plan_.referenceRuns() - 1) * *result_.predictedCpu;
+  log::info("reference   " + describeReference(plan_.settings, plan_.runs[0].scene->transient()) +
+            fmt::format(": about {:.2g} s of CPU time, with its check and all {:.2g} s",
+                        *result_.predictedCpu, all) +
+            (all > longReference ? ". Study/Reference and Study/Check make it cheaper." : ""));
 }
 
 void StudyRows::copyTwins() {

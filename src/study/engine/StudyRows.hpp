@@ -51,6 +51,7 @@ class StudyRows {
   void makeKeys();
   void find();
   void moveReference();
+  void sayCost(const PreparedModel& prepared);
   void setReference();
   void execute(std::size_t i, const std::string& title);
   void fail(std::size_t i, const std::string& reason, double givenUpAfter);

@@ -19,6 +19,10 @@ namespace tooljoint::study {
 
 namespace {
 
+/// A trial of this CPU time tells what a motion will take [s]; a shorter one is repeated longer.
+constexpr double enoughCpu = 0.05;
+constexpr double trialGrowth = 4.0;
+
 /// Rows of the recovery for the measured components of the measured nodes.
 std::vector<Eigen::Index> measuredRows(const cases::Measures& measures,
                                        const model::SecondOrderModel& model) {
@@ -233,6 +237,30 @@ Execution StudyRunner::move(const cases::Case& scene, const PreparedModel& prepa
   auto execution = integrate(scene, measures, prepared.model(), options, estimator.get());
   execution.estimatedVibration = estimator->result().error;
   return execution;
+}
+
+std::optional<double> StudyRunner::predictedCpu(const cases::Case& scene,
+                                                const PreparedModel& prepared) const {
+  const auto& list = scene.transient();
+  const double start = list.get<double>("Start Time");
+  const double whole = list.get<double>("End Time") - start;
+  double length = list.get<double>("Sampling Interval");
+  for (;; length *= trialGrowth) {
+    auto overrides = scene.deck().overrides();
+    const bool last = length * trialGrowth >= whole;
+    overrides.push_back("Transient/End Time=" + formatNumber(start + std::min(length, whole)));
+    // of the first samples a run judges nothing
+    for (const char* judged : {"Step Error", "Energy Residual"})
+      for (const char* when : {"Warning", "Limit"})
+        overrides.push_back(std::string("Transient/") + judged + " " + when + "=1e30");
+    try {
+      const auto trial = move(*scene.with(overrides), prepared, {"", false, 0.0, std::nullopt});
+      if (last || trial.cpu > enoughCpu) return trial.cpu * whole / std::min(length, whole);
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::Interrupted) throw;
+      return std::nullopt;  // the run itself says why
+    }
+  }
 }
 
 }  // namespace tooljoint::study

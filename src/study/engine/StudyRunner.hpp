@@ -73,6 +73,10 @@ class StudyRunner {
   Execution move(const cases::Case& scene, const PreparedModel& prepared,
                  const ExecutionOptions& options) const;
 
+  /// CPU time that the motion of the case will take [s], from its first samples; none where those
+  /// already fail. The rest may cost more, where contact begins later.
+  std::optional<double> predictedCpu(const cases::Case& scene, const PreparedModel& prepared) const;
+
  private:
   struct FullModes {
     coupling::Coupling whole;

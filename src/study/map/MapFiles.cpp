@@ -125,7 +125,7 @@ void summarise(const MapPlan& plan, const std::vector<MapRow>& rows, io::Summary
   for (const auto& value : plan.settings.values) {
     const auto range = rangeOf(value, rows);
     io::SummaryRow row;
-    row.set("name", value.name).set("key", value.key);
+    row.set("name", value.name).set("key", value.key).set("unit", io::unitOfKey(value.key));
     row.set("known", static_cast<long>(range.known));
     row.set("unsafe", static_cast<long>(range.unsafe));
     if (value.unsafeAbove) row.set("unsafe_above", *value.unsafeAbove);

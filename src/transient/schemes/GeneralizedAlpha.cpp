@@ -53,6 +53,7 @@
 #include "transient/accuracy/StepGrid.hpp"
 #include "transient/contact/ImpactResolution.hpp"
 #include "transient/schemes/AlphaStep.hpp"
+#include "transient/schemes/DefaultStep.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -116,8 +117,6 @@ deck::ListSpec specification() {
       .expert();
 }
 
-/// Largest step of the default when the deck gives none.
-constexpr double defaultStep = 1e-3;
 /// Halves are solved better than the steps of a run, so that what its iterations leave is seen.
 constexpr double strictness = 0.1;
 
@@ -209,7 +208,7 @@ void GeneralizedAlpha::prepareRetaking(const Integrator& run, CompiledModel& mod
 
 void GeneralizedAlpha::bind(CompiledModel& model, const Window& window, double t) {
   model_ = &model;
-  const double step = fittedStep(window, window.step > 0 ? window.step : defaultStep);
+  const double step = fittedStep(window, window.step > 0 ? window.step : defaultAlphaStep);
   scheme_->prepare(step, t);
   resolveImpacts_ =
       resolveImpacts_ && !controlled_ && !model.points().empty() && scheme_->mass().regular();
@@ -244,7 +243,7 @@ void GeneralizedAlpha::checkParameters(double step) const {
         "Transient/Generalized-alpha/Smallest Step bounds the steps that "
         "Transient/Generalized-alpha/Step Tolerance chooses, which "
         "is not given. Give it, or leave Smallest Step out.");
-  const double longest = step > 0 ? step : defaultStep;
+  const double longest = step > 0 ? step : defaultAlphaStep;
   if (smallest_ <= longest) return;
   std::ostringstream text;
   text << "Transient/Generalized-alpha/Smallest Step (" << smallest_

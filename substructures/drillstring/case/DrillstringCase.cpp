@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "cases/CaseKinds.hpp"
+#include "cases/CaseLists.hpp"
 #include "cases/ListText.hpp"
+#include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/TextFile.hpp"
 #include "parts/ReducedPart.hpp"
 #include "substructures/beam/NodalDofs.hpp"
@@ -106,6 +112,29 @@ std::unique_ptr<cases::Case> DrillstringCase::with(
   auto other = std::make_unique<DrillstringCase>(readScene(deck().with(overrides)));
   other->found_ = found_;
   return other;
+}
+
+std::vector<std::int64_t> DrillstringCase::recordedNodes() const {
+  const auto& nodes = scene_->string.nodes;
+  const auto wanted = cases::listOrDefaults(list(), io::parameters());
+  if (wanted.isParameter("Nodes"))
+    throw DeckError(deck().error(
+        "Output/Nodes", "names nodes of parts. Those of a string are chosen by Output/Depths."));
+  std::set<std::int64_t> chosen;
+  if (!wanted.isParameter("Depths")) return {};
+  for (const double depth : wanted.get<Teuchos::Array<double>>("Depths")) {
+    if (depth > nodes.back().s + 1e-6)
+      throw DeckError(deck().error("Output/Depths", "has " + deck::printed(depth, "m") +
+                                                        ", but the string ends at " +
+                                                        deck::printed(nodes.back().s, "m") +
+                                                        ". Give depths above its end."));
+    const auto nearest =
+        std::min_element(nodes.begin(), nodes.end(), [depth](const auto& a, const auto& b) {
+          return std::abs(a.s - depth) < std::abs(b.s - depth);
+        });
+    chosen.insert(std::distance(nodes.begin(), nearest) + 1);
+  }
+  return {chosen.begin(), chosen.end()};
 }
 
 std::string DrillstringCase::files() const {

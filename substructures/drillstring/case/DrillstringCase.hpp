@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "cases/Case.hpp"
+#include "cases/run/RecordedNodes.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {
 
-class DrillstringCase : public cases::Case {
+class DrillstringCase : public cases::Case, public cases::NodeChoice {
  public:
   explicit DrillstringCase(Scene scene);
 
@@ -26,6 +27,8 @@ class DrillstringCase : public cases::Case {
   }
   bool reducesWithoutMotion() const override { return false; }
   const io::OutputSettings& output() const override { return scene_->output; }
+  /// Nearest to `Output/Depths`.
+  std::vector<std::int64_t> recordedNodes() const override;
   std::string files() const override;
   int nodes() const override { return scene_->string.nodeCount(); }
   int components() const override;

@@ -8,6 +8,7 @@
 #include "deck/Deck.hpp"
 #include "study/Expansion.hpp"
 #include "study/StudyParameters.hpp"
+#include "study/reference/FittedReference.hpp"
 
 namespace {
 
@@ -50,14 +51,30 @@ void refuses(const std::string& body, const std::string& sentence) {
   }
 }
 
-TEST(StudyList, DefaultsAreATightReferenceAndATighterCheck) {
+TEST(StudyList, AReferenceIsFittedToTheRunsUnlessTheDeckGivesOne) {
   const auto s = settingsOf(full);
   EXPECT_FALSE(s.window);
   EXPECT_EQ(s.repeats, 3);
   EXPECT_EQ(s.perturbation, 1e-10);
-  ASSERT_EQ(s.reference.size(), 3u);
-  EXPECT_EQ(s.reference[1], "Transient/Integrator=RK4");
-  EXPECT_EQ(s.check, std::vector<std::string>{"Transient/RK4/Safety=0.25"});
+  EXPECT_TRUE(s.reference.empty());
+  EXPECT_TRUE(s.check.empty());
+  using Texts = std::vector<std::string>;
+  auto explicitRuns = s;
+  study::fitReference(explicitRuns, 0.0);
+  EXPECT_EQ(explicitRuns.reference,
+            (Texts{"!Transient/Step", "Transient/Integrator=RK4", "Transient/RK4/Safety=0.5"}));
+  EXPECT_EQ(explicitRuns.check, Texts{"Transient/RK4/Safety=0.25"});
+  auto implicitRuns = s;
+  study::fitReference(implicitRuns, 2e-3);
+  EXPECT_EQ(implicitRuns.reference.back(), "Transient/Step=5e-04");
+  EXPECT_EQ(implicitRuns.check, Texts{"Transient/Step=0.00025"});
+  EXPECT_EQ(settingsOf(full + list("Check", texts("Set", "Transient/RK4/Safety=0.1"))).reference,
+            study::explicitReference());
+  auto given = s;
+  given.reference = Texts{"Transient/Step=1e-6"}, given.check = Texts{"Transient/Step=1e-7"};
+  study::fitReference(given, 2e-3);
+  EXPECT_EQ(given.reference, Texts{"Transient/Step=1e-6"});
+  EXPECT_EQ(given.check, Texts{"Transient/Step=1e-7"});
   ASSERT_EQ(s.methods.size(), 1u);
   EXPECT_EQ(s.methods[0].label, "explicit");
   EXPECT_FALSE(s.methods[0].reduced);
@@ -137,18 +154,23 @@ TEST(Expansion, AFullModelLosesTheListsItIsSaidToHave) {
   ASSERT_FALSE(runs.empty());
   EXPECT_EQ(runs[0].overrides[0].text, "!Reduction");
   for (const auto& item : runs[0].overrides) EXPECT_NE(item.text, "!Substructures");
-  EXPECT_EQ(study::references(settingsOf(full), {"Reduction"})[0].overrides[0].text, "!Reduction");
+  auto s = settingsOf(full);
+  study::fitReference(s, 0.0);
+  EXPECT_EQ(study::references(s, {"Reduction"})[0].overrides[0].text, "!Reduction");
 }
 
 TEST(Expansion, TheCheckIsTheReferenceWithFurtherOverrides) {
-  const auto s = settingsOf(full);
+  auto s = settingsOf(full);
+  study::fitReference(s, 0.0);
   const auto runs = study::references(s);
   ASSERT_EQ(runs.size(), 3u);
   EXPECT_EQ(runs[0].kind, study::RunKind::Reference);
   EXPECT_EQ(runs[1].overrides.size(), runs[0].overrides.size() + 1);
   EXPECT_EQ(runs[1].overrides.back().text, "Transient/RK4/Safety=0.25");
   EXPECT_EQ(runs[2].kind, study::RunKind::Sensitivity);
-  EXPECT_EQ(study::references(settingsOf(full, {"Study/Perturbation=0"})).size(), 2u);
+  auto still = settingsOf(full, {"Study/Perturbation=0"});
+  study::fitReference(still, 0.0);
+  EXPECT_EQ(study::references(still).size(), 2u);
 }
 
 }  // namespace

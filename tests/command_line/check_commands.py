@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the commands of the documents: check_commands.py PROGRAM PROJECT
+
+Blocks `sh` of the user's pages run line by line in a folder that looks like the project; motions and studies are made short on the way, so that all
+words are tried. Commands that a tool writes into docs/validation.md are checked, not run. Of all other commands in the pages, in blocks and within
+lines, the command, its options, decks, tools and targets must exist. README.md, the tutorials, docs/first-report.md and docs/python.md have
+tests of their own, which run them word for word.
+"""
+import functools
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import TIME_FACTOR, expect, finish  # noqa: E402
+
+PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+RUN = ("docs/drilling.md", "docs/report.md", "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md", "docs/guide/coupling.md", "docs/guide/troubleshooting.md",
+       "docs/guide/studies.md")
+CHECKED = "docs/validation.md"
+SHORT = {"run": ["Transient/End Time=0.02"], "study": ["Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"],
+         "map": ["Transient/End Time=0.02", "Map/Pictures=false"], "torque-drag": ["Torque and Drag/Count=1"]}
+OPTIONS_OF_DECKS = ("--set", "--without")
+PLACES = re.compile(r"\b(DECK|DIR|FILE|NAME|[A-Z]{2,})\b")
+
+
+def blocks(page, kinds=("sh",)):
+    """Commands in the blocks of a page, lines that go on joined, and the text of the block before each."""
+    text, before, found = (PROJECT / page).read_text(encoding="utf-8"), "", []
+    for kind, body in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S):
+        if kind in kinds:
+            lines = body.replace("\\\n", " ").splitlines()
+            found += [(line, before) for line in lines if line.strip() and not line.startswith("#")]
+        before = body
+    return found
+
+
+def stage(folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    (folder / "bin").mkdir(parents=True)
+    (folder / "build/release").mkdir(parents=True)
+    shutil.copytree(PROJECT / "xml", folder / "xml")  # some commands read a table beside a deck
+    for name in ("tools", "tests", "examples", "python"):
+        (folder / name).symlink_to(PROJECT / name)
+    for place in ("bin", "build/release"):
+        program = folder / place / "tooljoint"
+        program.write_text(f"#!/bin/bash\nexec {shlex.quote(str(PROGRAM))} \"$@\"\n", encoding="utf-8")
+        program.chmod(0o755)
+
+
+def words_of(line):
+    return shlex.split(line, comments=True)
+
+
+def shortened(words):
+    """The words of a command with overrides that make it quick."""
+    if words[0] != "tooljoint" or words[1] not in SHORT or "Transient" in words:
+        return words
+    return [*words, *(word for text in SHORT[words[1]] for word in ("--set", text))]
+
+
+def run_pages(folder):
+    environment = {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "TOOLJOINT_REPORT": "off"}
+    for page in RUN:
+        for line, before in blocks(page):
+            words = words_of(line)
+            runs = words[0] == "tooljoint" or words[0].startswith("tools/")
+            if not runs or PLACES.search(" ".join(words[:3])):
+                continue
+            measured = re.search(r"Measured=(\S+\.csv)", line)
+            if measured:
+                (folder / "xml" / measured[1]).write_text(before, encoding="utf-8")
+            done = subprocess.run(shortened(words), cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False,
+                                  timeout=240 * TIME_FACTOR)
+            expect(f"{page}: {line.strip()[:110]}", done.returncode == 0, f"({done.returncode}) {done.stderr[-400:]}")
+
+
+def check_decks():
+    """Commands that take minutes: their decks and overrides are read, nothing is solved."""
+    seen = set()
+    for line, _ in blocks(CHECKED, ("sh", "")):
+        words = words_of(line)
+        if words[:2] != ["tooljoint", "run"]:
+            continue
+        kept = [words[2]]
+        for option, value in zip(words[3:], words[4:]):
+            kept += [option, value] if option in OPTIONS_OF_DECKS else []
+        if tuple(kept) in seen:
+            continue
+        seen.add(tuple(kept))
+        done = subprocess.run([PROGRAM, "check", *kept], cwd=PROJECT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        expect(f"{CHECKED}: {line.strip()[:110]}", done.returncode == 0, done.stderr[-300:])
+    expect(f"{CHECKED} has commands", len(seen) > 20, len(seen))
+
+
+@functools.lru_cache(maxsize=None)
+def helped(*words):
+    done = subprocess.run([*words, "--help"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    return done.stdout if done.returncode == 0 else None
+
+
+def spelled(text, page, targets):
+    """A command as it stands in a page: what it names exists."""
+    text = text.split("#")[0].replace("\\|", "|")
+    options = re.findall(r"(?<![\w-])--[a-z][\w-]*", text)
+    if match := re.match(r"(?:mpirun -np \S+ |mpiexec -n \S+ )?(?:\S*/)?tooljoint(?: ([a-z-]+))?\b", text):
+        help_text = helped(str(PROGRAM), *([match[1]] if match[1] else []))
+    elif match := re.match(r"(?:python3 )?(tools/[\w/]+\.py|tests/[\w/]+\.py)", text):
+        expect(f"{page}: {match[1]} exists", (PROJECT / match[1]).is_file())
+        if match[1].startswith("tests/"):
+            return
+        help_text = helped("/usr/bin/python3", str(PROJECT / match[1]))
+    else:
+        for target in re.findall(r"--target (\S+)", text):
+            expect(f"{page}: the target {target} exists", target in targets, sorted(targets)[:5])
+        return
+    expect(f"{page}: {text[:100]}", help_text is not None and all(re.search(rf"{option}\b", help_text) for option in options),
+           "no such command" if help_text is None else [option for option in options if option not in help_text])
+    for deck in re.findall(r"\b(?:xml|examples)/[\w/]+\.xml", text):
+        expect(f"{page}: {deck} exists", (PROJECT / deck).is_file())
+
+
+def targets():
+    """Names of custom targets in the sources of the build."""
+    files = [PROJECT / "CMakeLists.txt", *PROJECT.glob("cmake/*.cmake"), *PROJECT.glob("tests/**/CMakeLists.txt"), *PROJECT.glob("python/**/CMakeLists.txt"), *PROJECT.glob("docs/CMakeLists.txt")]
+    text = "\n".join(path.read_text(encoding="utf-8") for path in files)
+    return set(re.findall(r"(?:add_custom_target|pybind11_add_module|add_executable|add_library)\(\s*([\w-]+)", text)) | {"install", "all", "package"}
+
+
+def pages():
+    found = [*PROJECT.glob("docs/*.md"), *PROJECT.glob("docs/guide/*.md"), *PROJECT.glob("examples/*/README.md"), PROJECT / "README.md", PROJECT / "CONTRIBUTING.md"]
+    return [page for page in sorted(found) if page.name not in ("parameters.md", "CHANGELOG.md")]
+
+
+def check_words():
+    known, count = targets(), 0
+    for page in pages():
+        text, name = page.read_text(encoding="utf-8"), str(page.relative_to(PROJECT))
+        begins = r"(?:mpirun -np \S+ |mpiexec -n \S+ )?(?:tooljoint|build/release/tooljoint|tools/\w+\.py|python3 tests/|cmake --build)\b"
+        commands = set(re.findall(rf"`({begins}[^`\n]*)`", text))
+        commands |= {line.strip() for line in re.findall(rf"^(?:    )?({begins}.*)$", text.replace("\\\n", " "), re.M) if not line.endswith(".")}
+        for command in sorted(commands):
+            spelled(command, name, known)
+        count += len(commands)
+    expect("the pages have commands", count > 100, count)
+
+
+def main():
+    folder = pathlib.Path("commands").resolve()
+    stage(folder)
+    check_words()
+    check_decks()
+    run_pages(folder)
+    return finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
