@@ -155,6 +155,12 @@ def locked():
     expect("the profile ends where it locks up", 0 < depths[-1] - float(row["lock_up_depth"]) <= 3.0, depths[-1])
 
 
+def announced():
+    """`tooljoint check` says what torque-drag will do."""
+    done = tooljoint("check", DECK, "--set", "Torque and Drag/Depths={400, 800}", "--set", "Torque and Drag/Operations={Trip in}", "--set", "Torque and Drag/Stiff String=All Depths")
+    expect("check: depths, operations and the stiff string", "2 depths, 1 operation, the stiff string at all of them" in " ".join(done.stdout.split()), done.stdout[-600:] + done.stderr)
+
+
 def tables_and_refusals():
     depths = run("some", "Torque and Drag/Depths={400, 800}", "Torque and Drag/Operations={Trip in}", "Torque and Drag/Block Weight=100 kN")
     expect("a row for each depth and operation", [float(row["bit_depth"]) for row in depths] == [400, 800], depths)
@@ -257,5 +263,6 @@ weight_on_bit()
 locked()
 resumed()
 files()
+announced()
 tables_and_refusals()
 sys.exit(finish())
