@@ -261,7 +261,9 @@ void addAnalyses(CLI::App& program, Options& options, std::function<void()>& com
   auto* torqueDragCommand = program.add_subcommand(
       "torque-drag",
       "hook load, surface torque, buckling and yield margins against the depth of the bit");
-  addDeckOptions(*torqueDragCommand, options, Output::Wanted);
+  addDeckOptions(*torqueDragCommand, options, Output::Always, "_torque_drag");
+  torqueDragCommand->add_flag("--fresh", options.fresh,
+                              "forget the depths an earlier command left in the folder");
   torqueDragCommand->callback([&] { command = [&] { tooljoint::app::torqueDrag(options); }; });
 
   auto* bhaCommand = program.add_subcommand(

@@ -70,8 +70,7 @@ deck::ListSpec parameters() {
       .boolean(
           "Report", defaults.report,
           "Write report.html at the end of `tooljoint run`, `study`, `map`, `bha`, `buckling` and "
-          "`torque-drag "
-          "--output`: figures, plots and a 3-D view of the results in one file.")
+          "`torque-drag`: figures, plots and a 3-D view of the results in one file.")
       .boolean("XDMF", defaults.xdmf,
                "Write results.xdmf for ParaView: the string in its well, coloured by contact force "
                "and speed.")

@@ -7,13 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "cases/run/KeptRows.hpp"
 #include "study/Row.hpp"
 
 namespace tooljoint::study {
-
-/// The program that computes: version and commit, and for a build from changed sources also its
-/// files with their sizes and times.
-std::string programStamp();
 
 /// Host name and processor: times of another machine are not ours.
 std::string machineName();
@@ -32,33 +29,15 @@ struct RecordedHistory {
   }
 };
 
-/// Files FOLDER/cache/row_KEY.json and reference_KEY.h5. Rank 0 does all the work; other ranks find
-/// nothing and keep nothing. Files that cannot be read count as absent.
-class RowStore {
+/// Rows of a study or a map, and beside them files FOLDER/cache/reference_KEY.h5.
+class RowStore : public cases::KeptRows {
  public:
-  /// Makes FOLDER/cache. FileError when that fails.
-  explicit RowStore(const std::string& folder);
+  using KeptRows::KeptRows;
 
-  /// Forget everything.
-  void clear() const;
-
-  /// A row as the text it was kept as.
-  std::optional<std::string> restoreText(const std::string& key) const;
-  void keepText(const std::string& key, const std::string& text) const;
   bool restore(const std::string& key, StudyRow& row) const;
   void keep(const std::string& key, const StudyRow& row) const;
   std::optional<RecordedHistory> restoreHistory(const std::string& key) const;
   void keepHistory(const std::string& key, const RecordedHistory& history) const;
-
- private:
-  std::string rowFile(const std::string& key) const {
-    return folder_ + "/row_" + key.substr(0, 24) + ".json";
-  }
-  std::string historyFile(const std::string& key) const {
-    return folder_ + "/reference_" + key.substr(0, 24) + ".h5";
-  }
-  std::string folder_;
-  bool active_ = false;
 };
 
 }  // namespace tooljoint::study

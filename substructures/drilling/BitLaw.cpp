@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drilling/BitLaw.hpp"
 
+#include <fmt/format.h>
 #include <vector>
 
+#include "common/Error.hpp"
+#include "common/Text.hpp"
 #include "deck/Deck.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "deck/Variants.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 
@@ -60,6 +64,38 @@ BitLoad steadyLoad(const PointOnString& bit, double t) {
   for (std::size_t c = 0; c < force.size(); ++c)
     (bit.components[c] == beam::nodal::w ? load.weight : load.torque) = -force[c];
   return load;
+}
+
+double feedFor(const BitSettings& bit, const loads::RotarySpeed& rotary, double t, double weight) {
+  constexpr double fastest = 1.0;  // [m/s]
+  constexpr int halvings = 80;
+  const auto lacks = [&](double feed) {
+    return steadyLoad(bitOnString(bit, 0, rotary, feed, 0.0), t).weight < weight;
+  };
+  double low = 0.0, high = fastest;
+  if (!lacks(low) || lacks(high))
+    throw DeckError("is not reached by the law " + inQuotes(bit.name) + " of Bit at " +
+                    deck::printed(rotary.speed(t), "rpm", 4) + " of the start and up to " +
+                    deck::printed(fastest, "m/s") +
+                    " of the block. Give another weight, a Rotary Speed that turns at the start, "
+                    "or Top Drive/Block Speed.");
+  for (int i = 0; i < halvings && high > low; ++i) {
+    const double middle = 0.5 * (low + high);
+    (lacks(middle) ? low : high) = middle;
+  }
+  return high;
+}
+
+std::string outsideCalibration(const BitSettings& bit, const std::string& what, double least,
+                               double most) {
+  const auto range = bit.law->calibration();
+  if (range.contains(least) && range.contains(most)) return "";
+  const deck::PrintedUnit force("kN");
+  const auto text = [&](double weight) { return fmt::format("{:.1f}", force(weight)); };
+  return "The weight on bit of " + what + " is " + text(least) +
+         (most > least ? " to " + text(most) : "") + " " + force.name() + ", outside of the " +
+         text(range.least) + " to " + text(range.most) + " " + force.name() + " to which the law " +
+         inQuotes(bit.name) + " of Bit was fitted.";
 }
 
 }  // namespace tooljoint::drilling

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,6 +18,13 @@
 
 namespace tooljoint::drilling {
 
+/// Weights on bit a law was fitted to [N].
+struct WeightRange {
+  double least = 0.0;
+  double most = std::numeric_limits<double>::infinity();
+  bool contains(double weight) const { return weight >= least && weight <= most; }
+};
+
 /// What a law at the bit is made of beside its own parameters.
 class BitLaw {
  public:
@@ -28,6 +36,8 @@ class BitLaw {
   /// One point. `weightOnBit` [N]: that of the deck's Loads, for laws that do not give it. Forces
   /// are those on the bit: the resisting ones are negative.
   virtual std::shared_ptr<const model::PointLaw> make(double weightOnBit) const = 0;
+  /// Beyond it the program warns.
+  virtual WeightRange calibration() const { return {}; }
   /// What `tooljoint check` says of it.
   virtual std::string describe() const = 0;
 };
@@ -69,8 +79,19 @@ struct BitLoad {
 };
 BitLoad steadyLoad(const PointOnString& bit, double t);
 
+/// Advance [m/s] of steady drilling at which a law that gives the weight gives this one [N], at the
+/// speed of time t. DeckError where none up to 1 m/s does: the sentence goes on after the path of a
+/// parameter.
+double feedFor(const BitSettings& bit, const loads::RotarySpeed& rotary, double t, double weight);
+
+/// "" or a warning that the weights `least` to `most` [N] of `what` lie outside of what the law was
+/// fitted to.
+std::string outsideCalibration(const BitSettings& bit, const std::string& what, double least,
+                               double most);
+
 /// Names of the point sets.
 constexpr const char* bitSet = "bit";
 constexpr const char* topDriveSet = "top drive";
+constexpr const char* hookSet = "hook";
 
 }  // namespace tooljoint::drilling

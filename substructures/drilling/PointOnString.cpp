@@ -13,8 +13,12 @@ namespace {
 
 class LawInFrame final : public model::StatefulPointLaw {
  public:
-  LawInFrame(std::vector<StringCoordinate> coordinates, std::shared_ptr<const model::PointLaw> law)
-      : coordinates_(std::move(coordinates)), law_(std::move(law)), with_(model::stateful(*law_)) {
+  LawInFrame(std::vector<StringCoordinate> coordinates, std::shared_ptr<const model::PointLaw> law,
+             std::vector<RateChannel> recorded)
+      : coordinates_(std::move(coordinates)),
+        law_(std::move(law)),
+        with_(model::stateful(*law_)),
+        recorded_(std::move(recorded)) {
     if (with_ == nullptr || law_->size() != 1 ||
         law_->width() != static_cast<int>(coordinates_.size()))
       throw Error(ExitCode::Internal,
@@ -62,16 +66,19 @@ class LawInFrame final : public model::StatefulPointLaw {
   std::vector<model::Channel> channels() const override {
     std::vector<model::Channel> all;
     for (const auto& one : coordinates_) all.push_back(one.channel);
+    for (const auto& one : recorded_) all.push_back(one.channel);
     return all;
   }
   void recordState(double t, const double* d, const double* v, const double* x,
                    double* out) const override {
     static const std::vector<int> theOne{0};
     forces(t, theOne, d, v, x, force_.data(), rates_.data());
-    for (std::size_t i = 0; i < coordinates_.size(); ++i) out[i] = coordinates_[i].sign * force_[i];
+    for (std::size_t i = 0; i < coordinates_.size(); ++i)
+      *out++ = coordinates_[i].sign * force_[i] + coordinates_[i].offset;
+    for (const auto& one : recorded_) *out++ = rates_[at(one.state)] + one.offset;
   }
   std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& points) const override {
-    return std::make_shared<LawInFrame>(coordinates_, law_->subset(points));
+    return std::make_shared<LawInFrame>(coordinates_, law_->subset(points), recorded_);
   }
 
  private:
@@ -86,6 +93,7 @@ class LawInFrame final : public model::StatefulPointLaw {
   std::vector<StringCoordinate> coordinates_;
   std::shared_ptr<const model::PointLaw> law_;
   const model::StatefulPointLaw* with_;
+  std::vector<RateChannel> recorded_;
   // of one evaluation
   mutable std::vector<double> y_, yDot_, force_, rates_;
 };
@@ -94,10 +102,11 @@ class LawInFrame final : public model::StatefulPointLaw {
 
 PointOnString onString(const std::string& name, int node,
                        const std::vector<StringCoordinate>& coordinates,
-                       std::shared_ptr<const model::PointLaw> law) {
+                       std::shared_ptr<const model::PointLaw> law,
+                       const std::vector<RateChannel>& rates) {
   PointOnString point{name, node, {}, nullptr};
   for (const auto& one : coordinates) point.components.push_back(one.component);
-  point.law = std::make_shared<LawInFrame>(coordinates, std::move(law));
+  point.law = std::make_shared<LawInFrame>(coordinates, std::move(law), rates);
   return point;
 }
 

@@ -26,6 +26,14 @@ struct StringCoordinate {
   FrameMotion frame = {};  ///< none: the law acts on the displacement itself
   model::Channel channel;  ///< what of it is recorded: `sign` times the force
   double sign = 1.0;
+  double offset = 0.0;  ///< added to it
+};
+
+/// A rate of a state of the law that is recorded, with what is added to it.
+struct RateChannel {
+  int state = 0;  ///< 0-based, of the rated ones
+  model::Channel channel;
+  double offset = 0.0;
 };
 
 /// A law at a node; what StringModel adds to the equations of motion.
@@ -36,10 +44,12 @@ struct PointOnString {
   std::shared_ptr<const model::PointLaw> law;
 };
 
-/// The law in total coordinates y = d + s(t), y' = v + s'(t). The power of the frame, -f s', is
-/// counted as that of the drive.
+/// The channels of the coordinates come first, then those of the rates. The law in total
+/// coordinates y = d + s(t), y' = v + s'(t). The power of the frame, -f s', is counted as that of
+/// the drive.
 PointOnString onString(const std::string& name, int node,
                        const std::vector<StringCoordinate>& coordinates,
-                       std::shared_ptr<const model::PointLaw> law);
+                       std::shared_ptr<const model::PointLaw> law,
+                       const std::vector<RateChannel>& rates = {});
 
 }  // namespace tooljoint::drilling

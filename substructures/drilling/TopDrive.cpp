@@ -34,8 +34,8 @@ const std::vector<Control>& controls() {
        {"Inertia", "Proportional Gain", "Integral Gain", "Torque Limit"}},
       {DriveControl::ImpedanceMatched,
        "Impedance Matched",
-       {"Inertia", "Tuning Frequency"},
-       {"Inertia", "Tuning Frequency", "Impedance Ratio", "Torque Limit"}}};
+       {"Inertia"},
+       {"Inertia", "Tuning Frequency", "High-Pass Frequency", "Impedance Ratio", "Torque Limit"}}};
   return all;
 }
 
@@ -59,6 +59,10 @@ void checkParameters(const Teuchos::ParameterList& list, const Control& control)
       if (list.isParameter(name) && !contains(control.takes, name))
         throw DeckError(list.name() + "/" + name + " is not used by the control " +
                         inQuotes(control.name) + ". Leave it out, or choose another control.");
+  if (control.control == DriveControl::ImpedanceMatched &&
+      list.isParameter("Tuning Frequency") == list.isParameter("High-Pass Frequency"))
+    throw DeckError(list.name() + "/Control is " + inQuotes(control.name) +
+                    ", which needs either Tuning Frequency or High-Pass Frequency. Give one.");
 }
 
 }  // namespace
@@ -72,8 +76,8 @@ deck::ListSpec topDriveParameters() {
       .choice("Control", std::string("Stiff"), names,
               "Stiff: the top turns with Rotary Speed, whatever the torque. Torque: a constant "
               "torque on the inertia of the drive. Speed: a PI controller holds the speed of "
-              "Rotary Speed. Impedance Matched: the same with gains that absorb torsional waves of "
-              "the Tuning Frequency.")
+              "Rotary Speed. Impedance Matched: the same with gains that absorb torsional waves, "
+              "those of the Tuning Frequency or those above the High-Pass Frequency.")
       .real("Inertia", "kg m2", Optional{}, Range::nonNegative(),
             "Moment of inertia J of drive and gear at the string; all controls but Stiff.")
       .real("Proportional Gain", "N m s/rad", Optional{}, Range::nonNegative(),
@@ -81,20 +85,26 @@ deck::ListSpec topDriveParameters() {
       .real("Integral Gain", "N m/rad", Optional{}, Range::nonNegative(),
             "Gain k_i on the integral of the speed error, 0 without it; control Speed.")
       .real("Tuning Frequency", "Hz", Optional{}, Range::positive(),
-            "Frequency without reflection, that of stick-slip; control Impedance Matched.")
+            "Frequency without reflection, that of stick-slip: the integral gain cancels the "
+            "inertia there; control Impedance Matched.")
+      .real("High-Pass Frequency", "Hz", Optional{}, Range::positive(),
+            "Instead of it: the drive holds its set speed against torques below this frequency and "
+            "yields to those above as the pipe would; control Impedance Matched.")
       .real("Impedance Ratio", "", Optional{}, Range::positive(),
-            "k_p over the impedance of the uppermost component, 1 without it; control Impedance "
-            "Matched.")
+            "k_p over the impedance of the uppermost tenth of the string, 1 without it; control "
+            "Impedance Matched.")
       .expert()
       .real("Torque", "N m", Optional{}, Range::any(),
             "Torque of the control Torque; without it that of the static state.")
       .real("Torque Limit", "N m", Optional{}, Range::positive(),
             "Largest torque of a controlled drive either way; no limit without it.")
       .real("Block Speed", "m/s", 0.0, Range::nonNegative(),
-            "Downward speed of the block: the feed of a Bit law that gives the weight on bit.")
+            "Downward speed of the block: the feed of a Bit law that gives the weight on bit. With "
+            "an Autodriller that of the static state; without it the one of its Weight On Bit.")
       .choice("Hook", std::string("Block"), {"Block", "Constant Load"},
               "Block: the top moves with the block. Constant Load: the top is free along the well "
-              "under the hook load of the static state at the Block Speed.");
+              "under the hook load of the static state at the Block Speed.")
+      .list(autodrillerParameters());
 }
 
 TopDrive readTopDrive(const Teuchos::ParameterList& list) {
@@ -106,12 +116,15 @@ TopDrive readTopDrive(const Teuchos::ParameterList& list) {
   drive.proportionalGain = given(list, "Proportional Gain");
   drive.integralGain = given(list, "Integral Gain");
   drive.tuningFrequency = given(list, "Tuning Frequency");
+  drive.highPass = given(list, "High-Pass Frequency");
   drive.impedanceRatio = given(list, "Impedance Ratio", 1.0);
   drive.torque = given(list, "Torque");
   drive.torqueGiven = list.isParameter("Torque");
   drive.torqueLimit = given(list, "Torque Limit");
   drive.blockSpeed = list.get<double>("Block Speed");
   drive.constantHookLoad = list.get<std::string>("Hook") == "Constant Load";
+  if (list.isSublist("Autodriller"))
+    drive.autodriller = readAutodriller(list.sublist("Autodriller"));
   return drive;
 }
 
@@ -128,7 +141,9 @@ TopDrive tuned(TopDrive drive, double impedance) {
   if (drive.control != DriveControl::ImpedanceMatched) return drive;
   const double omega = constants::twoPi * drive.tuningFrequency;
   drive.proportionalGain = drive.impedanceRatio * impedance;
-  drive.integralGain = drive.inertia * omega * omega;
+  drive.integralGain = drive.highPass > 0.0
+                           ? constants::twoPi * drive.highPass * drive.proportionalGain
+                           : drive.inertia * omega * omega;
   return drive;
 }
 
@@ -165,7 +180,10 @@ std::string describe(const TopDrive& drive) {
            ", k_i = " + deck::printed(drive.integralGain, "N m/rad");
   if (drive.turnsFreely()) text += ", inertia " + deck::printed(drive.inertia, "kg m2");
   if (drive.torqueLimit > 0.0) text += ", at most " + deck::printed(drive.torqueLimit, "N m");
-  if (drive.blockSpeed > 0.0) text += ", block down at " + deck::printed(drive.blockSpeed, "m/s");
+  if (drive.blockSpeed > 0.0)
+    text += ", block down at " + deck::printed(drive.blockSpeed, "m/s", 6);
+  if (drive.autodriller)
+    text += ", autodriller for " + deck::printed(drive.autodriller->weight, "kN", 6);
   return text + (drive.constantHookLoad ? ", constant hook load" : "");
 }
 

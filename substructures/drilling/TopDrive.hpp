@@ -5,12 +5,14 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "deck/ListSpec.hpp"
 #include "substructures/beam/Section.hpp"
+#include "substructures/drilling/Autodriller.hpp"
 #include "substructures/drilling/PointOnString.hpp"
 
 namespace tooljoint::drilling {
@@ -28,15 +30,19 @@ struct TopDrive {
   double inertia = 0.0;           ///< J [kg m2]
   double proportionalGain = 0.0;  ///< k_p [N m s/rad]
   double integralGain = 0.0;      ///< k_i [N m/rad]
-  double tuningFrequency = 0.0;   ///< of ImpedanceMatched [Hz]
+  double tuningFrequency = 0.0;   ///< of ImpedanceMatched [Hz]; 0: highPass instead
+  double highPass = 0.0;          ///< of ImpedanceMatched [Hz]
   double impedanceRatio = 1.0;    ///< of ImpedanceMatched: k_p over the impedance of the pipe
   double torque = 0.0;            ///< of Torque [N m]
   bool torqueGiven = false;       ///< else that of the static state
   double torqueLimit = 0.0;       ///< [N m]; 0: none
   double blockSpeed = 0.0;        ///< downward speed of the block [m/s]
   bool constantHookLoad = false;  ///< the top is free to move under a constant load
+  std::optional<Autodriller> autodriller = std::nullopt;
 
   bool turnsFreely() const { return control != DriveControl::Stiff; }
+  /// Along the well.
+  bool movesFreely() const { return constantHookLoad || autodriller; }
 };
 
 /// Description of the list `Top Drive`.
@@ -48,10 +54,11 @@ TopDrive readTopDrive(const Teuchos::ParameterList& list);
 /// sqrt(j k), the mean of j = rho I_p and the harmonic mean of k = G J over the lengths.
 double torsionalImpedance(const std::vector<std::pair<beam::Section, double>>& pieces);
 
-/// The drive with its gains, on a pipe of that impedance: ImpedanceMatched has k_p = ratio zeta and
-/// k_i = J (2 pi f)^2, so that at the frequency f the impedance of the drive,
-/// k_p + i (omega J - k_i/omega), is that of the pipe and no wave is reflected (A. Kyllingstad and
-/// P. J. Nessjoen, SPE 119660 (2009)).
+/// The drive with its gains, on a pipe of that impedance: ImpedanceMatched has k_p = ratio zeta.
+/// With a tuning frequency f, k_i = J (2 pi f)^2: there the impedance of the drive, k_p + i (omega
+/// J - k_i/omega), is that of the pipe and no wave is reflected (A. Kyllingstad and P. J. Nessjoen,
+/// SPE 119660 (2009)). With a high-pass of the frequency f, k_i = 2 pi f k_p: but for its inertia
+/// the drive yields by v = -s/(s + 2 pi f) T/k_p to the torque T, to that above f alone.
 TopDrive tuned(TopDrive drive, double impedance);
 
 /// The torque of the drive on theta_z of the first node, in the frame that turns with the set

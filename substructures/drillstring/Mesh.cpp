@@ -321,7 +321,8 @@ class Mesher {
       nearest = s - start;
     }
     fault(place.component->where,
-          std::string("The ") + parameter + " " + formatNumber(place.position) +
+          std::string("The ") + parameter + " " +
+              formatNumber(std::round(place.position * 1e9) / 1e9) +
               " m is not at a node of the component; the nearest stands at " +
               formatNumber(std::round(nearest * 1e9) / 1e9) +
               " m. Move it or change the number of Elements.");

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.linalg import expm
 from scipy.optimize import brentq
 
 PIPE = {"Length": 300.0, "Elements": 3, "Outer Radius": 0.0635, "Inner Radius": 0.054}
@@ -218,3 +219,91 @@ def drive_root(length, speed, zeta, kp, ki, inertia, start):
         if abs(change) < 1e-12 * abs(s):
             break
     return s
+
+
+class TanhBit:
+    """T = W b0 [tanh(b1 w) + b2 w/(1 + b3 w^2)] with the constants of COPPE."""
+
+    def __init__(self, weight, b0=0.0239, b1=1.91, b2=8.5, b3=5.47):
+        self.force, self.b1, self.b2, self.b3 = weight * b0, b1, b2, b3
+
+    def torque(self, w):
+        return self.force * (np.tanh(self.b1 * w) + self.b2 * w / (1 + self.b3 * w * w))
+
+
+class PenetrationBit:
+    """Weight and torque after Tucker and Wang 2003 with the constants of Ritto, Soize and Sampaio 2009; Z^2 at least 0.01 where it divides."""
+    A1, A2, A3, A4, A5, E, FLOOR = 3.429e-3, 5.672e-8, 1.374e-4, 9.537e6, 1.475e3, 2.0, 1e-2
+
+    def factor(self, w):
+        """1/(a2 Z^2), the slope of the weight over the advance."""
+        return 1 / (self.A2 * np.maximum(w * w / (w * w + self.E**2), self.FLOOR))
+
+    def weight(self, v, w):
+        return v * self.factor(w) - self.A3 * np.sqrt(w * w + self.E**2) / self.A2 + self.A1 / self.A2
+
+    def torque(self, v, w):
+        return v * self.A4 * w / (w * w + self.E**2) + self.A5 * w / np.sqrt(w * w + self.E**2)
+
+
+class PenetratingString:
+    """Axial and torsional elements above a bit with weight and torque by its rates, below a PI drive and a block that advances steadily."""
+
+    def __init__(self, pieces, damping, inertia):
+        self.torsion = TorsionalString(pieces, damping, inertia)
+        self.axial = CuttingString(pieces, damping, inertia, 1, 1.0, 1.0, 1.0)
+
+    def integrate(self, times, feed, omega, acceleration, kp, ki, bit):
+        """Rates of w and theta_z of the bit and theta_z of the top, from steady drilling at the speed of the start."""
+        turn, axial = self.torsion, self.axial
+        n, m = len(turn.K), len(axial.K)
+        total = turn.M.sum(axis=1)
+        weight, torque = bit.weight(feed, omega(0.0)), bit.torque(feed, omega(0.0))
+
+        def rates(t, y):
+            w, v, theta, rate = y[:m], y[m:2 * m], y[2 * m:2 * m + n], y[2 * m + n:]
+            speed = omega(t) + rate[-1]
+            force = -axial.K @ w - axial.C @ v
+            force[-1] -= bit.weight(feed + v[-1], speed) - weight
+            moment = -turn.K @ theta - turn.C @ rate - acceleration(t) * total
+            moment[-1] -= bit.torque(feed + v[-1], speed) - torque
+            moment[0] -= kp * rate[0] + ki * theta[0]
+            return np.concatenate([v, axial.inverse @ force, rate, turn.inverse @ moment])
+        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * (n + m)), method="Radau", rtol=1e-8, atol=1e-10, t_eval=times, max_step=0.05)
+        return found.y[2 * m - 1], found.y[-1], found.y[2 * m]
+
+
+class DrillerLoop:
+    """One axial element between the lines of an autodriller and a bit of the slope D = dW/dv: exact linear motion."""
+
+    def __init__(self, part, line, slope, kp, ki, mass):
+        k = YOUNG * area(part) / part["Length"]
+        M = DENSITY * area(part) * part["Length"] / 6 * np.array([[2.0, 1.0], [1.0, 2.0]]) + np.diag([mass, 0.0])
+        K = k * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        inverse = np.linalg.inv(M)
+        # states: w_1, w_2, their rates, block x, integral e; forces f = -line (w_1 - x) and -D w_2'
+        A = np.zeros((6, 6))
+        A[:2, 2:4] = np.eye(2)
+        A[2:4, :2] = -inverse @ (K + np.diag([line, 0.0]))
+        A[2:4, 3] = -inverse @ np.array([0.0, slope])
+        A[2:4, 4] = inverse @ np.array([line, 0.0])
+        A[4] = [kp * line, 0, 0, 0, -kp * line, ki]
+        A[5] = [line, 0, 0, 0, -line, 0]
+        self.A, self.kp, self.line, self.slope = A, kp, line, slope
+        self.stiffness = k * line / (k + line)
+
+    def motion(self, times, lack):
+        """Measured weight beyond that of the start, and x' of the block, for a set point that is `lack` higher."""
+        b = np.array([0, 0, 0, 0, self.kp * lack, lack])
+        step = expm((times[1] - times[0]) * np.block([[self.A, b[:, None]], [np.zeros((1, 7))]]))
+        y = np.zeros((7, len(times)))
+        y[6] = 1.0
+        for i in range(1, len(times)):
+            y[:, i] = step @ y[:, i - 1]
+        y = y[:6]
+        rate = self.A[4] @ y + b[4]
+        return -self.line * (y[0] - y[4]), rate
+
+    def poles(self, ki):
+        """s^2 + s k (k_p + 1/D) + k k_i = 0, the loop without masses."""
+        return np.roots([1.0, self.stiffness * (self.kp + 1 / self.slope), self.stiffness * ki])

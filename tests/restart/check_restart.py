@@ -173,14 +173,16 @@ def integrators():
 
 
 def bits():
-    """Delay lines of a bit, and the integral of a drive at its limit."""
+    """Delay lines of a bit, the integral of a drive at its limit, block and integral of an autodriller."""
     def overrides(*pairs):
         return [word for pair in pairs for word in ("--set", pair)]
     drive = overrides("Top Drive/Control=Speed", "Top Drive/Inertia=1000", "Top Drive/Proportional Gain=2000", "Top Drive/Integral Gain=2000", "Top Drive/Torque Limit=3 kN m")
     cutting = ["--without", "Loads/Torque On Bit", "--without", "Loads/Weight On Bit", *overrides("Bit/Law=Cutting", "Bit/Cutting/Blades=4", "Bit/Cutting/Radius=0.1",
                "Bit/Cutting/Wear Flat=1 mm", "Top Drive/Block Speed=0.001")]
     friction = ["--without", "Loads/Torque On Bit", *overrides("Bit/Law=Stribeck", "Bit/Stribeck/Radius=0.1")]
-    for title, own in (("cutting bit", cutting), ("friction at the bit", friction)):
+    hoist = [*cutting, *overrides("Rotary Speed/Law=Constant", "Rotary Speed/Constant/Speed=60 rpm", "Top Drive/Autodriller/Weight On Bit=20 kN",
+                                  "Top Drive/Autodriller/Proportional Gain=1e-7", "Top Drive/Autodriller/Integral Gain=1e-7")]
+    for title, own in (("cutting bit", cutting), ("friction at the bit", friction), ("autodriller", hoist)):
         for integrator, end, interval in (("Generalized-alpha", 15, 0.5), ("RK4", 0.15, 0.02)):
             for model, without in (("reduced", []), ("full", FULL)):
                 interrupted_twice(f"{title} and drive, {integrator}, {model}", STRING, [*settings(integrator, end, interval), *drive, *own, *without])

@@ -3,7 +3,7 @@
 #include "cases/CaseKinds.hpp"
 #include "cases/run/AnalysisFiles.hpp"
 #include "common/Error.hpp"
-#include "substructures/drillstring/analyses/BottomHole.hpp"
+#include "substructures/drillstring/analyses/bottom_hole/BottomHole.hpp"
 
 namespace tooljoint::app {
 

@@ -22,7 +22,7 @@ struct RunOptions {
   std::string units = "si";            ///< of printed results: "si" or "field"
   bool cost = false;    ///< `check` also solves for the state at rest and reduces, to compare
                         ///< the cost of a step
-  bool fresh = false;   ///< `study` and `map` forget the runs they have done before
+  bool fresh = false;   ///< `study`, `map`, `torque-drag` forget what they have done before
   int ranksPerRow = 0;  ///< of `study` and `map`; 0: all
   std::string timing = "alone";  ///< of `study`: "alone" or "shared"
   std::string plan;              ///< folder for the commands of the rows of `study` or `map`
@@ -64,8 +64,8 @@ void check(const RunOptions& options);
 /// folder, if one is given.
 void modes(const RunOptions& options);
 /// `tooljoint torque-drag`: hook load, surface torque, buckling and yield margins of a string
-/// against the depth of its bit; torque_drag.csv and torque_drag_profile.csv in the output folder,
-/// if one is given.
+/// against the depth of its bit; torque_drag.csv, torque_drag_profile.csv, torque_drag.h5 and
+/// summary.json.
 void torqueDrag(const RunOptions& options);
 /// `tooljoint bha`: the lower part of a string at rest, against weight on bit, inclination and tool
 /// face.

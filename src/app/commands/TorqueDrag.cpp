@@ -3,8 +3,8 @@
 
 #include "app/commands/Commands.hpp"
 #include "cases/CaseKinds.hpp"
+#include "cases/run/AnalysisFiles.hpp"
 #include "common/Error.hpp"
-#include "substructures/drillstring/analyses/Calibration.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 
 namespace tooljoint::app {
@@ -16,9 +16,8 @@ void torqueDrag(const RunOptions& options) {
     throw DeckError(options.deck +
                     ": torque and drag is of a string in its well. Give a deck with the lists Well "
                     "and Drillstring.");
-  drillstring::reportTorqueDrag(string->scene(), options.output);
-  drillstring::reportCalibration(string->scene(), options.output);
-  if (!options.output.empty()) reportAtEnd(options.output, one->output().report);
+  drillstring::reportTorqueDrag(*string, options.output, options.fresh);
+  reportAtEnd(cases::analysisFolder(*one, options.output, "torque_drag"), one->output().report);
 }
 
 }  // namespace tooljoint::app

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/AnalysisFiles.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "cases/run/ResultsWriter.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
+#include "io/TextFile.hpp"
 
 namespace tooljoint::cases {
 
@@ -18,10 +21,13 @@ std::string analysisFolder(const Case& one, const std::string& given, const std:
   return (std::filesystem::path("results") / stem).string() + "_" + analysis;
 }
 
-AnalysisFiles::AnalysisFiles(const Case& one, const std::string& given, const std::string& analysis)
+AnalysisFiles::AnalysisFiles(const Case& one, const std::string& given, const std::string& analysis,
+                             Beside beside)
     : case_(one), name_(analysis) {
-  parallel::agree(
-      [&] { folder_ = std::make_unique<io::OutputFolder>(analysisFolder(one, given, analysis)); });
+  parallel::agree([&] {
+    folder_ = std::make_unique<io::OutputFolder>(analysisFolder(one, given, analysis));
+    if (beside == Beside::Results && folder_->hasFinishedResults()) keepOthers();
+  });
   one.summarise(summary_);
 }
 
@@ -36,7 +42,7 @@ void AnalysisFiles::complete(const std::function<void()>& work,
       file.flush();
       file.close();
       summary_.set("files", folder_->files());
-      summary_.stage(folder_->file(io::summaryName));
+      stageSummary();
       folder_->publish();
     });
   } catch (const Error& error) {
@@ -44,6 +50,26 @@ void AnalysisFiles::complete(const std::function<void()>& work,
     throw;
   }
   log::info("results     " + folder_->folder() + ": " + join(folder_->files(), ", "));
+}
+
+/// Files that this run names are not removed.
+void AnalysisFiles::keepOthers() {
+  const auto others = io::readPreviousRun(folder_->folder() + "/" + io::summaryName).files;
+  beside_ = std::find(others.begin(), others.end(), name_ + ".h5") == others.end();
+  if (!beside_) return;
+  for (const auto& name : others) folder_->file(name);
+}
+
+void AnalysisFiles::stageSummary() {
+  const auto path = folder_->file(io::summaryName);
+  if (!beside_) return summary_.stage(path);
+  using Json = nlohmann::ordered_json;
+  Json theirs = Json::parse(io::readText(path), nullptr, false);
+  if (!theirs.is_object())
+    throw FileError(path + " is no summary of a run. Name another folder with --output.");
+  const Json ours = Json::parse(summary_.text());
+  for (const auto* key : {name_.c_str(), "files"}) theirs[key] = ours.at(key);
+  io::stageText(path, theirs.dump(2) + "\n");
 }
 
 void AnalysisFiles::stamp(const std::string& status, const std::string& message) {
@@ -56,7 +82,7 @@ void AnalysisFiles::stamp(const std::string& status, const std::string& message)
 void AnalysisFiles::leave(const Error& error) {
   stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
   try {
-    summary_.stage(folder_->file(io::summaryName));
+    if (!beside_) summary_.stage(folder_->file(io::summaryName));
     folder_->publishUnfinished();
   } catch (const Error& second) {
     log::warn(std::string("The summary could not be written: ") + second.what());

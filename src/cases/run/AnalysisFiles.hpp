@@ -20,10 +20,17 @@ namespace tooljoint::cases {
 /// with "_<analysis>" behind it.
 std::string analysisFolder(const Case& one, const std::string& given, const std::string& analysis);
 
+/// What becomes of the finished results of another command in the folder.
+enum class Beside {
+  Nothing,  ///< they go
+  Results   ///< they stay: their summary gets the group of this analysis
+};
+
 class AnalysisFiles {
  public:
   /// Opens the folder. FileError. Collective. The case must outlive the object.
-  AnalysisFiles(const Case& one, const std::string& given, const std::string& analysis);
+  AnalysisFiles(const Case& one, const std::string& given, const std::string& analysis,
+                Beside beside = Beside::Nothing);
 
   io::OutputFolder& folder() { return *folder_; }
   io::Summary& summary() { return summary_; }
@@ -35,6 +42,8 @@ class AnalysisFiles {
                 const std::function<void(io::ResultsFile&)>& write);
 
  private:
+  void keepOthers();
+  void stageSummary();
   void stamp(const std::string& status, const std::string& message);
   void leave(const Error& error);
 
@@ -43,6 +52,7 @@ class AnalysisFiles {
   Stopwatch watch_;
   std::unique_ptr<io::OutputFolder> folder_;
   io::Summary summary_;
+  bool beside_ = false;  ///< results of another command
 };
 
 }  // namespace tooljoint::cases

@@ -99,6 +99,7 @@ std::vector<UnitSymbol> makeSymbols() {
   add(pressure, "GPa", 1e9);
   add(pressure, "bar", 1e5);
   add(pressure, "psi", poundForce / (inch * inch));
+  add(pressure, "ksi", 1e3 * poundForce / (inch * inch), {"kpsi"});
   add(power, "W", 1.0);
   add(power, "kW", 1e3);
   add(density, "ppg", pound / gallon);

@@ -53,7 +53,7 @@ void StudyRows::makeKeys() {
   keys_.assign(plan_.runs.size(), "");
   parallel::agree([&] {
     if (parallel::rank() != 0) return;
-    const auto program = std::to_string(kStoreFormat) + "\n" + programStamp() + "\n" +
+    const auto program = std::to_string(kStoreFormat) + "\n" + cases::programStamp() + "\n" +
                          std::to_string(timing_.ranks) + "\n";
     const auto reference = sha256(program + contentOf(*plan_.runs[0].scene));
     const auto common = reference + "\n" + formatNumber(plan_.windowEnd) + "\n" +

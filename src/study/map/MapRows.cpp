@@ -77,7 +77,8 @@ void MapRows::makeKeys() {
   keys_.assign(plan_.points.size(), "");
   parallel::agree([&] {
     if (parallel::rank() != 0) return;
-    const auto program = "map " + std::to_string(kStoreFormat) + "\n" + programStamp() + "\n";
+    const auto program =
+        "map " + std::to_string(kStoreFormat) + "\n" + cases::programStamp() + "\n";
     for (std::size_t i = 0; i < plan_.points.size(); ++i)
       if (plan_.points[i].scene) keys_[i] = sha256(program + identity(*plan_.points[i].scene));
   });

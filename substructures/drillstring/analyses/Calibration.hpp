@@ -6,9 +6,12 @@
 ///     min_p sum ((computed(p) - measured)/uncertainty)^2,   0 <= mu <= 1,  block weight >= 0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "io/OutputFolder.hpp"
+#include "io/Summary.hpp"
 #include "substructures/drillstring/analyses/Measurements.hpp"
 #include "substructures/drillstring/analyses/TorqueDrag.hpp"
 
@@ -47,8 +50,19 @@ struct BroomRow {
 std::vector<BroomRow> broomstick(const Scene& scene,
                                  const softstring::TorqueDragSettings& settings);
 
-/// Prints the fit and writes torque_drag_calibration.csv and torque_drag_measured.csv, and
-/// torque_drag_broomstick.csv, where the deck asks for them. Collective.
-void reportCalibration(const Scene& scene, const std::string& folder);
+/// What the deck asks for.
+struct CalibrationResults {
+  std::optional<Calibration> fit;
+  std::vector<BroomRow> broomstick;
+};
+
+/// Reads the measurements, fits and prints. Collective.
+CalibrationResults calibrationOf(const Scene& scene,
+                                 const softstring::TorqueDragSettings& settings);
+
+/// torque_drag_calibration.csv, torque_drag_measured.csv and torque_drag_broomstick.csv.
+void stage(const CalibrationResults& found, io::OutputFolder& folder);
+/// Keys torque_drag.calibration.
+void summarise(const CalibrationResults& found, io::Summary& summary);
 
 }  // namespace tooljoint::drillstring

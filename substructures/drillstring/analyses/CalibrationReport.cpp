@@ -38,7 +38,7 @@ void print(const Calibration& fit) {
   log::info("in a deck  " + settings);
 }
 
-void write(const Calibration& fit, const std::string& folder) {
+void stageFit(const Calibration& fit, io::OutputFolder& folder) {
   io::Csv fitted({{"parameter", ""},
                   {"unit", ""},
                   {"deck", ""},
@@ -50,7 +50,7 @@ void write(const Calibration& fit, const std::string& folder) {
     fitted.row({one.parameter, one.name == "block weight" ? "N" : "1", number(one.deck),
                 number(one.value), number(one.value - one.uncertainty),
                 number(one.value + one.uncertainty), one.atBound ? "1" : "0"});
-  fitted.writeInto(folder, "torque_drag_calibration.csv");
+  fitted.stage(folder.file("torque_drag_calibration.csv"));
   io::Csv lines({{"bit_depth", "m"},
                  {"operation", ""},
                  {"hook_load", "N"},
@@ -63,39 +63,53 @@ void write(const Calibration& fit, const std::string& folder) {
                number(computed.hookLoad), number(measured.surfaceTorque),
                number(computed.surfaceTorque)});
   }
-  lines.writeInto(folder, "torque_drag_measured.csv");
+  lines.stage(folder.file("torque_drag_measured.csv"));
 }
 
 }  // namespace
 
-void reportCalibration(const Scene& scene, const std::string& folder) {
-  auto settings = torqueDragSettings(scene);
-  std::string files;
+CalibrationResults calibrationOf(const Scene& scene,
+                                 const softstring::TorqueDragSettings& settings) {
+  CalibrationResults found;
   if (settings.measured) {
-    std::string& file = *settings.measured;
+    std::string file = *settings.measured;
     if (file[0] != '/' && !scene.deck.folder().empty()) file = scene.deck.folder() + "/" + file;
     const auto measured = readMeasurements(file, softstring::operationNames());
     for (const auto& one : measured) requireReach(scene, one.bit, file + ": the table holds");
-    const auto fit = calibrate(scene, settings, measured);
-    print(fit);
-    if (!folder.empty()) {
-      write(fit, folder);
-      files = "torque_drag_calibration.csv, torque_drag_measured.csv";
-    }
+    found.fit = calibrate(scene, settings, measured);
+    print(*found.fit);
   }
-  if (!settings.broomstick.empty() && !folder.empty()) {
-    io::Csv table({{"bit_depth", "m"},
-                   {"operation", ""},
-                   {"friction", ""},
-                   {"hook_load", "N"},
-                   {"surface_torque", "N m"}});
-    for (const auto& row : broomstick(scene, settings))
-      table.row({number(row.bit), row.operation, number(row.friction), number(row.hookLoad),
-                 number(row.surfaceTorque)});
-    table.writeInto(folder, "torque_drag_broomstick.csv");
-    files += (files.empty() ? "" : ", ") + std::string("torque_drag_broomstick.csv");
+  if (!settings.broomstick.empty()) found.broomstick = broomstick(scene, settings);
+  return found;
+}
+
+void stage(const CalibrationResults& found, io::OutputFolder& folder) {
+  if (found.fit) stageFit(*found.fit, folder);
+  if (found.broomstick.empty()) return;
+  io::Csv table({{"bit_depth", "m"},
+                 {"operation", ""},
+                 {"friction", ""},
+                 {"hook_load", "N"},
+                 {"surface_torque", "N m"}});
+  for (const auto& row : found.broomstick)
+    table.row({number(row.bit), row.operation, number(row.friction), number(row.hookLoad),
+               number(row.surfaceTorque)});
+  table.stage(folder.file("torque_drag_broomstick.csv"));
+}
+
+void summarise(const CalibrationResults& found, io::Summary& summary) {
+  if (!found.fit) return;
+  summary.set("torque_drag.hook_load_misfit", found.fit->hookLoadMisfit);
+  summary.set("torque_drag.torque_misfit", found.fit->torqueMisfit);
+  for (const Fitted& one : found.fit->fitted) {
+    io::SummaryRow row;
+    row.set("parameter", one.parameter)
+        .set("deck", one.deck)
+        .set("fitted", one.value)
+        .set("at_bound", one.atBound);
+    if (std::isfinite(one.uncertainty)) row.set("uncertainty", one.uncertainty);
+    summary.append("torque_drag.calibration", row);
   }
-  if (!files.empty()) log::info("results     " + folder + ": " + files);
 }
 
 }  // namespace tooljoint::drillstring

@@ -11,7 +11,6 @@
 #include "common/Text.hpp"
 #include "deck/Defaults.hpp"
 #include "substructures/beam/VonMises.hpp"
-#include "substructures/drillstring/analyses/StiffRows.hpp"
 #include "substructures/softstring/Buckling.hpp"
 
 namespace tooljoint::drillstring {
@@ -206,7 +205,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
   return profile;
 }
 
-std::vector<TorqueDragProfile> torqueDrag(const Scene& scene) {
+std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const StiffStore& store) {
   const auto settings = torqueDragSettings(scene);
   const SoftModel model = softModel(scene);
   const auto operations = softOperations(scene, settings);
@@ -217,7 +216,7 @@ std::vector<TorqueDragProfile> torqueDrag(const Scene& scene) {
       profiles.push_back(torqueDragAt(model, settings, operation, depth, depth == deepest));
 
   const auto stiffDepths = depthsOfStiffString(settings);
-  const auto rows = stiffRows(scene, stiffDepths, operations);
+  const auto rows = stiffRows(scene, stiffDepths, operations, store);
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t k = 0; k < operations.size(); ++k)
       for (auto& profile : profiles)

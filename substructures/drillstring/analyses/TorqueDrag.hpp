@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "substructures/drillstring/analyses/StiffRows.hpp"
 #include "substructures/drillstring/analyses/StiffString.hpp"
+#include "substructures/drillstring/case/DrillstringCase.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/softstring/SoftString.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
@@ -74,11 +76,12 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
                                const softstring::Operation& operation, double bit, bool allLimits);
 
 /// Every operation at every depth, the stiff string where the deck asks for it. Collective.
-std::vector<TorqueDragProfile> torqueDrag(const Scene& scene);
+std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const StiffStore& store);
 
 /// Prints the tables of the deepest bit and writes torque_drag.csv (a row for each depth and
 /// operation), torque_drag_profile.csv and torque_drag_stiff_profile.csv (along the string, at the
-/// deepest bit) into `folder`; "" writes nothing. Collective.
-void reportTorqueDrag(const Scene& scene, const std::string& folder);
+/// deepest bit), those of the calibration, torque_drag.h5 and summary.json. \param fresh depths
+/// that are kept from before are forgotten. Collective.
+void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, bool fresh);
 
 }  // namespace tooljoint::drillstring

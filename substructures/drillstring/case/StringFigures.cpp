@@ -169,6 +169,12 @@ void StringFigures::summariseBending(io::Summary& summary) const {
   if (bending_.hasDamage()) place("damage_per_hour", cases::worst(columns[2].values));
 }
 
+std::string StringFigures::weightWarning() const {
+  if (!known() || !scene_.bit || bit_.weight().samples() == 0) return "";
+  return drilling::outsideCalibration(*scene_.bit, "the motion", bit_.weight().min(),
+                                      bit_.weight().max());
+}
+
 std::string StringFigures::describe() const {
   if (!known()) return "";
   const auto lateral = cases::worst(lateral_.peak());

@@ -31,6 +31,8 @@ class StringFigures {
   bool known() const { return samples_ > 0; }
   /// Sets the keys transient.figures.
   void summarise(io::Summary& summary) const;
+  /// Of weights on bit outside of what the law of the bit was fitted to; "" without.
+  std::string weightWarning() const;
   /// Lines of the log.
   std::string describe() const;
   /// Group /figures of results.h5.

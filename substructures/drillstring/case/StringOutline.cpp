@@ -7,7 +7,9 @@
 
 #include "common/Constants.hpp"
 #include "common/Text.hpp"
+#include "substructures/drillstring/scene/BottomHoleParameters.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
+#include "substructures/softstring/TorqueDragParameters.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -66,6 +68,36 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
   return items;
 }
 
+/// What `tooljoint torque-drag` and `tooljoint bha` would do for the lists that are there.
+std::vector<std::string> analyses(const Scene& scene) {
+  const auto counted = [](std::size_t count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  };
+  std::vector<std::string> found;
+  if (scene.list().isSublist("Torque and Drag")) {
+    using softstring::StiffDepths;
+    const auto own = softstring::readTorqueDrag(scene.list().sublist("Torque and Drag"));
+    const auto depths =
+        own.depths.empty() ? static_cast<std::size_t>(own.count) : own.depths.size();
+    found.push_back("  torque and drag: " + counted(depths, "depth") + ", " +
+                    counted(own.operations.size(), "operation") + ", the stiff string at " +
+                    (own.stiff == StiffDepths::None      ? "none of them"
+                     : own.stiff == StiffDepths::Deepest ? "the deepest"
+                                                         : "all of them") +
+                    (own.measured ? ", calibration to " + *own.measured : "") +
+                    " (tooljoint torque-drag)");
+  }
+  if (scene.list().isSublist("Bottom-Hole Assembly")) {
+    const auto own = readBottomHole(scene.list().sublist("Bottom-Hole Assembly"));
+    const auto atLeastOne = [](std::size_t count) { return count == 0 ? std::size_t{1} : count; };
+    found.push_back(
+        "  bottom-hole assembly: " + counted(atLeastOne(own.inclinations.size()), "hole") + ", " +
+        counted(atLeastOne(own.weights.size()), "weight") + " on bit, " +
+        counted(atLeastOne(own.toolFaces.size()), "tool face") + " (tooljoint bha)");
+  }
+  return found;
+}
+
 }  // namespace
 
 cases::CaseOutline outlineOf(const Scene& scene) {
@@ -79,12 +111,13 @@ cases::CaseOutline outlineOf(const Scene& scene) {
   out.coupling = {scene.coupling.has_value(), "coupling",
                   scene.coupling ? coupling::describe(*scene.coupling)
                                  : "no Coupling list: equal node numbers join the parts"};
+  out.notes = analyses(scene);
   if (!scene.coupling) return out;
   std::vector<std::string> names;
   for (const auto& part : cutParts(scene.string, scene.partition))
     names.push_back(part.name + " (" + std::to_string(part.firstElement + 1) + " to " +
                     std::to_string(part.lastElement + 2) + ")");
-  out.notes = {"  parts and their nodes: " + join(names, ", ")};
+  out.notes.insert(out.notes.begin(), "  parts and their nodes: " + join(names, ", "));
   return out;
 }
 

@@ -44,7 +44,8 @@ StringRecord::StringRecord(const Scene& scene, const StaticStage& stage,
   for (const auto& set : model.points) touches = touches || set.name == kContactSet;
   recordsForce_ = output.hasField("normal_force") && touches;
   for (const auto& set : model.points) {
-    if (set.name == drilling::bitSet || set.name == drilling::topDriveSet)
+    if (set.name == drilling::bitSet || set.name == drilling::topDriveSet ||
+        set.name == drilling::hookSet)
       drilling_.emplace_back(model, set);
     if (set.name != kContactSet) continue;
     for (auto entity : set.entities) watched_[static_cast<std::size_t>(entity - 1)] = 1;
@@ -191,12 +192,15 @@ std::string StringRecord::describe() const {
 }
 
 std::vector<std::string> StringRecord::warnings() const {
-  const auto& missed = figures_.missed;
-  if (missed.empty()) return {};
-  return {std::to_string(missed.size()) +
-          " nodes reached the wall although contact is evaluated at retained nodes only (node " +
-          std::to_string(missed.front()) +
-          " first). Retain more nodes, or set Substructures/Contact Nodes to \"All\"."};
+  std::vector<std::string> found;
+  if (const auto& missed = figures_.missed; !missed.empty())
+    found.push_back(
+        std::to_string(missed.size()) +
+        " nodes reached the wall although contact is evaluated at retained nodes only (node " +
+        std::to_string(missed.front()) +
+        " first). Retain more nodes, or set Substructures/Contact Nodes to \"All\".");
+  if (auto weight = merits_.weightWarning(); !weight.empty()) found.push_back(std::move(weight));
+  return found;
 }
 
 void StringRecord::complete(double t, io::XdmfFrame& frame) const {

@@ -68,7 +68,7 @@ double Scene::weightOnBit() const {
 
 std::vector<char> Scene::heldAtRest() const {
   auto all = held;
-  if (topDrive.constantHookLoad) all[nodal::w] = 1;
+  if (topDrive.movesFreely()) all[nodal::w] = 1;
   if (topDrive.turnsFreely()) all[nodal::thetaZ] = 1;
   return all;
 }
@@ -133,11 +133,30 @@ void checkBit(const Scene& scene, Faults& faults) {
                               " of the bit, on which it acts. Release it.");
 }
 
+/// What an autodriller asks of the others.
+void checkAutodriller(const Scene& scene, Faults& faults) {
+  const std::string path = "Top Drive/Autodriller";
+  if (!scene.bit || !scene.bit->law->givesWeight())
+    faults.add(path, "has no effect without a Bit law that gives the weight on bit.");
+  if (!scene.moves())
+    faults.add(path,
+               "has no effect without Transient: the hook holds the static state. Add "
+               "Transient.");
+  if (scene.topDrive.constantHookLoad)
+    faults.add(path,
+               "moves the block, but Top Drive/Hook is \"Constant Load\". Leave one of the "
+               "two out.");
+  if (scene.held[nodal::w] != 0)
+    faults.add(path,
+               "moves the top of the string, but the Supports hold w of node 1. Leave w out "
+               "of Supports/Top.");
+}
+
 /// What the drive asks of the bit and the supports.
 void checkTopDrive(const Scene& scene, Faults& faults) {
   const auto& drive = scene.topDrive;
   const bool feeds = scene.bit && scene.bit->law->givesWeight();
-  if (!drive.turnsFreely() && drive.blockSpeed == 0.0 && !drive.constantHookLoad)
+  if (!drive.turnsFreely() && drive.blockSpeed == 0.0 && !drive.movesFreely())
     faults.add("Top Drive",
                "is stiff and stands, as without the list. Choose a Control, or leave it out.");
   if (drive.turnsFreely() && scene.held[nodal::thetaZ] != 0)
@@ -160,6 +179,7 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
     faults.add("Top Drive/Hook",
                "is \"Constant Load\", but the Supports hold w of node 1. Leave w out of "
                "Supports/Top.");
+  if (drive.autodriller) checkAutodriller(scene, faults);
 }
 
 /// What bends and eccentric gauges ask of the other lists.
@@ -209,10 +229,11 @@ void crossCheck(const Scene& scene, Faults& faults) {
                    "names node " + std::to_string(node) +
                        ", which cannot touch the wall and so has no point law. Name nodes with "
                        "contact, or leave the list out for all of them.");
-  if (scene.contact && scene.contact->friction && !scene.rotary.present() && !scene.moves())
+  if (scene.contact && scene.contact->friction && !scene.rotary.present() && !scene.moves() &&
+      !list.isSublist("Torque and Drag"))
     faults.add("Contact/Friction",
-               "has no effect in a scene that neither turns nor moves. Add Rotary Speed or "
-               "Transient, or leave Friction out.");
+               "has no effect in a scene that neither turns nor moves. Add Rotary Speed, Transient "
+               "or Torque and Drag, or leave Friction out.");
   checkSidedFeatures(scene, faults);
   if (scene.bit) checkBit(scene, faults);
   if (list.isSublist("Top Drive")) checkTopDrive(scene, faults);
@@ -252,18 +273,35 @@ std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
   return parts;
 }
 
-/// With the gains for the uppermost component.
+/// With the gains for the components of the uppermost tenth of the string, to which waves of some
+/// kilometres do not see a short one.
 drilling::TopDrive tunedToPipe(const drilling::TopDrive& drive, const DrillString& string) {
   std::vector<std::pair<beam::Section, double>> pieces;
-  for (int e = 0; e <= string.instances.front().lastElement; ++e)
-    pieces.emplace_back(string.elements[at(e)].section(), string.elements[at(e)].length());
+  double length = 0.0;
+  for (const auto& one : string.instances) {
+    for (int e = one.firstElement; e <= one.lastElement; ++e) {
+      pieces.emplace_back(string.elements[at(e)].section(), string.elements[at(e)].length());
+      length += pieces.back().second;
+    }
+    if (length >= 0.1 * string.length()) break;
+  }
   return drilling::tuned(drive, drilling::torsionalImpedance(pieces));
 }
 
 /// The dofs of the top that its drive moves are not among those held by default.
 void releaseTop(const drilling::TopDrive& drive, SupportSettings& supports) {
-  if (drive.constantHookLoad) supports.top[nodal::w] = false;
+  if (drive.movesFreely()) supports.top[nodal::w] = false;
   if (drive.turnsFreely()) supports.top[nodal::thetaZ] = false;
+}
+
+/// The block speed of steady drilling under the weight of the autodriller.
+double feedOfSetWeight(const Scene& scene) {
+  try {
+    return drilling::feedFor(*scene.bit, scene.rotary, scene.startTime(),
+                             scene.topDrive.autodriller->weight);
+  } catch (const DeckError& error) {
+    throw DeckError(scene.deck.error("Top Drive/Autodriller/Weight On Bit", error.what()));
+  }
 }
 
 /// What can be said of parts and basis before the static state.
@@ -332,6 +370,8 @@ Scene readScene(const deck::Deck& deck) {
   scene.coupling = common.coupling;
   scene.bit = bit;
   scene.topDrive = tunedToPipe(topDrive, scene.string);
+  if (bit && bit->law->givesWeight() && topDrive.autodriller && scene.topDrive.blockSpeed == 0.0)
+    faults.attempt([&] { scene.topDrive.blockSpeed = feedOfSetWeight(scene); });
   if (!deck.gives("Supports/Top")) releaseTop(topDrive, scene.supports);
   if (scene.coupling)
     faults.attempt(

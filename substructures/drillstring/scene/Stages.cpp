@@ -94,8 +94,11 @@ void addPretension(const equilibrium::StaticInput& input, StringModel& model) {
         {"pretension", model.lawIndex(model::ScalarLaw::one()), std::move(forces)});
 }
 
-/// The inertia of the drive: J theta_z'' on the left, -J dOmega/dt on the right.
+/// The inertia of the drive: J theta_z'' on the left, -J dOmega/dt on the right; the mass of the
+/// block, in a frame that advances steadily.
 void addDriveInertia(const Scene& scene, StringModel& model) {
+  if (const auto& driller = scene.topDrive.autodriller)
+    model.mass.front()(nodal::w, nodal::w) += driller->blockMass;
   const double J = scene.topDrive.inertia;
   if (J == 0.0) return;
   model.mass.front()(nodal::thetaZ, nodal::thetaZ) += J;
@@ -127,6 +130,12 @@ void addDrilling(const Scene& scene, StringModel& model) {
     Vector load = Vector::Zero(kNodeDofs * model.nodes);
     load(nodal::w) = reactionAtTop(model, scene.startTime(), nodal::w);
     model.loads.push_back({"hook load", model.lawIndex(model::ScalarLaw::one()), std::move(load)});
+  }
+  if (drive.autodriller) {
+    const double weight = drilling::steadyLoad(model.drilling.front(), scene.startTime()).weight;
+    model.drilling.push_back(
+        drilling::autodrillerOnString(*drive.autodriller, drive.blockSpeed,
+                                      reactionAtTop(model, scene.startTime(), nodal::w), weight));
   }
   if (drive.turnsFreely())
     model.drilling.push_back(
@@ -316,7 +325,21 @@ void judgeStretch(const Scene& scene, const StaticStage& stage) {
             "to \"Hanging\".");
 }
 
+namespace {
+
+void judgeBit(const Scene& scene) {
+  for (const auto& bit : bitInMotion(scene)) {
+    const double weight = drilling::steadyLoad(bit, scene.startTime()).weight;
+    const auto warning =
+        drilling::outsideCalibration(*scene.bit, "the static state", weight, weight);
+    if (!warning.empty()) log::warn(warning);
+  }
+}
+
+}  // namespace
+
 void judgeStatic(const Scene& scene, const StaticStage& stage) {
+  judgeBit(scene);
   judgeTorqueBalance(scene, stage);
   judgeStretch(scene, stage);
   judgeStability(scene, stage);

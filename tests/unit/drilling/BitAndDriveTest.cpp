@@ -68,6 +68,103 @@ TEST(BitOnString, RubsUnderTheWeightOfTheDeck) {
   EXPECT_NEAR(load.torque, T, 1e-9 * T);
 }
 
+/// T = W b_0 [tanh(b_1 w) + b_2 w/(1 + b_3 w^2)] at some speeds, odd in w.
+TEST(BitOnString, ResistsByASmoothCurve) {
+  Teuchos::ParameterList own("Tanh");
+  const auto law = bitNamed("Tanh", own).law->make(100e3);
+  for (const double w : {0.0, 0.1, 0.43, 3.0, 12.0}) {
+    const double still = 0.0,
+                 T = 100e3 * 0.0239 * (std::tanh(1.91 * w) + 8.5 * w / (1 + 5.47 * w * w));
+    for (const double sign : {1.0, -1.0}) {
+      const double speeds = sign * w;
+      double f = 0.0;
+      law->evaluate(0.0, {0}, &still, &speeds, &f);
+      EXPECT_NEAR(f, -sign * T, 1e-9 * 100e3);
+    }
+  }
+}
+
+/// W(v, w) is the inverse of v = Z^2 (a_2 W - a_1) + a_3 Z w, T = v a_4 Z^2/w + a_5 Z; at
+/// standstill W has the slope 1/(a_2 Z_0^2).
+TEST(BitOnString, PenetratesAsItsWeightSays) {
+  Teuchos::ParameterList own("Tucker-Wang");
+  const auto law = bitNamed("Tucker-Wang", own).law->make(0.0);
+  const double still[2] = {0.0, 0.0};
+  for (const double w : {1.0, 5.0, 11.0, -4.0})
+    for (const double W : {100e3, 180e3, 250e3}) {
+      const double Z = w / std::sqrt(w * w + 4.0);
+      const double v = Z * Z * (5.672e-8 * W - 3.429e-3) + 1.374e-4 * Z * w;
+      const double rates[2] = {v, w};
+      double f[2];
+      law->evaluate(0.0, {0}, still, rates, f);
+      EXPECT_NEAR(f[0], -W, 1e-9 * W);
+      EXPECT_NEAR(f[1], -(v * 9.537e6 * Z * Z / w + 1475.0 * Z), 1e-9 * 1e4);
+    }
+  double f[2], g[2];
+  const double slow[2] = {1e-4, 0.0}, stands[2] = {0.0, 0.0};
+  law->evaluate(0.0, {0}, still, slow, f);
+  law->evaluate(0.0, {0}, still, stands, g);
+  EXPECT_NEAR(g[0] - f[0], 1e-4 / (5.672e-8 * 1e-2), 1e-3);
+  EXPECT_EQ(f[1], 0.0);
+}
+
+TEST(BitOnString, FindsTheFeedOfAWeight) {
+  const auto bit = cutting();
+  const double W = 50e3, found = feedFor(bit, turning(), 0.0, W);
+  EXPECT_NEAR(steadyLoad(bitOnString(bit, 7, turning(), found, 0.0), 0.0).weight, W, 1e-6 * W);
+  EXPECT_THROW(feedFor(bit, turning(), 0.0, 1e12), DeckError);
+}
+
+Autodriller driller() {
+  Autodriller settings;
+  settings.weight = 80e3;
+  settings.proportionalGain = 1e-7;
+  settings.integralGain = 1e-8;
+  settings.lineStiffness = 5e6;
+  settings.fastest = 6e-3;
+  return settings;
+}
+
+/// x' = k_p (W_set - W) + k_i e between 0 and the limit of the block, W = W_0 - k (w - x).
+TEST(Autodriller, MovesTheBlockByWhatTheWeightLacks) {
+  const auto hook = autodrillerOnString(driller(), feed, -300e3, 70e3);
+  const auto& law = *model::stateful(*hook.law);
+  ASSERT_EQ(hook.components, std::vector<int>{2});
+  ASSERT_EQ(law.states(), 2);
+  const double v = 0.0;
+  double f = 0.0;
+  const auto speedAt = [&](double w, double integral) {
+    const double x[2] = {1e-3, integral};
+    double g[2];
+    law.forces(0.0, {0}, &w, &v, x, &f, g);
+    double out[2];
+    law.recordState(0.0, &w, &v, x, out);
+    EXPECT_NEAR(out[0], 70e3 - 5e6 * (w - 1e-3), 1e-6);
+    EXPECT_NEAR(out[1], feed + g[0], 1e-15);
+    return g[0];
+  };
+  EXPECT_NEAR(speedAt(1e-3, 0.0), 1e-7 * 10e3, 1e-15);
+  EXPECT_NEAR(f, -300e3, 1e-6);
+  EXPECT_NEAR(speedAt(0.0, 3e4), 1e-7 * 5e3 + 1e-8 * 3e4, 1e-12);
+  EXPECT_NEAR(f, -300e3 + 5e3, 1e-6);
+  EXPECT_NEAR(speedAt(2e-2, 0.0), 6e-3 - feed, 1e-15);
+  EXPECT_NEAR(speedAt(-2e-2, 0.0), -feed, 1e-15);
+  EXPECT_THROW(autodrillerOnString(driller(), 7e-3, -300e3, 70e3), ModelError);
+}
+
+/// f v = drive - d/dt k (w - x)^2/2.
+TEST(Autodriller, CountsThePowerOfTheBlock) {
+  const auto hook = autodrillerOnString(driller(), feed, -300e3, 70e3);
+  const auto& law = *model::stateful(*hook.law);
+  const double w = 4e-3, v = 2e-3, x[2] = {1e-3, 5e3}, rates[2] = {1.5e-3, 7.0};
+  double f = 0.0, g[2];
+  law.forces(0.0, {0}, &w, &v, x, &f, g);
+  const auto p = law.powers(0.0, {0}, &w, &v, x, rates);
+  const double change = 5e6 * (w - x[0]) * (v - rates[0]);
+  EXPECT_NEAR(p.drive - change, f * v, 1e-9 * std::abs(f * v));
+  EXPECT_NEAR(p.stored, 0.5 * 5e6 * 9e-6, 1e-9);
+}
+
 /// f v in the frame is what the drive gives less what the rock takes: T Omega + W V - T (Omega +
 /// theta_z') - W (V + w').
 TEST(BitOnString, CountsThePowerOfItsFrame) {
@@ -114,6 +211,21 @@ TEST(TopDrive, ReflectsNothingAtItsFrequency) {
   EXPECT_LT(reflected(0.2), 1e-12);
   EXPECT_GT(reflected(0.1), 0.5);
   EXPECT_GT(reflected(0.4), 0.5);
+}
+
+/// Without inertia Z = zeta (1 + w_h/s), so that |r| = w_h/sqrt(w_h^2 + 4 w^2): all comes back at
+/// low frequencies, nothing at high ones.
+TEST(TopDrive, HoldsItsSpeedBelowItsHighPass) {
+  TopDrive drive;
+  drive.control = DriveControl::ImpedanceMatched;
+  drive.highPass = 0.05;
+  const double zeta = 340.0, corner = constants::twoPi * 0.05;
+  drive = tuned(drive, zeta);
+  EXPECT_DOUBLE_EQ(drive.proportionalGain, zeta);
+  for (const double w : {0.01, 0.3, 1.0, 20.0}) {
+    const std::complex<double> s(0.0, w), Z = drive.proportionalGain + drive.integralGain / s;
+    EXPECT_NEAR(std::abs((zeta - Z) / (zeta + Z)), corner / std::hypot(corner, 2 * w), 1e-12);
+  }
 }
 
 TEST(TopDrive, RefusesAStaticTorqueAboveItsLimit) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/analyses/BottomHoleState.hpp"
+#include "substructures/drillstring/analyses/bottom_hole/BottomHoleState.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

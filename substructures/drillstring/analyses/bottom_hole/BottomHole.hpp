@@ -29,6 +29,11 @@ struct GaugeContact {
   std::string component;
   double fromBit = 0.0;         ///< [m]
   Sides force = Sides::Zero();  ///< of the wall on the gauge [N]
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(component, fromBit, force);
+  }
 };
 
 /// A node of the string, from the bit up.
@@ -41,6 +46,11 @@ struct BottomHoleStation {
   double axialForce = 0.0;           ///< effective tension [N]
   double torque = 0.0;               ///< [N m]
   double vonMises = 0.0;             ///< [Pa]
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(fromBit, deflection, clearance, wallForce, moment, axialForce, torque, vonMises);
+  }
 };
 
 /// One static state, or the average of a string that turns.
@@ -57,6 +67,11 @@ struct BottomHoleState {
   /// the sum of the moments of all forces across the string about the bit.
   double forceDefect = 0.0, momentDefect = 0.0;
   bool stable = true;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(sideForce, tilt, sag, gauges, stations, tangency, forceDefect, momentDefect, stable);
+  }
 };
 
 /// What of the string is looked at.
@@ -117,9 +132,10 @@ struct BottomHoleSweep {
 /// The deck's list `Bottom-Hole Assembly`; its defaults where the deck has none.
 BottomHoleSettings bottomHoleSettings(const Scene& scene);
 
-/// Every combination of the settings. A string on which nothing turns has no rows of its own for
-/// rotating. A combination without an equilibrium is among the missing ones; ConvergenceError when
-/// none has one.
+/// Every combination of the settings, dealt to the ranks one by one; all ranks end with all of
+/// them. A string on which nothing turns has no rows of its own for rotating. A combination without
+/// an equilibrium is among the missing ones; ConvergenceError when none has one; InterruptedError
+/// after a signal. Collective.
 BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings);
 
 /// Prints the sweep and writes bha.csv, bha_contacts.csv, bha_profile.csv, bha.h5 and summary.json.

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "substructures/drillstring/analyses/BottomHole.hpp"
+#include "substructures/drillstring/analyses/bottom_hole/BottomHole.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {

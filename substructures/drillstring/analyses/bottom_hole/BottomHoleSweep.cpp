@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "common/DealtRows.hpp"
 #include "common/Error.hpp"
-#include "substructures/drillstring/analyses/BottomHole.hpp"
+#include "common/Interrupt.hpp"
+#include "substructures/drillstring/analyses/bottom_hole/BottomHole.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -82,6 +87,45 @@ ModelledLength modelledLength(const BottomHole& assembly, const BottomHoleSettin
   return longest;
 }
 
+/// One combination.
+struct Job {
+  BottomHolePoint point;
+  bool rotating = false;
+};
+
+/// What was found: a state, or the reason why there is none.
+struct Outcome {
+  BottomHoleState state;
+  std::string reason;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(state, reason);
+  }
+};
+
+std::vector<Job> jobsOf(const BottomHole& assembly, const BottomHoleSettings& settings,
+                        const std::vector<std::optional<double>>& holes, double length) {
+  std::vector<Job> jobs;
+  for (const auto& hole : holes)
+    for (const double weight : settings.weights) {
+      for (const double toolFace : settings.toolFaces) jobs.push_back({{hole, weight, toolFace}});
+      if (assembly.turns(length))
+        jobs.push_back({{hole, weight, settings.toolFaces.front()}, true});
+    }
+  return jobs;
+}
+
+Outcome solve(const BottomHole& assembly, double length, const Job& job) {
+  if (interruptRequested()) throw InterruptedError("Interrupted. No table was written.");
+  try {
+    return {job.rotating ? assembly.rotating(job.point, length) : assembly.solve(job.point, length),
+            ""};
+  } catch (const ConvergenceError& error) {
+    return {{}, error.what()};
+  }
+}
+
 }  // namespace
 
 BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings) {
@@ -91,21 +135,17 @@ BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& se
   if (holes.empty()) holes.emplace_back();
   BottomHoleSweep sweep;
   sweep.length = modelledLength(assembly, settings, holes);
-  const double length = sweep.length.length;
-  const auto add = [&](const BottomHolePoint& point, bool rotating) {
-    try {
-      sweep.rows.push_back(
-          {point, rotating,
-           rotating ? assembly.rotating(point, length) : assembly.solve(point, length)});
-    } catch (const ConvergenceError& error) {
-      sweep.missing.push_back({point, rotating, error.what()});
-    }
-  };
-  for (const auto& hole : holes)
-    for (const double weight : settings.weights) {
-      for (const double toolFace : settings.toolFaces) add({hole, weight, toolFace}, false);
-      if (assembly.turns(length)) add({hole, weight, settings.toolFaces.front()}, true);
-    }
+  const auto jobs = jobsOf(assembly, settings, holes, sweep.length.length);
+  std::vector<Outcome> found(jobs.size());
+  std::vector<std::size_t> all(jobs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  parallel::dealRows<Outcome>(
+      all, found, [&](std::size_t i) { return solve(assembly, sweep.length.length, jobs[i]); });
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    if (found[i].reason.empty())
+      sweep.rows.push_back({jobs[i].point, jobs[i].rotating, std::move(found[i].state)});
+    else
+      sweep.missing.push_back({jobs[i].point, jobs[i].rotating, found[i].reason});
   if (sweep.rows.empty()) throw ConvergenceError(sweep.missing.front().reason);
   return sweep;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/analyses/BottomHole.hpp"
+#include "substructures/drillstring/analyses/bottom_hole/BottomHole.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include "deck/Defaults.hpp"
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "substructures/drillstring/DrillstringReader.hpp"
-#include "substructures/drillstring/analyses/BottomHoleState.hpp"
+#include "substructures/drillstring/analyses/bottom_hole/BottomHoleState.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 #include "substructures/well/ArcChain.hpp"
 #include "substructures/well/Frames.hpp"

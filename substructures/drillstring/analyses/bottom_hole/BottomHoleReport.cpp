@@ -10,7 +10,7 @@
 #include "common/report/Log.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
-#include "substructures/drillstring/analyses/BottomHole.hpp"
+#include "substructures/drillstring/analyses/bottom_hole/BottomHole.hpp"
 
 namespace tooljoint::drillstring {
 namespace {

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A bit whose weight and torque follow its rate of penetration.
+#include <Teuchos_ParameterList.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "common/Text.hpp"
+#include "model/laws/FormulaLaw.hpp"
+#include "substructures/drilling/BitLaw.hpp"
+
+namespace tooljoint::drilling {
+namespace {
+
+using deck::Range;
+
+/// In the advance v and the speed w of the bit, Z = w/sqrt(w^2 + e^2):
+///
+///     W = v/(a_2 Z^2) - a_3 w/(a_2 Z) + a_1/a_2,   T = v a_4 Z^2/w + a_5 Z
+///
+/// with w/Z = sqrt(w^2 + e^2) and Z^2/w = w/(w^2 + e^2), which hold at w = 0 too. Z^2 of the
+/// denominator is at least `floor`.
+struct Penetration : model::Formula<2> {
+  double a1, a2, a3, a4, a5, e, floor;
+
+  template <class T>
+  void operator()(const model::PointAt<T>& at, T* f, T*) const {
+    using std::sqrt;
+    const T v = at.v[0], w = at.v[1], square = w * w + e * e, root = sqrt(square);
+    const T Z = w / root;
+    const T Z2 = Z * Z > floor ? T(Z * Z) : T(floor);
+    f[0] = -(v / (a2 * Z2) - a3 * root / a2 + a1 / a2);
+    f[1] = -(v * a4 * w / square + a5 * Z);
+  }
+  /// Everything the rock takes is lost.
+  Power power(const model::PointAt<double>& at, const double*) const {
+    double f[2] = {0.0, 0.0};
+    (*this)(at, f, static_cast<double*>(nullptr));
+    Power p;
+    p.friction = -f[0] * at.v[0] - f[1] * at.v[1];
+    return p;
+  }
+};
+
+class TuckerWang final : public BitLaw {
+ public:
+  explicit TuckerWang(const Teuchos::ParameterList& list) {
+    law_.a1 = list.get<double>("Threshold Rate");
+    law_.a2 = list.get<double>("Rate per Weight");
+    law_.a3 = list.get<double>("Rate per Speed");
+    law_.a4 = list.get<double>("Torque per Depth");
+    law_.a5 = list.get<double>("Torque of Friction");
+    law_.e = list.get<double>("Regularisation Speed");
+    law_.floor = list.get<double>("Smallest Z Squared");
+  }
+  bool givesWeight() const override { return true; }
+  std::shared_ptr<const model::PointLaw> make(double) const override {
+    return std::make_shared<model::FormulaLaw<Penetration>>(law_, 1);
+  }
+  WeightRange calibration() const override { return {100e3, 250e3}; }
+  std::string describe() const override {
+    return "weight and torque by the rate of penetration, calibrated for 100 to 250 kN";
+  }
+
+ private:
+  Penetration law_;
+};
+
+const bool registered = addBitLaw<TuckerWang>(
+    deck::ListSpec("Tucker-Wang",
+                   "Weight and torque by the rate of penetration v, with Z = "
+                   "omega/sqrt(omega^2 + e^2): W = v/(a_2 Z^2) - a_3 omega/(a_2 Z) + a_1/a_2, T = "
+                   "v a_4 Z^2/omega + a_5 Z. Calibrated for 100 to 250 kN; outside the rock may "
+                   "pull. (R. W. Tucker and C. Wang, Meccanica 38 (2003) 143-159; T. G. Ritto, C. "
+                   "Soize and R. Sampaio, Int. J. Non-Linear Mech. 44 (2009) 865-876.)")
+        .real("Threshold Rate", "m/s", 3.429e-3, Range::nonNegative(),
+              "a_1: what of the rate a weight has to overcome first.")
+        .expert()
+        .real("Rate per Weight", "m/(N s)", 5.672e-8, Range::positive(),
+              "a_2: rate of penetration per weight on bit.")
+        .expert()
+        .real("Rate per Speed", "m/rad", 1.374e-4, Range::nonNegative(),
+              "a_3: rate of penetration per rotary speed.")
+        .expert()
+        .real("Torque per Depth", "N rad", 9.537e6, Range::nonNegative(),
+              "a_4: torque per depth of cut v/omega.")
+        .expert()
+        .real("Torque of Friction", "N m", 1.475e3, Range::nonNegative(),
+              "a_5: torque of a bit that does not penetrate.")
+        .expert()
+        .real("Regularisation Speed", "rad/s", 2.0, Range::positive(),
+              "e: speed below which the bit cuts less.")
+        .expert()
+        .real("Smallest Z Squared", "", 1e-2, Range{0.0, 1.0, true, false},
+              "Z^2 is taken no smaller where it divides: a bit that stands still resists with "
+              "1/(a_2 Z^2) times its advance, not without limit.")
+        .expert());
+
+}  // namespace
+}  // namespace tooljoint::drilling

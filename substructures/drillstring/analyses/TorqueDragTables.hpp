@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Torque and drag as tables, datasets and figures of the summary.
+#pragma once
+
+#include <vector>
+
+#include "io/OutputFolder.hpp"
+#include "io/ResultsFile.hpp"
+#include "io/Summary.hpp"
+#include "substructures/drillstring/analyses/TorqueDrag.hpp"
+
+namespace tooljoint::drillstring {
+
+/// The largest contact force of the stiff string [N] and where it acts.
+Margin largestContact(const StiffLoads& stiff);
+/// Least margin to yield of the stiff string, at the middle of an element; infinite without a yield
+/// strength.
+Margin stiffYield(const StiffLoads& stiff, const softstring::TorqueDragSettings& settings);
+
+/// Depth of the deepest bit [m].
+double deepestBit(const std::vector<TorqueDragProfile>& profiles);
+
+/// torque_drag.csv, torque_drag_profile.csv, and torque_drag_stiff_profile.csv where there is a
+/// stiff string.
+void stageTables(const std::vector<TorqueDragProfile>& profiles,
+                 const softstring::TorqueDragSettings& settings, io::OutputFolder& folder);
+/// Groups /rows, /known and /profile of torque_drag.h5.
+void writeDatasets(const std::vector<TorqueDragProfile>& profiles,
+                   const softstring::TorqueDragSettings& settings, io::ResultsFile& file);
+/// Keys torque_drag; rows are those of the deepest bit.
+void summarise(const std::vector<TorqueDragProfile>& profiles,
+               const softstring::TorqueDragSettings& settings, io::Summary& summary);
+
+}  // namespace tooljoint::drillstring
