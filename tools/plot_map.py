@@ -121,7 +121,7 @@ def hatch(axes, x, y, beyond):
 
 def tick_texts(axes, along, axis, places, order, most):
     """Ticks at the points, or at as many of them as have room."""
-    texts = [plots.tick(place) if axis["numeric"] else pathlib.PurePath(axis["texts"][i]).name for place, i in zip(places, order)]
+    texts = [f"{place:.5g}" if axis["numeric"] else pathlib.PurePath(axis["texts"][i]).name for place, i in zip(places, order)]
     room = (places[-1] - places[0]) / most
     kept = [0]
     for i, place in enumerate(places):

@@ -186,9 +186,9 @@ void addReport(CLI::App& program, Options& options, std::function<void()>& comma
   auto* report = program.add_subcommand(
       "report", "one HTML file with figures, plots and a 3-D view of a results folder");
   report
-      ->add_option(
-          "DIR", options.reported,
-          "folder of run, study or map, or the --output of torque-drag, bha, buckling or modes")
+      ->add_option("DIR", options.reported,
+                   "folder of run, study or map, or the --output of torque-drag, bha, buckling, "
+                   "campbell, response or modes")
       ->type_name("DIR")
       ->required();
   report->add_option("--output,-o", options.output, "file to write (default: DIR/report.html)")

@@ -5,6 +5,7 @@
 /// against this interface; a case supplies data.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -23,10 +24,28 @@
 
 namespace tooljoint::cases {
 
+/// factor times a component of a node.
+struct NodeTerm {
+  std::int64_t node = 0;
+  int component = 0;
+  double factor = 1.0;
+};
+/// Two sums of displacements, in two directions across an axis.
+using NodeSums = std::array<std::vector<NodeTerm>, 2>;
+
+/// The bending moment of a beam element.
+struct BendingPlace {
+  NodeSums moment;               ///< about the state at rest, in two axes across the element [N m]
+  double depth = 0.0;            ///< of its middle [m]
+  double stressPerMoment = 0.0;  ///< at the outer wall [1/m3]
+};
+
 /// What of a motion is recorded and compared.
 struct Measures {
-  std::vector<std::int64_t> nodes;  ///< in the order of all histories
-  std::vector<int> components;      ///< of a node
+  std::vector<std::int64_t> nodes;    ///< in the order of all histories
+  std::vector<double> depth;          ///< of the nodes [m]; empty where they have none
+  std::vector<BendingPlace> bending;  ///< of the elements; empty where the case knows none
+  std::vector<int> components;        ///< of a node
   std::size_t vibrating =
       0;  ///< how many of them, from the first on, are the vibration that vibration error measures
   std::vector<double> clearance;  ///< per node [m]; infinite where nothing can be touched

@@ -59,10 +59,13 @@ class TruncatedMotion {
 
 /// Left vectors in the order of the right ones: modes of the transposed matrices with the nearest
 /// value.
-ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& right) {
+ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& right,
+                         std::optional<linalg::DampedTarget> target) {
   const int count = static_cast<int>(right.values.size());
-  const auto modes = linalg::lowestDampedModes(m.mass, Sparse(m.damping.transpose()),
-                                               Sparse(m.stiffness.transpose()), count);
+  const Sparse C = m.damping.transpose(), K = m.stiffness.transpose();
+  if (target) target->count = count;
+  const auto modes = target ? linalg::dampedModesNear(m.mass, C, K, *target)
+                            : linalg::lowestDampedModes(m.mass, C, K, count);
   ComplexMatrix left(right.vectors.rows(), count);
   std::vector<char> taken(static_cast<std::size_t>(modes.values.size()), 0);
   for (Eigen::Index j = 0; j < count; ++j) {
@@ -111,26 +114,48 @@ linalg::EnergyRounding roundingOfParts(const std::vector<model::Substructure>& p
   };
 }
 
+namespace {
+
+/// The first `count` modes that are not spurious.
+void keepPhysical(const model::SecondOrderModel& model, Eigen::Index count,
+                  linalg::QuadraticModes& modes) {
+  const auto spurious = coupling::spuriousShapes(model, modes.vectors);
+  Eigen::Index kept = 0;
+  for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
+    if (spurious[static_cast<std::size_t>(j)]) continue;
+    modes.values[kept] = modes.values[j];
+    modes.vectors.col(kept) = ComplexVector(modes.vectors.col(j));
+    modes.residuals[kept++] = modes.residuals[j];
+  }
+  kept = std::min(kept, count);
+  modes.values.conservativeResize(kept);
+  modes.vectors.conservativeResize(Eigen::NoChange, kept);
+  modes.residuals.conservativeResize(kept);
+}
+
+}  // namespace
+
 linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& model,
                                            const Linearised& m, int count,
                                            const linalg::EnergyRounding& rounding) {
   for (int looked = std::min(count, model.size());; looked = std::min(2 * looked, model.size())) {
     auto modes = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, looked,
                                            model::namer(model), rounding);
-    const auto spurious = coupling::spuriousShapes(model, modes.vectors);
-    Eigen::Index kept = 0;
-    for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
-      if (spurious[static_cast<std::size_t>(j)]) continue;
-      modes.values[kept] = modes.values[j];
-      modes.vectors.col(kept) = ComplexVector(modes.vectors.col(j));
-      modes.residuals[kept++] = modes.residuals[j];
-    }
-    const bool enough = kept >= count || looked == model.size() || modes.values.size() < looked;
-    kept = std::min<Eigen::Index>(kept, count);
-    modes.values.conservativeResize(kept);
-    modes.vectors.conservativeResize(Eigen::NoChange, kept);
-    modes.residuals.conservativeResize(kept);
-    if (enough) return modes;
+    const auto found = modes.values.size();
+    keepPhysical(model, count, modes);
+    if (modes.values.size() >= count || looked == model.size() || found < looked) return modes;
+  }
+}
+
+linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& model,
+                                           const Linearised& m, const linalg::DampedTarget& target,
+                                           const linalg::EnergyRounding& rounding) {
+  auto looked = target;
+  for (;; looked.count *= 2) {
+    auto modes = linalg::dampedModesNear(m.mass, m.damping, m.stiffness, looked, rounding);
+    const auto found = modes.values.size();
+    keepPhysical(model, found, modes);
+    if (modes.values.size() >= target.count || found < looked.count) return modes;
   }
 }
 
@@ -147,8 +172,9 @@ DynamicError::DynamicError(const std::vector<model::Substructure>& parts,
 }
 
 ComplexVector DynamicError::ofModes(const std::vector<Linearised>& matrices, const Linearised& m,
-                                    const linalg::QuadraticModes& right) const {
-  const ComplexMatrix left = leftShapes(m, right);
+                                    const linalg::QuadraticModes& right,
+                                    const std::optional<linalg::DampedTarget>& target) const {
+  const ComplexMatrix left = leftShapes(m, right, target);
   const Stage stage("error estimates");
   const auto count = right.values.size();
   ComplexVector work = ComplexVector::Zero(count);

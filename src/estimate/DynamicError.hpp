@@ -5,6 +5,7 @@
 #pragma once
 
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "coupling/Synthesis.hpp"
@@ -27,6 +28,11 @@ linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& couple
                                            const Linearised& m, int count,
                                            const linalg::EnergyRounding& rounding);
 
+/// Likewise those of a target (linalg::dampedModesNear).
+linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& coupled,
+                                           const Linearised& m, const linalg::DampedTarget& target,
+                                           const linalg::EnergyRounding& rounding);
+
 /// Goal-oriented errors: with the solution Phi y of a Rayleigh-Ritz problem, its adjoint Phi z and
 /// the residuals r and l of both, the error of the goal is l' F r to first order, F the
 /// residual flexibility of the parts (two terms of its expansion in s^2, summed as a geometric
@@ -40,9 +46,11 @@ class DynamicError {
 
   /// s - s_full = -sum_p l_I' F_p r_I / z' (2 s m + c) y of modes of the coupled matrices `m`, with
   /// the left modes z of the nearest values, r = Q(s) Phi y and l = Q(s)' Phi z, Q = s^2 M + s C +
-  /// K. \param matrices of the parts at the same speed
+  /// K. \param matrices of the parts at the same speed \param target where the modes were looked
+  /// for; none: the lowest ones
   Eigen::VectorXcd ofModes(const std::vector<Linearised>& matrices, const Linearised& m,
-                           const linalg::QuadraticModes& right) const;
+                           const linalg::QuadraticModes& right,
+                           const std::optional<linalg::DampedTarget>& target = {}) const;
 
   /// c'x_full - c'x = sum_p l_I' F_p r_I of responses Q(s) x = f, with r = Q Phi y - f, l = Q'
   /// Phi z - c.

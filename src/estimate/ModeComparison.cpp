@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -190,41 +191,98 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full,
   return modes;
 }
 
+namespace {
+
+/// Damped modes of the full and of the coupled model at one time.
+class DampedComparison {
+ public:
+  DampedComparison(const model::SecondOrderModel& full,
+                   const std::vector<model::Substructure>& parts,
+                   const coupling::Synthesis& synthesis, double t, const std::vector<Sparse>& maps)
+      : full_(full),
+        parts_(parts),
+        synthesis_(synthesis),
+        t_(t),
+        maps_(maps),
+        whole_(linearise(full, t)),
+        small_(linearise(synthesis.coupled.model, t)) {}
+
+  std::vector<ModeComparison> lowest(int count) const {
+    const auto exact =
+        linalg::lowestDampedModes(whole_.mass, whole_.damping, whole_.stiffness,
+                                  std::min(count + moreModes, full_.size()), model::namer(full_));
+    const auto coupled =
+        physicalDampedModes(synthesis_.coupled.model, small_, count + 2 * moreModes,
+                            roundingOfParts(parts_, synthesis_));
+    return match(exact, coupled, count, {});
+  }
+
+  std::vector<ModeComparison> near(linalg::DampedTarget target) const {
+    const auto exact =
+        linalg::dampedModesNear(whole_.mass, whole_.damping, whole_.stiffness, target);
+    target.count = static_cast<int>(exact.values.size()) + moreModes;
+    const auto coupled = physicalDampedModes(synthesis_.coupled.model, small_, target,
+                                             roundingOfParts(parts_, synthesis_));
+    return match(exact, coupled, exact.values.size(), target);
+  }
+
+ private:
+  /// The first `count` exact modes.
+  std::vector<ModeComparison> match(const linalg::QuadraticModes& exact,
+                                    const linalg::QuadraticModes& coupled, Eigen::Index count,
+                                    const std::optional<linalg::DampedTarget>& target) const {
+    const bool estimated = isRitz(synthesis_);
+    ComplexVector errors;
+    if (estimated) {
+      const auto matrices = linearise(parts_, t_);
+      errors =
+          DynamicError(parts_, synthesis_, matrices).ofModes(matrices, small_, coupled, target);
+    }
+    const auto matches = matchModes(whole_.mass, exact.values, exact.vectors,
+                                    recover(full_, parts_, synthesis_, coupled.vectors, maps_));
+    std::vector<ModeComparison> modes(
+        static_cast<std::size_t>(std::min<Eigen::Index>(count, exact.values.size())));
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      ModeComparison& mode = modes[i];
+      mode.full = exact.values[static_cast<Eigen::Index>(i)];
+      mode.coupledMode = matches[i].partner;
+      mode.mac = matches[i].mac;
+      mode.estimated = estimated && mode.coupledMode >= 0;
+      mode.error = 1.0;
+      if (mode.coupledMode < 0) continue;
+      mode.coupled = coupled.values[mode.coupledMode];
+      mode.error =
+          mode.full == 0.0 ? 0.0 : std::abs(mode.coupled - mode.full) / std::abs(mode.full);
+      if (estimated)
+        mode.estimate =
+            mode.coupled == 0.0 ? 0.0 : std::abs(errors[mode.coupledMode]) / std::abs(mode.coupled);
+    }
+    return modes;
+  }
+
+  const model::SecondOrderModel& full_;
+  const std::vector<model::Substructure>& parts_;
+  const coupling::Synthesis& synthesis_;
+  double t_;
+  const std::vector<Sparse>& maps_;
+  Linearised whole_, small_;
+};
+
+}  // namespace
+
 std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full,
                                                const std::vector<model::Substructure>& parts,
                                                const coupling::Synthesis& synthesis, int count,
                                                double t, const std::vector<Sparse>& maps) {
-  const Linearised whole = linearise(full, t), small = linearise(synthesis.coupled.model, t);
-  const auto exact =
-      linalg::lowestDampedModes(whole.mass, whole.damping, whole.stiffness,
-                                std::min(count + moreModes, full.size()), model::namer(full));
-  const auto coupled = physicalDampedModes(synthesis.coupled.model, small, count + 2 * moreModes,
-                                           roundingOfParts(parts, synthesis));
-  const bool estimated = isRitz(synthesis);
-  ComplexVector errors;
-  if (estimated) {
-    const auto matrices = linearise(parts, t);
-    errors = DynamicError(parts, synthesis, matrices).ofModes(matrices, small, coupled);
-  }
-  const auto matches = matchModes(whole.mass, exact.values, exact.vectors,
-                                  recover(full, parts, synthesis, coupled.vectors, maps));
-  std::vector<ModeComparison> modes(
-      static_cast<std::size_t>(std::min<Eigen::Index>(count, exact.values.size())));
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    ModeComparison& mode = modes[i];
-    mode.full = exact.values[static_cast<Eigen::Index>(i)];
-    mode.coupledMode = matches[i].partner;
-    mode.mac = matches[i].mac;
-    mode.estimated = estimated && mode.coupledMode >= 0;
-    mode.error = 1.0;
-    if (mode.coupledMode < 0) continue;
-    mode.coupled = coupled.values[mode.coupledMode];
-    mode.error = mode.full == 0.0 ? 0.0 : std::abs(mode.coupled - mode.full) / std::abs(mode.full);
-    if (estimated)
-      mode.estimate =
-          mode.coupled == 0.0 ? 0.0 : std::abs(errors[mode.coupledMode]) / std::abs(mode.coupled);
-  }
-  return modes;
+  return DampedComparison(full, parts, synthesis, t, maps).lowest(count);
+}
+
+std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full,
+                                               const std::vector<model::Substructure>& parts,
+                                               const coupling::Synthesis& synthesis,
+                                               const linalg::DampedTarget& target, double t,
+                                               const std::vector<Sparse>& maps) {
+  return DampedComparison(full, parts, synthesis, t, maps).near(target);
 }
 
 std::string comparisonTable(const std::vector<ModeComparison>& modes, bool damped) {

@@ -88,6 +88,13 @@ std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& fu
                                                const coupling::Synthesis& synthesis, int count,
                                                double t, const std::vector<Sparse>& maps = {});
 
+/// The same for the full modes of a target; a coupled mode may lie a little outside of it.
+std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full,
+                                               const std::vector<model::Substructure>& parts,
+                                               const coupling::Synthesis& synthesis,
+                                               const linalg::DampedTarget& target, double t,
+                                               const std::vector<Sparse>& maps = {});
+
 /// A table; with |s|, Im s and damping ratios when `damped`.
 std::string comparisonTable(const std::vector<ModeComparison>& modes, bool damped);
 

@@ -15,40 +15,55 @@ namespace {
 /// What is left of a vector after orthogonalisation below this fraction of it is rounding.
 constexpr double rounding = 1e-14;
 
+template <class Scalar>
+struct Eigensolver {
+  using Type = Eigen::ComplexEigenSolver<Eigen::MatrixXcd>;
+};
+template <>
+struct Eigensolver<double> {
+  using Type = Eigen::EigenSolver<Matrix>;
+};
+
 }  // namespace
 
-GrowingKrylov::GrowingKrylov(Operator apply, int size)
+template <class Scalar>
+GrowingKrylov<Scalar>::GrowingKrylov(Operator apply, int size)
     : apply_(std::move(apply)), size_(size), directions_(size, 0) {}
 
-void GrowingKrylov::start(int columns, std::uint64_t seed) {
+template <class Scalar>
+void GrowingKrylov<Scalar>::start(int columns, std::uint64_t seed) {
   width_ = std::min(columns, size_);
-  add(scatteredNumbers(size_, width_, seed));
+  add(scatteredNumbers(size_, width_, seed).cast<Scalar>());
 }
 
-void GrowingKrylov::startWhole() {
+template <class Scalar>
+void GrowingKrylov<Scalar>::startWhole() {
   width_ = size_;
-  add(Matrix::Identity(size_, size_));
+  add(Block::Identity(size_, size_));
 }
 
-void GrowingKrylov::startBeside(int columns, std::uint64_t seed) {
+template <class Scalar>
+void GrowingKrylov<Scalar>::startBeside(int columns, std::uint64_t seed) {
   const std::deque<int> later = std::exchange(open_, {});
-  add(scatteredNumbers(size_, std::min(columns, size_ - count_), seed));
+  add(scatteredNumbers(size_, std::min(columns, size_ - count_), seed).cast<Scalar>());
   open_.insert(open_.end(), later.begin(), later.end());
 }
 
-void GrowingKrylov::add(const Matrix& columns) {
-  Vector coefficients;
+template <class Scalar>
+void GrowingKrylov<Scalar>::add(const Block& columns) {
+  Column coefficients;
   for (Eigen::Index j = 0; j < columns.cols(); ++j) {
     const int place = append(columns.col(j), columns.col(j).norm(), coefficients);
     if (place >= 0) open_.push_back(place);
   }
 }
 
-int GrowingKrylov::append(Vector w, double size, Vector& h) {
+template <class Scalar>
+int GrowingKrylov<Scalar>::append(Column w, double size, Column& h) {
   const auto V = directions_.leftCols(count_);
-  h = V.transpose() * w;
+  h = V.adjoint() * w;
   w -= V * h;
-  const Vector again = V.transpose() * w;
+  const Column again = V.adjoint() * w;
   w -= V * again;
   h += again;
   const double length = w.norm();
@@ -67,18 +82,19 @@ int GrowingKrylov::append(Vector w, double size, Vector& h) {
   return count_++;
 }
 
-void GrowingKrylov::step() {
+template <class Scalar>
+void GrowingKrylov<Scalar>::step() {
   const auto width = std::min<std::size_t>(open_.size(), static_cast<std::size_t>(width_));
   const std::vector<int> now(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(width));
   open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(width));
-  Matrix columns(size_, static_cast<Eigen::Index>(width));
+  Block columns(size_, static_cast<Eigen::Index>(width));
   for (std::size_t j = 0; j < width; ++j)
     columns.col(static_cast<Eigen::Index>(j)) = directions_.col(now[j]);
-  const Matrix images = apply_(columns);
+  const Block images = apply_(columns);
   std::vector<int> fresh;
-  Vector h;
+  Column h;
   for (std::size_t j = 0; j < width; ++j) {
-    const Vector w = images.col(static_cast<Eigen::Index>(j));
+    const Column w = images.col(static_cast<Eigen::Index>(j));
     const int place = append(w, w.norm(), h);
     projected_.col(now[j]).setZero();
     projected_.col(now[j]).head(h.size()) = h;
@@ -89,14 +105,16 @@ void GrowingKrylov::step() {
   open_.insert(open_.begin(), fresh.begin(), fresh.end());
 }
 
-void GrowingKrylov::grow(int columns) {
+template <class Scalar>
+void GrowingKrylov<Scalar>::grow(int columns) {
   while (!open_.empty() && static_cast<int>(done_.size()) < columns) step();
 }
 
-RitzPairs GrowingKrylov::ritz() const {
+template <class Scalar>
+RitzPairs GrowingKrylov<Scalar>::ritz() const {
   const auto m = static_cast<Eigen::Index>(done_.size());
-  Matrix H(m, m), rest(static_cast<Eigen::Index>(open_.size()), m);
-  Matrix V(size_, m);
+  Block H(m, m), rest(static_cast<Eigen::Index>(open_.size()), m);
+  Block V(size_, m);
   for (Eigen::Index j = 0; j < m; ++j) {
     const int column = done_[static_cast<std::size_t>(j)];
     V.col(j) = directions_.col(column);
@@ -105,7 +123,7 @@ RitzPairs GrowingKrylov::ritz() const {
     for (std::size_t i = 0; i < open_.size(); ++i)
       rest(static_cast<Eigen::Index>(i), j) = projected_(open_[i], column);
   }
-  const Eigen::EigenSolver<Matrix> solver(H);
+  const typename Eigensolver<Scalar>::Type solver(H);
   if (solver.info() != Eigen::Success)
     throw ConvergenceError("The QR iteration of a projected eigenproblem did not converge.");
   RitzPairs pairs;
@@ -120,5 +138,8 @@ RitzPairs GrowingKrylov::ritz() const {
   }
   return pairs;
 }
+
+template class GrowingKrylov<double>;
+template class GrowingKrylov<std::complex<double>>;
 
 }  // namespace tooljoint::linalg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A block Krylov space of a real unsymmetric operator that grows until it holds the wanted
-/// eigenvalues and is never restarted.
+/// A block Krylov space of an unsymmetric operator, real or complex, that grows until it holds the
+/// wanted eigenvalues and is never restarted.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace tooljoint::linalg {
 
 /// Ritz pairs A z = nu z, |z| = 1.
 struct RitzPairs {
-  Eigen::VectorXcd values;   ///< nu; conjugate pairs exactly
+  Eigen::VectorXcd values;   ///< nu; of a real operator conjugate pairs exactly
   Eigen::MatrixXcd vectors;  ///< z, size x values
   Vector residuals;          ///< |A z - nu z| / |nu|
 };
@@ -25,9 +25,12 @@ struct RitzPairs {
 /// J. Matrix Anal. Appl. 23 (2002) 601-614) have to part a spectrum, which equal values do not
 /// allow. A space from one block holds at most as many copies of a repeated eigenvalue as the block
 /// has columns; startBeside() adds others.
+/// \tparam Scalar  double or std::complex<double>
+template <class Scalar>
 class GrowingKrylov {
  public:
-  using Operator = std::function<Matrix(const Matrix&)>;
+  using Block = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Operator = std::function<Block(const Block&)>;
 
   GrowingKrylov(Operator apply, int size);
   /// A block of scattered directions.
@@ -45,17 +48,19 @@ class GrowingKrylov {
   RitzPairs ritz() const;
 
  private:
+  using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
   /// Orthogonalises; the position of the new direction, -1 when there is none beyond rounding of
   /// `size`. Its coefficients go into `h`.
-  int append(Vector w, double size, Vector& h);
-  void add(const Matrix& columns);
+  int append(Column w, double size, Column& h);
+  void add(const Block& columns);
   void step();
 
   Operator apply_;
   int size_;
   int count_ = 0;         ///< directions
-  Matrix directions_;     ///< orthonormal, size x (at least count)
-  Matrix projected_;      ///< h_ij = v_i' A v_j, for the directions j that the operator has been
+  Block directions_;      ///< orthonormal, size x (at least count)
+  Block projected_;       ///< h_ij = v_i^H A v_j, for the directions j that the operator has been
                           ///< applied to
   std::deque<int> open_;  ///< directions it has not been applied to, in order
   std::vector<int> done_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "cases/nodes/NodeDofs.hpp"
@@ -10,7 +11,7 @@
 #include "common/Index.hpp"
 #include "estimate/ModeMatching.hpp"
 #include "linalg/DynamicStiffness.hpp"
-#include "response/ModeTracker.hpp"
+#include "response/ModeSearch.hpp"
 #include "response/SweepParameters.hpp"
 #include "response/SweepProgress.hpp"
 
@@ -20,8 +21,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Of |s|: a mode with less Im s does not vibrate.
-constexpr double noVibration = 1e-6;
 /// Relative distance of two values that are one repeated value: the whirl of its modes is
 /// arbitrary.
 constexpr double repeated = 1e-6;
@@ -29,132 +28,169 @@ constexpr double repeated = 1e-6;
 constexpr double noLateral = 1e-9;
 /// A refined mode is that of the diagram when their MAC is not below this.
 constexpr double sameMode = 0.5;
-/// Of the frequency: |Im s - order Omega| at a crossing, and iterations allowed.
+/// Of the frequency: |Im s - excitation| at a crossing, and iterations allowed.
 constexpr double crossed = 1e-10;
 constexpr int mostIterations = 40;
 
-/// With u = Re(U exp(i w t)), v likewise: u v' - v u' = w Im(U conj(V)) on average, so
+/// Displacements of a mode and its sense. With u = Re(U exp(i w t)), v likewise: u v' - v u' =
+/// w Im(U conj(V)) on average, so
 ///
 ///     whirl = 2 sum Im(U conj(V)) / sum (|U|^2 + |V|^2)
-class Whirl {
+class Shapes {
  public:
-  Whirl(const model::SecondOrderModel& model, const std::string& axis)
+  Shapes(const model::SecondOrderModel& model, const std::string& axis)
       : recovery_(model.recovery),
         width_(static_cast<Eigen::Index>(model.componentNames.size())),
         lateral_(cases::lateralComponents(model, axis)) {}
 
-  double operator()(const Eigen::VectorXcd& shape) const {
+  double whirl(const Eigen::VectorXcd& shape) const {
     if (lateral_[0] < 0 || lateral_[1] < 0) return 0.0;
-    const Vector re = recovery_ * Vector(shape.real()), im = recovery_ * Vector(shape.imag());
+    const auto x = recovered(shape);
     double area = 0.0, size = 0.0;
-    for (Eigen::Index row = 0; row + width_ <= re.size(); row += width_) {
-      const Complex u(re[row + lateral_[0]], im[row + lateral_[0]]),
-          v(re[row + lateral_[1]], im[row + lateral_[1]]);
+    for (Eigen::Index row = 0; row + width_ <= x.size(); row += width_) {
+      const Complex u = x[row + lateral_[0]], v = x[row + lateral_[1]];
       area += std::imag(u * std::conj(v));
       size += std::norm(u) + std::norm(v);
     }
-    return size > noLateral * (re.squaredNorm() + im.squaredNorm()) ? 2.0 * area / size : 0.0;
+    return size > noLateral * x.squaredNorm() ? 2.0 * area / size : 0.0;
+  }
+
+  /// Rows of the recovery, scaled as ModeShape::shape.
+  Eigen::VectorXcd scaled(const Eigen::VectorXcd& shape) const {
+    const auto x = recovered(shape);
+    Complex largest = 0.0, lateral = 0.0;
+    const auto take = [](Complex& best, Complex one) {
+      if (std::abs(one) > std::abs(best)) best = one;
+    };
+    for (Eigen::Index row = 0; row < x.size(); ++row) take(largest, x[row]);
+    for (Eigen::Index row = 0; row + width_ <= x.size(); row += width_)
+      for (const int component : lateral_)
+        if (component >= 0) take(lateral, x[row + component]);
+    if (std::norm(lateral) > noLateral * x.squaredNorm()) largest = lateral;
+    return largest == 0.0 ? x : Eigen::VectorXcd(x / largest);
   }
 
  private:
+  Eigen::VectorXcd recovered(const Eigen::VectorXcd& shape) const {
+    Eigen::VectorXcd x(recovery_.rows());
+    x.real() = recovery_ * Vector(shape.real());
+    x.imag() = recovery_ * Vector(shape.imag());
+    return x;
+  }
+
   Sparse recovery_;
   Eigen::Index width_;
   std::array<int, 2> lateral_;
 };
-
-VibratingModes vibrating(const linalg::QuadraticModes& modes) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index j = 0; j < modes.values.size(); ++j)
-    if (modes.values[j].imag() > noVibration * std::abs(modes.values[j])) kept.push_back(j);
-  VibratingModes out{
-      Eigen::VectorXcd(static_cast<Eigen::Index>(kept.size())),
-      Eigen::MatrixXcd(modes.vectors.rows(), static_cast<Eigen::Index>(kept.size()))};
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    out.values[static_cast<Eigen::Index>(k)] = modes.values[kept[k]];
-    out.shapes.col(static_cast<Eigen::Index>(k)) = modes.vectors.col(kept[k]);
-  }
-  return out;
-}
 
 class Diagram {
  public:
   Diagram(const RotatingCase& rotating, const CampbellSettings& settings)
       : rotating_(rotating),
         settings_(settings),
-        whirl_(rotating.model(), settings.axis),
+        search_(rotating, settings),
+        shapes_(rotating.model(), settings.axis),
         mass_(rotating.at(0.0).mass),
-        tracker_([this](double speed, int count) { return modesAt(speed, count); }, mass_,
-                 settings.modes) {}
+        tracker_([this](double speed, int followed) { return search_.at(speed, followed); },
+                 mass_) {}
 
   CampbellDiagram compute() {
     const auto checked =
         spread(settings_.speeds.size(), rotating_.reduced() ? settings_.spotChecks : 0);
+    const std::size_t drawn = shapePlace();
     SweepProgress progress("campbell", settings_.speeds.size());
     for (std::size_t i = 0; i < settings_.speeds.size(); ++i) {
       const auto before = tracker_.now();
       tracker_.advance(settings_.speeds[i]);
       addRows();
+      if (i == drawn) addShapes();
       if (i > 0) addCrossings(settings_.speeds[i - 1], before);
       if (contains(checked, i)) addChecks();
       progress.done(i + 1);
     }
     std::stable_sort(out_.crossings.begin(), out_.crossings.end(),
                      [](const Crossing& a, const Crossing& b) {
-                       return a.order != b.order ? a.order < b.order : a.at.speed < b.at.speed;
+                       return a.line != b.line ? a.line < b.line : a.at.speed < b.at.speed;
                      });
+    std::stable_sort(crossingShapes_.begin(), crossingShapes_.end(),
+                     [](const ModeShape& a, const ModeShape& b) {
+                       return a.line != b.line ? a.line < b.line : a.at.speed < b.at.speed;
+                     });
+    std::move(crossingShapes_.begin(), crossingShapes_.end(), std::back_inserter(out_.shapes));
     return std::move(out_);
   }
 
  private:
-  /// At least `count` modes that vibrate, where there are so many.
-  VibratingModes modesAt(double speed, int count) {
-    const auto m = rotating_.at(speed);
-    for (int looked = count;; looked *= 2) {
-      latest_ = rotating_.modes(m, looked);
-      auto some = vibrating(latest_);
-      if (some.values.size() >= count || latest_.values.size() < looked) return some;
-    }
+  /// The speed whose shapes are kept.
+  std::size_t shapePlace() const {
+    const auto& speeds = settings_.speeds;
+    if (!settings_.shapeSpeed) return speeds.size() - 1;
+    const double wanted = *settings_.shapeSpeed;
+    const auto nearest = std::min_element(
+        speeds.begin(), speeds.end(),
+        [wanted](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); });
+    return static_cast<std::size_t>(nearest - speeds.begin());
   }
 
   void addRows() {
     const auto& now = tracker_.now();
     const double speed = tracker_.speed();
     Eigen::VectorXcd errors;
-    if (rotating_.estimated())
-      errors = rotating_.error().ofModes(rotating_.partsAt(speed), rotating_.at(speed), latest_);
+    if (rotating_.estimated()) errors = search_.errors(speed);
+    const auto& latest = search_.latest();
     for (const auto& mode : now) {
-      CampbellRow row{speed, mode.track, mode.s, mode.mac, whirl_(mode.shape), 0.0};
+      if (!search_.shown(mode.s)) continue;
+      CampbellRow row{speed, mode.track, mode.s, mode.mac, shapes_.whirl(mode.shape), 0.0};
       for (const auto& other : now)
         if (other.track != mode.track && std::abs(other.s - mode.s) < repeated * std::abs(mode.s))
           row.whirl = 0.0;
       for (Eigen::Index j = 0; j < errors.size(); ++j)
-        if (latest_.values[j] == mode.s) row.error = std::abs(errors[j]) / std::abs(mode.s);
+        if (latest.values[j] == mode.s) row.error = std::abs(errors[j]) / std::abs(mode.s);
       out_.rows.push_back(row);
     }
+  }
+
+  /// Of the modes of the rows that were added last.
+  void addShapes() {
+    for (const auto& row : out_.rows)
+      if (row.speed == tracker_.speed())
+        for (const auto& mode : tracker_.now())
+          if (mode.track == row.mode) out_.shapes.push_back({row, -1, shapes_.scaled(mode.shape)});
   }
 
   void addCrossings(double from, const std::vector<TrackedMode>& before) {
     for (const auto& late : tracker_.now())
       for (const auto& early : before) {
         if (early.track != late.track) continue;
-        for (const double order : settings_.orders) {
-          const double a = early.s.imag() - order * from,
-                       b = late.s.imag() - order * tracker_.speed();
-          if ((a > 0.0) != (b > 0.0)) out_.crossings.push_back(crossing(order, from, early, late));
+        for (std::size_t line = 0; line < settings_.lines.size(); ++line) {
+          const double a = early.s.imag() - settings_.lines[line].at(from),
+                       b = late.s.imag() - settings_.lines[line].at(tracker_.speed());
+          if ((a > 0.0) != (b > 0.0)) addCrossing(line, from, early, late);
         }
       }
   }
 
-  /// Im s(Omega) = order Omega by false position (Illinois), each value a refined mode.
-  Crossing crossing(double order, double from, const TrackedMode& early, const TrackedMode& late) {
+  void addCrossing(std::size_t line, double from, const TrackedMode& early,
+                   const TrackedMode& late) {
+    linalg::DampedMode mode;
+    const auto found = crossing(line, from, early, late, mode);
+    if (!search_.shown(found.at.s)) return;
+    out_.crossings.push_back(found);
+    crossingShapes_.push_back({found.at, static_cast<int>(line), shapes_.scaled(mode.shape)});
+  }
+
+  /// Im s(Omega) = excitation(Omega) by false position (Illinois), each value a refined mode.
+  /// \param guess  the mode there
+  Crossing crossing(std::size_t line, double from, const TrackedMode& early,
+                    const TrackedMode& late, linalg::DampedMode& guess) {
+    const auto& excitation = settings_.lines[line];
     const double to = tracker_.speed();
-    double a = from, b = to, ga = early.s.imag() - order * a, gb = late.s.imag() - order * b;
+    double a = from, b = to, ga = early.s.imag() - excitation.at(a),
+           gb = late.s.imag() - excitation.at(b);
     const double linear = a - ga * (b - a) / (gb - ga);
-    Crossing found{order, *std::find_if(out_.rows.rbegin(), out_.rows.rend(),
-                                        [&](const auto& row) { return row.mode == late.track; })};
+    Crossing found{line, nearestRow(late.track)};
     const double share = (linear - from) / (to - from);
-    linalg::DampedMode guess{early.s + share * (late.s - early.s),
-                             share < 0.5 ? early.shape : late.shape};
+    guess = {early.s + share * (late.s - early.s), share < 0.5 ? early.shape : late.shape};
     const Complex interpolated = guess.s;
     int side = 0;  // that moved last: its opposite weighs half when it moves again
     for (int i = 0; i < mostIterations; ++i) {
@@ -165,7 +201,7 @@ class Diagram {
       guess = *mode;
       found.at.speed = speed;
       found.at.s = mode->s;
-      const double g = mode->s.imag() - order * speed;
+      const double g = mode->s.imag() - excitation.at(speed);
       if (std::abs(g) <= crossed * std::abs(mode->s) || b - a <= crossed * b) return found;
       if ((g > 0.0) == (ga > 0.0)) {
         a = speed, ga = g, gb *= side < 0 ? 0.5 : 1.0, side = -1;
@@ -179,6 +215,16 @@ class Diagram {
     return found;
   }
 
+  /// The last row of a track; one without figures where a window has not shown it yet.
+  CampbellRow nearestRow(int track) const {
+    const auto found = std::find_if(out_.rows.rbegin(), out_.rows.rend(),
+                                    [&](const auto& row) { return row.mode == track; });
+    if (found != out_.rows.rend()) return *found;
+    CampbellRow none;
+    none.mode = track;
+    return none;
+  }
+
   bool isSame(const Eigen::VectorXcd& shape, const TrackedMode& early,
               const TrackedMode& late) const {
     Eigen::MatrixXcd ends(shape.size(), 2);
@@ -188,8 +234,7 @@ class Diagram {
 
   void addChecks() {
     const double speed = tracker_.speed();
-    for (const auto& one : rotating_.compare(speed, settings_.modes)) {
-      if (!(one.full.imag() > noVibration * std::abs(one.full))) continue;
+    for (const auto& one : search_.compare(speed)) {
       SpotCheck check{speed, 0, one.full, one.coupled, one.error, one.estimate, one.mac};
       for (const auto& mode : tracker_.now())
         if (std::abs(mode.s - one.coupled) < repeated * std::abs(mode.s)) check.mode = mode.track;
@@ -199,10 +244,11 @@ class Diagram {
 
   const RotatingCase& rotating_;
   const CampbellSettings& settings_;
-  Whirl whirl_;
+  ModeSearch search_;
+  Shapes shapes_;
   Sparse mass_;
   ModeTracker tracker_;
-  linalg::QuadraticModes latest_;  ///< of all kinds, at the speed of the last call of modesAt()
+  std::vector<ModeShape> crossingShapes_;
   CampbellDiagram out_;
 };
 

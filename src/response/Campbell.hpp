@@ -6,6 +6,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,17 +15,37 @@
 
 namespace tooljoint::response {
 
+/// A window of frequencies [Hz].
+struct FrequencyWindow {
+  double lowest = 0.0, highest = 0.0;
+  double width() const { return highest - lowest; }
+  double middle() const { return 0.5 * (lowest + highest); }
+};
+
+/// An excitation whose frequency follows the rotary speed, order Omega + offset.
+struct ExcitationLine {
+  std::string name;
+  double order = 0.0;
+  double offset = 0.0;  ///< [rad/s]
+  double at(double speed) const { return order * speed + offset; }
+};
+
 /// The deck list `Campbell`.
 struct CampbellSettings {
   std::vector<double> speeds;  ///< [rad/s], increasing
-  int modes = 0;               ///< followed at least
-  std::vector<double> orders;  ///< of the excitation: frequency over rotary speed
+  int modes = 0;               ///< followed at least; not of a window, which shows all it holds
+  std::optional<FrequencyWindow> window;
+  std::optional<double> target;      ///< frequency that the modes are nearest to [Hz]
+  std::optional<double> shapeSpeed;  ///< whose nearest speed of the diagram has its shapes written
+                                     ///< [rad/s]; none: the last speed
+  std::vector<ExcitationLine> lines;
   bool friction = false;
   int spotChecks = 0;  ///< speeds at which the full model is solved too
   std::string axis;    ///< of the rotation: "x", "y" or "z"
 };
 deck::ListSpec campbellParameters();
-/// From the validated list. DeckError: the speeds do not increase.
+/// From the validated list. DeckError: speeds or frequencies do not increase, a window and a
+/// target.
 CampbellSettings readCampbell(const Teuchos::ParameterList& list);
 
 /// A mode at a speed.
@@ -40,11 +61,19 @@ struct CampbellRow {
   double damping() const;    ///< -Re s / |s|
 };
 
-/// A critical speed: Im s = order Omega.
+/// A critical speed: Im s is the frequency of an excitation.
 struct Crossing {
-  double order = 0.0;
+  std::size_t line = 0;  ///< of CampbellSettings::lines
   CampbellRow at;  ///< the mode there; whirl, mac and error of the nearest speed of the diagram
   bool refined = true;  ///< false: by linear interpolation between two speeds
+};
+
+/// The motion of a mode: Re(shape exp(s t)).
+struct ModeShape {
+  CampbellRow at;
+  int line = -1;           ///< of the excitation it meets there; -1: a mode of the diagram
+  Eigen::VectorXcd shape;  ///< rows of the recovery; of its largest displacement across the axis
+                           ///< (any, where there is none) the size is 1 and the phase 0
 };
 
 /// A mode of the full model beside that of the reduced one.
@@ -59,8 +88,9 @@ struct SpotCheck {
 
 struct CampbellDiagram {
   std::vector<CampbellRow> rows;    ///< speed by speed, by |s|
-  std::vector<Crossing> crossings;  ///< by order, then speed
+  std::vector<Crossing> crossings;  ///< by line, then speed
   std::vector<SpotCheck> checks;
+  std::vector<ModeShape> shapes;  ///< of one speed, then of the crossings
 };
 
 /// Follows the modes through the speeds of the settings (ModeTracker). A crossing is refined with
@@ -69,8 +99,8 @@ struct CampbellDiagram {
 CampbellDiagram campbell(const RotatingCase& rotating, const CampbellSettings& settings);
 
 /// `tooljoint campbell`: state at rest, diagram, campbell.csv, crossings.csv, spot_checks.csv,
-/// campbell.h5 and summary.json in `folder` ("": see cases::analysisFolder). DeckError without the
-/// list Campbell. Collective.
+/// campbell.h5 with the shapes, and summary.json in `folder` ("": see cases::analysisFolder).
+/// DeckError without the list Campbell. Collective.
 void runCampbell(const cases::Case& one, const std::string& folder);
 
 }  // namespace tooljoint::response

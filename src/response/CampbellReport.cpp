@@ -42,11 +42,15 @@ Columns rowTable(const CampbellDiagram& diagram, bool estimated) {
   return table;
 }
 
-Columns crossingTable(const CampbellDiagram& diagram, bool estimated) {
+Columns crossingTable(const CampbellDiagram& diagram, const CampbellSettings& settings,
+                      bool estimated) {
   const auto& rows = diagram.crossings;
+  const auto& lines = settings.lines;
   Columns table{{
-      {"order", "1", "Frequency over rotary speed",
-       collect(rows, [](const auto& r) { return r.order; })},
+      {"order", "1", "Of the excitation, frequency = order x speed / 2 pi + offset",
+       collect(rows, [&](const auto& r) { return lines[r.line].order; })},
+      {"offset", "Hz", "Of the excitation",
+       collect(rows, [&](const auto& r) { return lines[r.line].offset / twoPi; })},
       {"mode", "1", "Number of the mode", collect(rows, [](const auto& r) { return r.at.mode; })},
       {"speed", "rad/s", "Critical speed", collect(rows, [](const auto& r) { return r.at.speed; })},
       {"frequency", "Hz", "Frequency there",
@@ -89,18 +93,27 @@ const char* whirlWord(double whirl) {
   return whirl > clear ? "forward" : whirl < -clear ? "backward" : "-";
 }
 
-void print(const CampbellDiagram& diagram, bool estimated) {
-  log::info("critical speeds, Im s = order x speed:");
+/// A window without a mode is no error, but says so.
+void warnOfEmptiness(const CampbellDiagram& diagram) {
+  if (diagram.rows.empty())
+    log::warn(
+        "No mode vibrates in the window of frequencies, or its resonance is wider than the window. "
+        "Give a wider one (Campbell/Lowest Frequency, Highest Frequency).");
+}
+
+void print(const CampbellDiagram& diagram, const CampbellSettings& settings, bool estimated) {
+  log::info("critical speeds, where a mode has the frequency of an excitation:");
   if (diagram.crossings.empty()) log::info("  none in this range of speeds");
   if (!diagram.crossings.empty())
-    log::info(fmt::format("  {:>7} {:>5} {:>12} {:>12} {:>11}  {:<9}{}", "order", "mode", "speed",
+    log::info(fmt::format("  {:>7} {:>5} {:>12} {:>12} {:>11}  {:<9}{}", "with", "mode", "speed",
                           "frequency", "damping", "whirl", estimated ? " estimate" : ""));
   for (const auto& one : diagram.crossings)
-    log::info(fmt::format(
-        "  {:>6}x {:>5} {:>8.2f} rpm {:>9.4f} Hz {:>11.3e}  {:<9}{}{}", formatNumber(one.order),
-        one.at.mode, one.at.speed * rpmPerRadianPerSecond, one.at.frequency(), one.at.damping(),
-        whirlWord(one.at.whirl), estimated ? fmt::format(" {:8.1e}", one.at.error) : "",
-        one.refined ? "" : " (interpolated)"));
+    log::info(fmt::format("  {:>7} {:>5} {:>8.2f} rpm {:>9.4f} Hz {:>11.3e}  {:<9}{}{}",
+                          settings.lines[one.line].name, one.at.mode,
+                          one.at.speed * rpmPerRadianPerSecond, one.at.frequency(),
+                          one.at.damping(), whirlWord(one.at.whirl),
+                          estimated ? fmt::format(" {:8.1e}", one.at.error) : "",
+                          one.refined ? "" : " (interpolated)"));
   const auto worst =
       std::max_element(diagram.checks.begin(), diagram.checks.end(),
                        [](const auto& a, const auto& b) { return a.error < b.error; });
@@ -144,6 +157,51 @@ void warnOfGrowth(const CampbellDiagram& diagram) {
       worst->speed * rpmPerRadianPerSecond));
 }
 
+void writeLines(const CampbellSettings& settings, io::ResultsFile& file) {
+  std::vector<std::string> names;
+  for (const auto& line : settings.lines) names.push_back(line.name);
+  const auto count = names.size();
+  file.write("/excitations", names, "Excitations");
+  file.write("/orders", collect(settings.lines, [](const auto& line) { return line.order; }),
+             {count}, "1", "Their frequencies over the rotary speed");
+  file.write("/offsets",
+             collect(settings.lines, [](const auto& line) { return line.offset / twoPi; }), {count},
+             "Hz", "What their frequencies have beside that");
+}
+
+/// Group /shapes: a row for each shape in the order of the diagram.
+void writeShapes(const RotatingCase& rotating, const CampbellDiagram& diagram,
+                 io::ResultsFile& file) {
+  const auto& shapes = diagram.shapes;
+  if (shapes.empty()) return;
+  Columns{{
+              {"speed", "rad/s", "Rotary speed",
+               collect(shapes, [](const auto& one) { return one.at.speed; })},
+              {"mode", "1", "Number of the mode",
+               collect(shapes, [](const auto& one) { return one.at.mode; })},
+              {"frequency", "Hz", "Im s / 2 pi",
+               collect(shapes, [](const auto& one) { return one.at.frequency(); })},
+              {"damping", "1", "Damping ratio",
+               collect(shapes, [](const auto& one) { return one.at.damping(); })},
+              {"whirl", "1", "1: circles with the rotation, -1: against it, 0: lines",
+               collect(shapes, [](const auto& one) { return one.at.whirl; })},
+              {"excitation", "1", "Position of the excitation it meets, from 1; 0: none",
+               collect(shapes, [](const auto& one) { return one.line + 1; })},
+          }}
+      .writeGroup("shapes", file);
+  const auto& model = rotating.model();
+  const std::size_t nodes = model.recoveryNodes.size(), width = model.componentNames.size();
+  std::vector<double> re, im;
+  for (const auto& one : shapes)
+    for (Eigen::Index row = 0; row < one.shape.size(); ++row)
+      re.push_back(one.shape[row].real()), im.push_back(one.shape[row].imag());
+  const std::string what =
+      " of the displacements, the largest of a node across the axis (any, where there is none) "
+      "scaled to 1";
+  file.write("/shapes/real", re, {shapes.size(), nodes, width}, "1", "Real parts" + what);
+  file.write("/shapes/imaginary", im, {shapes.size(), nodes, width}, "1", "Imaginary parts" + what);
+}
+
 void summarise(const RotatingCase& rotating, const CampbellDiagram& diagram,
                const CampbellSettings& settings, io::Summary& summary) {
   summary.set("campbell.model", rotating.reduced() ? "reduced" : "full");
@@ -156,6 +214,7 @@ void summarise(const RotatingCase& rotating, const CampbellDiagram& diagram,
     estimate = std::max(estimate, row.error);
     modes = std::max(modes, row.mode);
   }
+  if (diagram.rows.empty()) least = 0.0;
   summary.set("campbell.modes", modes);
   summary.set("campbell.least_damping", least);
   if (rotating.estimated()) summary.set("campbell.largest_estimate", estimate);
@@ -163,7 +222,8 @@ void summarise(const RotatingCase& rotating, const CampbellDiagram& diagram,
   if (!diagram.checks.empty()) summary.set("campbell.largest_error", error);
   for (const auto& one : diagram.crossings) {
     io::SummaryRow row;
-    row.set("order", one.order)
+    row.set("excitation", settings.lines[one.line].name)
+        .set("order", settings.lines[one.line].order)
         .set("mode", one.at.mode)
         .set("speed_rpm", one.at.speed * rpmPerRadianPerSecond)
         .set("hz", one.at.frequency())
@@ -190,7 +250,8 @@ void runCampbell(const cases::Case& one, const std::string& folder) {
         rotating = std::make_unique<RotatingCase>(one, settings.friction);
         rotating->announceLaws();
         diagram = campbell(*rotating, settings);
-        print(diagram, rotating->estimated());
+        print(diagram, settings, rotating->estimated());
+        warnOfEmptiness(diagram);
         warnOfGrowth(diagram);
         warnOfCoarseness(diagram);
         log::info("times       " + stageTimes());
@@ -198,10 +259,11 @@ void runCampbell(const cases::Case& one, const std::string& folder) {
       [&](io::ResultsFile& file) {
         const bool estimated = rotating->estimated();
         rowTable(diagram, estimated).write("campbell", files.folder(), file);
-        crossingTable(diagram, estimated).write("crossings", files.folder(), file);
+        crossingTable(diagram, settings, estimated).write("crossings", files.folder(), file);
         checkTable(diagram).write("spot_checks", files.folder(), file);
-        file.write("/orders", settings.orders, {settings.orders.size()}, "1",
-                   "Excitation frequencies over the rotary speed");
+        writeLines(settings, file);
+        rotating->rest().writeProfile(file);
+        writeShapes(*rotating, diagram, file);
         summarise(*rotating, diagram, settings, files.summary());
       });
 }

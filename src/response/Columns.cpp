@@ -15,8 +15,13 @@ void Columns::write(const std::string& name, io::OutputFolder& folder,
   for (std::size_t i = 0; i < rows; ++i)
     table.row(collect(columns, [i](const Column& one) { return one.values[i]; }));
   table.stage(folder.file(name + ".csv"));
+  writeGroup(name, file);
+}
+
+void Columns::writeGroup(const std::string& name, io::ResultsFile& file) const {
   for (const auto& one : columns)
-    file.write("/" + name + "/" + one.name, one.values, {rows}, one.unit, one.longName);
+    file.write("/" + name + "/" + one.name, one.values, {one.values.size()}, one.unit,
+               one.longName);
 }
 
 }  // namespace tooljoint::response

@@ -21,6 +21,8 @@ struct Columns {
   /// Stages NAME.csv and writes the group /NAME, a dataset for each column; nothing for a table
   /// without rows. Error(Internal) for a number that is not finite.
   void write(const std::string& name, io::OutputFolder& folder, io::ResultsFile& file) const;
+  /// The group alone.
+  void writeGroup(const std::string& name, io::ResultsFile& file) const;
 };
 
 /// value(row) of all rows.

@@ -14,8 +14,6 @@ namespace {
 /// A MAC above the first needs no smaller step; below the second a mode is lost.
 constexpr double sure = 0.9, lost = 0.3;
 constexpr int mostHalvings = 5;
-/// Modes looked at beyond those followed: the next ones may come below them.
-constexpr int beyond = 8;
 
 Eigen::MatrixXcd columns(const Eigen::MatrixXcd& all, const std::vector<int>& which) {
   Eigen::MatrixXcd some(all.rows(), static_cast<Eigen::Index>(which.size()));
@@ -26,8 +24,8 @@ Eigen::MatrixXcd columns(const Eigen::MatrixXcd& all, const std::vector<int>& wh
 
 }  // namespace
 
-ModeTracker::ModeTracker(Modes modes, Sparse mass, int count)
-    : modes_(std::move(modes)), mass_(std::move(mass)), count_(count) {}
+ModeTracker::ModeTracker(Modes modes, Sparse mass)
+    : modes_(std::move(modes)), mass_(std::move(mass)) {}
 
 void ModeTracker::advance(double speed) {
   for (auto& mode : now_) mode.mac = 1.0;
@@ -37,11 +35,11 @@ void ModeTracker::advance(double speed) {
   }
   started_ = true;
   speed_ = speed;
-  start(modes_(speed, count_), {});
+  start(modes_(speed, 0), {});
 }
 
 void ModeTracker::step(double speed, int halvings) {
-  const auto candidates = modes_(speed, std::max(count_, sizeOf(now_)) + beyond);
+  const auto candidates = modes_(speed, sizeOf(now_));
   const Partners found = match(candidates);
   if (found.least < sure && halvings < mostHalvings) {
     const double middle = 0.5 * (speed_ + speed);
@@ -56,7 +54,7 @@ void ModeTracker::step(double speed, int halvings) {
     if (j < 0 || found.mac[i] < lost) continue;
     taken.push_back(j);
     next.push_back({now_[i].track, candidates.values[j], candidates.shapes.col(j),
-                    std::min(now_[i].mac, found.mac[i])});
+                    std::min(now_[i].mac, found.mac[i]), contains(candidates.edge, j)});
   }
   now_ = std::move(next);
   speed_ = speed;
@@ -98,15 +96,15 @@ ModeTracker::Partners ModeTracker::match(const VibratingModes& candidates) const
     found.candidate[at(modesLeft[k])] = candidatesLeft[at(rest[k].partner)];
     found.mac[at(modesLeft[k])] = rest[k].mac;
   }
-  for (const double one : found.mac) found.least = std::min(found.least, one);
+  for (std::size_t i = 0; i < now_.size(); ++i)
+    if (!now_[i].edge) found.least = std::min(found.least, found.mac[i]);
   return found;
 }
 
 void ModeTracker::start(const VibratingModes& candidates, const std::vector<int>& taken) {
-  const int lowest = std::min(count_, static_cast<int>(candidates.values.size()));
-  for (int j = 0; j < lowest; ++j)
+  for (const int j : candidates.wanted)
     if (!contains(taken, j))
-      now_.push_back({++tracks_, candidates.values[j], candidates.shapes.col(j), 1.0});
+      now_.push_back({++tracks_, candidates.values[j], candidates.shapes.col(j), 1.0, false});
   std::stable_sort(now_.begin(), now_.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.s) < std::abs(b.s); });
 }

@@ -15,6 +15,8 @@ namespace tooljoint::response {
 struct VibratingModes {
   Eigen::VectorXcd values;  ///< s [1/s]
   Eigen::MatrixXcd shapes;
+  std::vector<int> wanted;  ///< positions of those that are followed from here on
+  std::vector<int> edge;    ///< positions of those at the edge of a window: they may leave it
 };
 
 /// A mode on its way through the speeds.
@@ -22,21 +24,22 @@ struct TrackedMode {
   int track = 0;           ///< number, from 1 in the order of first appearance
   std::complex<double> s;  ///< [1/s]
   Eigen::VectorXcd shape;
-  double mac = 1.0;  ///< least MAC of the steps since the last advance()
+  double mac = 1.0;   ///< least MAC of the steps since the last advance()
+  bool edge = false;  ///< it may leave the window of frequencies
 };
 
-/// Follows the lowest modes. From speed to speed a mode goes on as the one with the largest MAC
+/// Follows modes. From speed to speed a mode goes on as the one with the largest MAC
 /// (M-weighted, estimate::modalAssurance; repeated values as subspaces, estimate::matchModes). A
 /// step over which a MAC falls below 0.9 is halved, five times at most; what then has less than 0.3
-/// ends. A mode that is new among the lowest ones begins a track.
+/// ends. A wanted mode that is new begins a track. Modes at the edge of a window end without
+/// smaller steps.
 class ModeTracker {
  public:
-  /// The modes at a speed [rad/s]: at least `count` where there are so many.
-  using Modes = std::function<VibratingModes(double speed, int count)>;
+  /// The modes at a speed [rad/s], some more than the `followed` ones and the wanted.
+  using Modes = std::function<VibratingModes(double speed, int followed)>;
 
   /// \param mass   of the shapes
-  /// \param count  modes at least followed
-  ModeTracker(Modes modes, Sparse mass, int count);
+  ModeTracker(Modes modes, Sparse mass);
 
   /// Goes on to this speed, by |s| at the first call.
   void advance(double speed);
@@ -56,7 +59,6 @@ class ModeTracker {
 
   Modes modes_;
   Sparse mass_;
-  int count_;
   int tracks_ = 0;
   double speed_ = 0.0;
   bool started_ = false;

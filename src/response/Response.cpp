@@ -86,48 +86,6 @@ class Loads {
   const Rows& rows_;
 };
 
-/// Distances to the wall of the nodes that are open at rest.
-class Margins {
- public:
-  Margins(const RotatingCase& rotating, const std::string& axis) {
-    const auto& model = rotating.model();
-    const auto measures = rotating.rest().measures();
-    const auto lateral = cases::lateralComponents(model, axis);
-    if (lateral[0] < 0 || lateral[1] < 0) return;
-    const Vector rest = rotating.rest().rest();
-    const auto width = static_cast<Eigen::Index>(model.componentNames.size());
-    for (std::size_t i = 0; i < measures.nodes.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i) * width;
-      const double gap =
-          measures.clearance[i] - std::hypot(rest[row + lateral[0]], rest[row + lateral[1]]);
-      if (!std::isfinite(gap) || gap <= 0.0) continue;
-      nodes_.push_back({measures.nodes[i], gap, row + lateral[0], row + lateral[1]});
-    }
-    recovery_ = model.recovery;
-  }
-
-  /// Gap less the larger semi-axis of the orbit, a^2 = (|U|^2 + |V|^2 + |U^2 + V^2|)/2.
-  void judge(const Eigen::VectorXcd& q, ResponsePoint& point) const {
-    if (nodes_.empty()) return;
-    const Vector re = recovery_ * Vector(q.real()), im = recovery_ * Vector(q.imag());
-    for (const auto& node : nodes_) {
-      const Complex u(re[node.u], im[node.u]), v(re[node.v], im[node.v]);
-      const double left =
-          node.gap - std::sqrt(0.5 * (std::norm(u) + std::norm(v) + std::abs(u * u + v * v)));
-      if (left < point.margin) point.margin = left, point.marginNode = node.number;
-    }
-  }
-
- private:
-  struct Node {
-    std::int64_t number;
-    double gap;
-    Eigen::Index u, v;
-  };
-  std::vector<Node> nodes_;
-  Sparse recovery_;
-};
-
 class Sweep {
  public:
   Sweep(const RotatingCase& rotating, const ResponseSettings& settings)
@@ -135,7 +93,7 @@ class Sweep {
         settings_(settings),
         rows_(find()),
         loads_(settings, rows_),
-        margins_(rotating, settings.axis) {}
+        along_(rotating, settings.axis) {}
 
   HarmonicResponse compute() {
     HarmonicResponse out;
@@ -150,6 +108,10 @@ class Sweep {
     for (int load = 0; load < cases; ++load)
       for (int output = 0; output < outputs; ++output) addPeaks(load, output, out);
     if (rotating_.reduced() && settings_.spotChecks > 0) addChecks(out);
+    if (lookedAlong()) {
+      out.nodes = along_.nodes();
+      out.elements = along_.elements();
+    }
     return out;
   }
 
@@ -212,9 +174,13 @@ class Sweep {
     const ComplexMatrix c = loads_.outputs(rotating_.model());
     point.x = c.transpose() * y;
     if (!whole) return point;
-    if (settings_.excitation != Excitation::Transfer) margins_.judge(y.col(0), point);
-    if (rotating_.estimated()) point.estimate = estimate(point.speed, s, y, Q.solveTransposed(c));
+    if (lookedAlong()) point.along = along_.of(y.col(0));
+    if (rotating_.estimated()) takeEstimates(point, s, y, Q);
     return point;
+  }
+
+  bool lookedAlong() const {
+    return settings_.excitation != Excitation::Transfer && !along_.empty();
   }
 
   static void requireInverse(const linalg::DynamicStiffness& Q, const ResponsePoint& point) {
@@ -224,15 +190,29 @@ class Sweep {
                        "holds it. Add damping or supports, or leave this frequency out.");
   }
 
-  Matrix estimate(double speed, Complex s, const ComplexMatrix& y, const ComplexMatrix& z) const {
-    std::vector<ComplexMatrix> loads, outputs;
+  /// The outputs of the deck and the extremes along the string in any model of the case.
+  ComplexMatrix outputs(const model::SecondOrderModel& model, const ResponsePoint& point) const {
+    const ComplexMatrix given = loads_.outputs(model), along = along_.outputs(model, point.along);
+    ComplexMatrix all(given.rows(), given.cols() + along.cols());
+    all << given, along;
+    return all;
+  }
+
+  void takeEstimates(ResponsePoint& point, Complex s, const ComplexMatrix& y,
+                     linalg::DynamicStiffness& Q) const {
+    std::vector<ComplexMatrix> loads, outputsOfParts;
     for (const auto& part : rotating_.parts()) {
-      loads.push_back(loads_.on(part.model, speed));
-      outputs.push_back(loads_.outputs(part.model));
+      loads.push_back(loads_.on(part.model, point.speed));
+      outputsOfParts.push_back(outputs(part.model, point));
     }
-    return rotating_.error()
-        .ofResponses(rotating_.partsAt(speed), s, y, loads, z, outputs)
-        .cwiseAbs();
+    const ComplexMatrix z = Q.solveTransposed(outputs(rotating_.model(), point));
+    const Matrix errors =
+        rotating_.error()
+            .ofResponses(rotating_.partsAt(point.speed), s, y, loads, z, outputsOfParts)
+            .cwiseAbs();
+    const auto given = static_cast<Eigen::Index>(settings_.outputs.size());
+    point.estimate = errors.topRows(given);
+    AlongString::takeEstimates(errors.col(0).tail(errors.rows() - given), point.along);
   }
 
   ResponsePoint fullAt(const ResponsePoint& reduced) const {
@@ -243,8 +223,9 @@ class Sweep {
     const linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness,
                                      imaginary * constants::twoPi * point.frequency);
     requireInverse(Q, point);
-    point.x = loads_.outputs(rotating_.full()).transpose() *
-              Q.solve(loads_.on(rotating_.full(), point.speed));
+    const ComplexMatrix y = Q.solve(loads_.on(rotating_.full(), point.speed));
+    point.x = loads_.outputs(rotating_.full()).transpose() * y;
+    if (lookedAlong()) point.along = along_.ofFull(y.col(0), reduced.along);
     return point;
   }
 
@@ -293,7 +274,7 @@ class Sweep {
   const ResponseSettings& settings_;
   Rows rows_;
   Loads loads_;
-  Margins margins_;
+  AlongString along_;
 };
 
 }  // namespace

@@ -5,13 +5,12 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <complex>
-#include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "cases/nodes/NodeDofs.hpp"
 #include "deck/ListSpec.hpp"
+#include "response/AlongString.hpp"
 #include "response/RotatingCase.hpp"
 
 namespace tooljoint::response {
@@ -65,10 +64,7 @@ struct ResponsePoint {
   Eigen::MatrixXcd x;  ///< outputs x load cases; the motion is Re(x exp(i omega t)) [m, rad], of a
                        ///< transfer function per [N] or [N m]
   Matrix estimate;     ///< of |x - x_full|; empty without an estimate
-  /// Least distance left to the wall, over the nodes that are open at rest [m]; infinite where
-  /// there are none, or for transfer functions.
-  double margin = std::numeric_limits<double>::infinity();
-  std::int64_t marginNode = 0;
+  StringResponse along;  ///< empty for transfer functions
 };
 
 /// A point solved with the full model too.
@@ -85,17 +81,19 @@ struct ResponsePeak {
 struct HarmonicResponse {
   std::vector<std::string> loads;  ///< names of the load cases
   std::vector<ResponsePoint> points;
-  std::vector<ResponsePeak> peaks;    ///< of every local maximum, found between the points too
-  std::vector<ResponseCheck> checks;  ///< spread points, and the highest peak of every output
+  std::vector<ResponsePeak> peaks;       ///< of every local maximum, found between the points too
+  std::vector<ResponseCheck> checks;     ///< spread points, and the highest peak of every output
+  std::vector<AlongString::Node> nodes;  ///< of the margins along the string
+  std::vector<cases::BendingPlace> elements;  ///< of the moments
 };
 
 /// DeckError: a node or component that is not there or held, nothing that loads the model.
 /// ModelError: no response, since the dynamic stiffness is singular. Every rank computes the same.
 HarmonicResponse respond(const RotatingCase& rotating, const ResponseSettings& settings);
 
-/// `tooljoint response`: state at rest, responses, response.csv, peaks.csv, spot_checks.csv,
-/// response.h5 and summary.json in `folder` ("": see cases::analysisFolder). DeckError without the
-/// list Response. Collective.
+/// `tooljoint response`: state at rest, responses, response.csv, peaks.csv, spot_checks.csv, of a
+/// string bending.csv, margins.csv and spot_checks_string.csv, response.h5 and summary.json in
+/// `folder` ("": see cases::analysisFolder). DeckError without the list Response. Collective.
 void runResponse(const cases::Case& one, const std::string& folder);
 
 }  // namespace tooljoint::response

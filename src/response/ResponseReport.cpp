@@ -15,6 +15,7 @@
 #include "deck/PrintedUnits.hpp"
 #include "response/Columns.hpp"
 #include "response/Response.hpp"
+#include "response/StringReport.hpp"
 
 namespace tooljoint::response {
 
@@ -56,18 +57,15 @@ class Report {
           "The estimated error of the reduced model is {:.0f} % of the largest amplitude of an "
           "output. Keep more modes (Reduction/Mode Selection), or leave the list Reduction out.",
           100.0 * coarse));
-    const auto* touching = firstTouch();
-    if (touching != nullptr)
-      log::warn(fmt::format(
-          "From {:.2f} rpm and {:.4f} Hz on node {} would reach the wall: what is open at rest "
-          "stays open in a linear response, so larger amplitudes are no longer those of the scene.",
-          rpm(touching->speed), touching->frequency, touching->marginNode));
+    StringReport(response_, settings_.bySpeed(), rotating_.estimated()).print();
   }
 
   void write(io::OutputFolder& folder, io::ResultsFile& file) const {
     table().write("response", folder, file);
     peakTable().write("peaks", folder, file);
     checkTable().write("spot_checks", folder, file);
+    StringReport(response_, settings_.bySpeed(), rotating_.estimated()).write(folder, file);
+    rotating_.rest().writeProfile(file);
     std::vector<std::string> outputs;
     for (const auto& output : settings_.outputs) outputs.push_back(output.name);
     file.write("/outputs", outputs, "Outputs in the order of the deck");
@@ -96,11 +94,7 @@ class Report {
         row.set("estimate", peak.at.estimate(peak.output, peak.load));
       summary.append("response.peaks", row);
     }
-    if (const auto* touching = firstTouch()) {
-      summary.set("response.contact_speed_rpm", rpm(touching->speed));
-      summary.set("response.contact_hz", touching->frequency);
-      summary.set("response.contact_node", static_cast<long>(touching->marginNode));
-    }
+    StringReport(response_, settings_.bySpeed(), rotating_.estimated()).summarise(summary);
   }
 
  private:
@@ -147,13 +141,7 @@ class Report {
           addColumn(table, name + "_estimate", unit, "Estimate of |x - x_full|",
                     [=](const auto& p) { return p.estimate(output, load); });
       }
-    if (std::isfinite(response_.points.front().margin)) {
-      addColumn(table, "contact_margin", "m",
-                "Least distance to the wall left to a node that is open at rest",
-                [](const auto& p) { return p.margin; });
-      addColumn(table, "contact_node", "1", "Node of that distance",
-                [](const auto& p) { return static_cast<double>(p.marginNode); });
-    }
+    StringReport(response_, settings_.bySpeed(), rotating_.estimated()).addColumns(table);
     return table;
   }
 
@@ -239,12 +227,6 @@ class Report {
                                       scale(static_cast<int>(load), static_cast<int>(output)));
     }
     return worst;
-  }
-
-  const ResponsePoint* firstTouch() const {
-    for (const auto& point : response_.points)
-      if (point.margin < 0.0) return &point;
-    return nullptr;
   }
 
   const RotatingCase& rotating_;

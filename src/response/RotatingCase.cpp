@@ -74,11 +74,29 @@ linalg::QuadraticModes RotatingCase::modes(const estimate::Linearised& m, int co
                                               model::namer(model()));
 }
 
-std::vector<estimate::ModeComparison> RotatingCase::compare(double speed, int count) const {
+linalg::QuadraticModes RotatingCase::modes(const estimate::Linearised& m,
+                                           const linalg::DampedTarget& target) const {
+  return reduced_ ? estimate::physicalDampedModes(model(), m, target, rounding_)
+                  : linalg::dampedModesNear(m.mass, m.damping, m.stiffness, target);
+}
+
+template <class Which>
+std::vector<estimate::ModeComparison> RotatingCase::compareAt(double speed,
+                                                              const Which& which) const {
   auto synthesis = reduced_->outcome.synthesis;
   synthesis.coupled.model = turning(synthesis.coupled.model, speed);
-  return estimate::compareDampedModes(turning(full(), speed), turningParts(speed), synthesis, count,
-                                      time_, full_->maps);
+  const auto whole = turning(full(), speed);
+  return estimate::compareDampedModes(whole, turningParts(speed), synthesis, which, time_,
+                                      full_->maps);
+}
+
+std::vector<estimate::ModeComparison> RotatingCase::compare(double speed, int count) const {
+  return compareAt(speed, count);
+}
+
+std::vector<estimate::ModeComparison> RotatingCase::compare(
+    double speed, const linalg::DampedTarget& target) const {
+  return compareAt(speed, target);
 }
 
 void RotatingCase::announceLaws() const {

@@ -45,9 +45,14 @@ class RotatingCase {
   /// The `count` damped modes of smallest |s| of the model that is solved, fewer where there are
   /// fewer.
   linalg::QuadraticModes modes(const estimate::Linearised& m, int count) const;
+  /// Those of a target (linalg::dampedModesNear).
+  linalg::QuadraticModes modes(const estimate::Linearised& m,
+                               const linalg::DampedTarget& target) const;
   /// Damped modes of the full and of the reduced model side by side (estimate::compareDampedModes).
   /// Needs reduced().
   std::vector<estimate::ModeComparison> compare(double speed, int count) const;
+  std::vector<estimate::ModeComparison> compare(double speed,
+                                                const linalg::DampedTarget& target) const;
   /// Needs estimated().
   const estimate::DynamicError& error() const { return *error_; }
 
@@ -55,6 +60,9 @@ class RotatingCase {
   void announceLaws() const;
 
  private:
+  /// compareDampedModes at a speed of `which`: a count or a target.
+  template <class Which>
+  std::vector<estimate::ModeComparison> compareAt(double speed, const Which& which) const;
   model::SecondOrderModel turning(const model::SecondOrderModel& model, double speed) const;
   std::vector<model::Substructure> turningParts(double speed) const;
 

@@ -1,82 +1,24 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks `tooljoint campbell` and `tooljoint response`: rotors against closed forms and a published rotor, a string scene reduced against
-full, the limit at rest, refusals, ranks.
+full, the limit at rest, windows of frequencies, bending moments, refusals, ranks.
 
     check_response.py PROGRAM MPIEXEC SOURCES rotors|string
 """
-import csv
-import json
 import pathlib
 import subprocess
 import sys
 
-import h5py
 import numpy as np
 from scipy.linalg import eig
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
-from checks import expect, finish, tooljoint  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from along import bending, excitations, window  # noqa: E402
+from rotors import friswell, nelson  # noqa: E402
+from scenes import GYROSCOPIC, RPM, SHAFT, SOURCES, close, deck, estimates, expect, lists, material, modes_at, part, run, table, tooljoint, values  # noqa: E402
+from checks import finish  # noqa: E402
 
-SOURCES = pathlib.Path(sys.argv[3])
 STRING = str(SOURCES / "xml/helical_170m.xml")
-RPM = np.pi / 30
-GYROSCOPIC = '<ParameterList name="Omega"><Parameter name="Form" type="string" value="Constant"/><ParameterList name="Constant"><Parameter name="Value" type="double" value="0"/></ParameterList></ParameterList>'
-
-
-def lists(name, inner):
-    return f'<ParameterList name="{name}">{inner}</ParameterList>'
-
-
-def values(**given):
-    """Parameters of a list; blanks of a name are written as underscores."""
-    kinds = {str: "string", int: "int", float: "double"}
-    return "".join(f'<Parameter name="{key.replace("_", " ")}" type="{kinds[type(value)]}" value="{value}"/>' for key, value in given.items())
-
-
-def part(path, components, mass, stiffness, damping=None, gyroscopic=None, terms=()):
-    """A part of one file; `gyroscopic` is the damping of unit speed, `terms` further stiffnesses (law, matrix)."""
-    nodes = len(mass) // len(components)
-    with h5py.File(path, "w") as f:
-        f.attrs["format"] = "tooljoint part 1"
-        f["components"] = components
-        f["dofs"] = [[node + 1, c + 1] for node in range(nodes) for c in range(len(components))]
-        f["mass"] = mass
-        for name, law, matrix in (("stiffness/structure", "1", stiffness), ("damping/structure", "1", damping), ("damping/gyroscopic", "Omega", gyroscopic),
-                                  *((f"stiffness/{law}", law, matrix) for law, matrix in terms)):
-            if matrix is not None:
-                f[name] = matrix
-                f[name].attrs["law"] = law
-
-
-def deck(name, file, analyses, laws="", reduction=""):
-    whole = lists("Parts", lists("Imported", lists("rotor", values(File=file))) + (lists("Laws", laws) if laws else ""))
-    path = pathlib.Path(f"{name}.xml")
-    path.write_text(lists(name, whole + reduction + analyses), encoding="utf-8")
-    return str(path)
-
-
-def table(folder, name):
-    with open(pathlib.Path(folder) / f"{name}.csv", encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {key.split(" [")[0]: np.array([float(row[key]) for row in rows]) for key in rows[0]}
-
-
-def run(command, scene, folder, *settings, ranks=1):
-    arguments = [word for setting in settings for word in (("--without", setting[1:]) if setting.startswith("!") else ("--set", setting))]
-    done = tooljoint(command, scene, "--output", folder, *arguments, ranks=ranks, seconds=280)
-    expect(f"{folder}: {command} ends well", done.returncode == 0, done.stderr or done.stdout[-600:])
-    return done
-
-
-def close(what, found, exact, tolerance):
-    error = np.max(np.abs(np.asarray(found) - exact) / np.max(np.abs(exact)))
-    expect(f"{what}: largest difference {error:.1e}, allowed {tolerance:.0e}", error <= tolerance)
-
-
-def modes_at(rows, speed):
-    here = np.abs(rows["speed"] - speed) < 1e-9 * (1 + speed)
-    return {key: column[here] for key, column in rows.items()}
 
 
 def laval():
@@ -158,79 +100,6 @@ def bearing():
     expect("bearing: without a law Omega it says what to add", done.returncode == 2 and 'no law of time "Omega"' in done.stderr, done.stderr)
 
 
-NELSON = {  # H. D. Nelson and J. M. McVaugh, J. Eng. Ind. 98 (1976) 593-600: stations, inner and outer radii [cm]
-    "x": [0, 1.27, 5.08, 7.62, 8.89, 10.16, 10.67, 11.43, 12.70, 13.46, 16.51, 19.05, 22.86, 26.67, 28.70, 30.48, 31.50, 34.54, 35.81],
-    "inner": [0, 0, 0, 0, 0, 0, 1.52, 1.78, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.52],
-    "outer": [0.51, 1.02, 0.76, 2.03, 2.03, 3.30, 3.30, 2.54, 2.54, 1.27, 1.27, 1.52, 1.52, 1.27, 1.27, 3.81, 2.03, 2.03],
-    "published": {-1: [15470, 46612, 64752], 1: [17159, 49983, 96457]},  # synchronous critical speeds, isotropic bearings [rpm]
-}
-
-
-def nelson_matrices():
-    """Rayleigh elements, a disc at station 5 and isotropic bearings at 11 and 15; one plane: K, M, G."""
-    young, density = 2.078e11, 7806.0
-    x, inner, outer = (1e-2 * np.array(NELSON[name]) for name in ("x", "inner", "outer"))
-    K, M, G = (np.zeros((2 * len(x), 2 * len(x))) for _ in range(3))
-    for e, l in enumerate(np.diff(x)):
-        area, inertia = np.pi * (outer[e]**2 - inner[e]**2), np.pi / 4 * (outer[e]**4 - inner[e]**4)
-        turn = density * inertia / (30 * l) * np.array([[36, 3 * l, -36, 3 * l], [3 * l, 4 * l * l, -3 * l, -l * l], [-36, -3 * l, 36, -3 * l], [3 * l, -l * l, -3 * l, 4 * l * l]])
-        span = slice(2 * e, 2 * e + 4)
-        K[span, span] += young * inertia / l**3 * np.array([[12, 6 * l, -12, 6 * l], [6 * l, 4 * l * l, -6 * l, 2 * l * l], [-12, -6 * l, 12, -6 * l], [6 * l, 2 * l * l, -6 * l, 4 * l * l]])
-        M[span, span] += turn + density * area * l / 420 * np.array([[156, 22 * l, 54, -13 * l], [22 * l, 4 * l * l, 13 * l, -3 * l * l], [54, 13 * l, 156, -22 * l], [-13 * l, -3 * l * l, -22 * l, 4 * l * l]])
-        G[span, span] += 2 * turn
-    M[8, 8] += 1.401
-    M[9, 9] += 0.00136
-    G[9, 9] += 0.00203
-    for station in (11, 15):
-        K[2 * station - 2, 2 * station - 2] += 4.378e7
-    return K, M, G
-
-
-def nelson():
-    """The published rotor, whole and reduced, and the same critical speeds from a dense solver."""
-    k, m, g = nelson_matrices()
-    stations = len(k) // 2
-    flip = np.diag([1.0, -1.0] * stations)
-    K, M, G = (np.zeros((4 * stations, 4 * stations)) for _ in range(3))
-    along_u = [4 * i + c for i in range(stations) for c in (0, 3)]  # u, theta_y
-    along_v = [4 * i + c for i in range(stations) for c in (1, 2)]  # v, -theta_x
-    for A, a in ((K, k), (M, m)):
-        A[np.ix_(along_u, along_u)] = a
-        A[np.ix_(along_v, along_v)] = flip @ a @ flip
-    # M r'' - i Omega G r' + K r = 0, r = u + i v: u'' has + Omega G v', v'' has - Omega G u'
-    G[np.ix_(along_u, along_v)] = g @ flip
-    G[np.ix_(along_v, along_u)] = -flip @ g
-    part("nelson.h5", ["u", "v", "theta_x", "theta_y"], M, K, None, G)
-    campbell = lists("Campbell", values(Highest_Speed="100000 rpm", Points=26, Modes=6) + '<Parameter name="Orders" type="Array(double)" value="{1}"/>')
-    reduction = lists("Reduction", values(Basis="Craig-Bampton") + lists("Mode Selection", values(Modes=16)))
-    runs = {"nelson": "", "nelson_reduced": reduction}
-    critical = {}
-    for name, reduced in runs.items():
-        run("campbell", deck(name, "nelson.h5", campbell, GYROSCOPIC, reduced), name)
-        crossings = table(name, "crossings")
-        critical[name] = {sense: crossings["speed"][crossings["whirl"] * sense > 0] / RPM for sense in (-1, 1)}
-    for sense, published in NELSON["published"].items():
-        exact = np.sort([np.sqrt(w.real) / RPM for w in eig(k, m - sense * g, right=False) if w.real > 0 and abs(w.imag) < 1e-6 * abs(w)])[:3]
-        for found in (critical["nelson"][sense],):
-            close(f"nelson: critical speeds {np.round(found, 1)} of sense {sense:+d} against a dense solver", found, exact, 1e-8)
-            # stations and radii are published to three figures
-            close(f"nelson: critical speeds of sense {sense:+d} against the published ones", found / published, 1.0, 0.015)
-        if len(critical["nelson_reduced"][sense]) == len(exact):
-            reduced = critical["nelson_reduced"][sense]
-            expect(f"nelson, reduced: {np.round(reduced, 1)}", np.max(np.abs(reduced / exact - 1)) < 1e-3, exact)
-    estimates("nelson_reduced")
-
-
-def estimates(folder):
-    """Errors of the spot checks are those that were estimated, where they are more than rounding."""
-    checks = table(folder, "spot_checks")
-    large = checks["error"] > 1e-8
-    expect(f"{folder}: the spot checks found the modes", np.all(checks["mac"] > 0.9), checks["mac"])
-    expect(f"{folder}: {np.sum(large)} errors up to {checks['error'].max():.1e} within a factor of 2 of the estimates",
-           np.all(checks["error"][large] < 2 * checks["estimate"][large]) and np.all(checks["estimate"][large] < 2 * checks["error"][large] + 1e-8),
-           np.c_[checks["full"], checks["error"], checks["estimate"]][large])
-
-
 def transfer():
     """Transfer functions of a chain between walls: closed form and reciprocity."""
     m, k, c = 2.0, 5e4, 30.0
@@ -251,29 +120,12 @@ def transfer():
     close("harmonic loads add with their phases", loads["node 1_amplitude"] * np.exp(1j * loads["node 1_phase"]), sum_of, 1e-12)
 
 
-SHAFT = """<ParameterList name="shaft">
-  <ParameterList name="Well"><Parameter name="Trajectory" type="string" value="Vertical"/><Parameter name="Bore Radius" type="double" value="1"/>
-    <ParameterList name="Vertical"><Parameter name="Length" type="double" value="2"/></ParameterList></ParameterList>
-  <ParameterList name="Supports"><Parameter name="Top" type="string" value="u v w theta_z"/><Parameter name="Bit" type="string" value="u v"/></ParameterList>
-  <ParameterList name="Drillstring"><ParameterList name="Components"><ParameterList name="bar"><Parameter name="Length" type="double" value="2"/>
-    <Parameter name="Elements" type="int" value="40"/><Parameter name="Outer Radius" type="double" value="0.1"/><Parameter name="Inner Radius" type="double" value="0"/></ParameterList></ParameterList>
-    <Parameter name="Assembly" type="Array(string)" value="{bar}"/></ParameterList>
-  <ParameterList name="Rotary Speed"><Parameter name="Law" type="string" value="Constant"/><ParameterList name="Constant"><Parameter name="Speed" type="double" value="1"/></ParameterList></ParameterList>
-  <ParameterList name="Campbell"><Parameter name="Highest Speed" type="double" value="4000"/><Parameter name="Points" type="int" value="9"/><Parameter name="Modes" type="int" value="4"/>
-    <Parameter name="Orders" type="Array(double)" value="{1}"/></ParameterList>
-</ParameterList>
-"""
-
-
 def shaft():
     """A spinning pinned Rayleigh shaft as a string: (rho S + rho I q^2) w^2 - 2 rho I q^2 Omega w - (E I q^4) = 0 with shear as a softer spring."""
     pathlib.Path("shaft.xml").write_text(SHAFT, encoding="utf-8")
     run("campbell", "shaft.xml", "shaft")
     rows = table("shaft", "campbell")
-    manual = json.loads(tooljoint("doc", "--format", "json").stdout)
-    bar = next(one for one in manual[0]["lists"] if one["name"] == "Drillstring") if isinstance(manual, list) else next(one for one in manual["lists"] if one["name"] == "Drillstring")
-    number = {one["name"]: one.get("default") for one in bar["parameters"]}
-    young, nu, rho = (float(number.get(name, default) or default) for name, default in (("Young Modulus", 2.1e11), ("Poisson Ratio", 0.3), ("Density", 7850)))
+    young, nu, rho = material()
     radius, length, beta = 0.1, 2.0, 0.9
     area, inertia, shear = np.pi * radius**2, np.pi * radius**4 / 4, young / (2 * (1 + nu))
     for speed in (0.0, 2000.0, 4000.0):
@@ -343,9 +195,11 @@ def string():
 
 def pictures():
     """Both kinds of results are drawn; a folder without either is told."""
-    for folder, name in (("nelson", "campbell"), ("laval_response", "response"), ("chain", "response"), (".", None)):
+    for folder, name in (("nelson", "campbell"), ("laval_response", "response"), ("chain", "response"), ("bending", "response"), ("window", "campbell"), (".", None)):
         done = subprocess.run([sys.executable, str(SOURCES / "tools/plot_response.py"), folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
         drawn = name is not None and (pathlib.Path(folder) / f"{name}.png").stat().st_size > 10000
+        if folder in ("bending", "window"):
+            drawn = drawn and (pathlib.Path(folder) / f"{name}_{'shapes' if name == 'campbell' else 'profile'}.png").stat().st_size > 10000
         expect(f"picture of {folder}", (done.returncode == 0 and drawn) if name else "neither campbell.h5" in done.stderr, done.stderr)
 
 
@@ -354,6 +208,10 @@ def refusals():
         ("no list", "has no list Campbell", "campbell", []),
         ("no range", "Highest Speed", "campbell", ["Campbell/Modes=3"]),
         ("falling speeds", "Give a larger one", "campbell", ["Campbell/Lowest Speed=20", "Campbell/Highest Speed=10"]),
+        ("half a window", "without Highest Frequency", "campbell", ["Campbell/Highest Speed=10", "Campbell/Lowest Frequency=1"]),
+        ("falling window", "Give a larger one", "campbell", ["Campbell/Highest Speed=10", "Campbell/Lowest Frequency=2", "Campbell/Highest Frequency=1"]),
+        ("window and target", "both Highest Frequency and Target Frequency", "campbell", ["Campbell/Highest Speed=10", "Campbell/Highest Frequency=2", "Campbell/Target Frequency=1"]),
+        ("lobes of no motor", "no effect without Motor Speed", "campbell", ["Campbell/Highest Speed=10", "Campbell/Motor Lobes=5"]),
         ("no list Response", "has no list Response", "response", []),
         ("no sweep", "neither", "response", ["Response/Points=3"]),
         ("no output", "Outputs holds no dof", "response", ["Response/Highest Speed=10"]),
@@ -379,7 +237,7 @@ def refusals():
 
 
 if sys.argv[4] == "rotors":
-    for check in (laval, overhung, bearing, nelson, transfer, shaft, walls, pictures, refusals):
+    for check in (laval, overhung, excitations, bearing, nelson, friswell, transfer, shaft, window, walls, bending, pictures, refusals):
         check()
 else:
     string()

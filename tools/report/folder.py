@@ -36,12 +36,23 @@ def opened(folder, kind, files):
 
 
 def draw_folder(description, kind, files):
-    """The main of a tool: the first of `files` (name.h5 -> function of the open file that makes a figure) in the folder gives name.png there, or the picture of --output. `kind`: the folder, in words."""
+    """The main of a tool: the first of `files` (name.h5 -> pictures) in the folder gives name.png there, or the picture of --output. `kind`: the folder, in words.
+
+    Pictures are a function of the open file that makes a figure, or several with their titles, {"": (title, function), "shapes": (title, function)}: the second is name_shapes.png.
+    A function may return None: there is nothing to draw.
+    """
     options = parser(description, kind, files).parse_args()
     plots.use_style()
     found, results = opened(options.folder, kind, files)
-    with results:
-        made = files[found](results)
     output = options.output or (options.folder / found).with_suffix(".png")
-    plots.save(made, output)
-    print(f"drawn {output}")
+    pictures = files[found] if isinstance(files[found], dict) else {"": ("", files[found])}
+    with results:
+        for suffix, (title, function) in pictures.items():
+            made = function(results)
+            if made is None:
+                continue
+            if title:
+                plots.headline(made, title, conditions(results))
+            path = output.with_name(f"{output.stem}_{suffix}{output.suffix}") if suffix else output
+            plots.save(made, path)
+            print(f"drawn {path}")

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sections and reports of tables: torque_drag.csv, bha.csv, buckling.csv, modes.csv, basis.csv."""
+"""Sections and reports of tables: torque_drag.csv, bha.csv, buckling.csv, campbell.h5, response.h5, modes.csv, basis.csv."""
 import math
 
+import h5py
+
 import plots
-from plots import COLOURS, GREY
+from plots import COLOURS, GREY, rotating
 from report import tables
 from report.figures import Figure
 from report.page import Page
@@ -233,12 +235,43 @@ def add_buckling(page, folder):
     page.plots("buckling", "Buckling", found, table)
 
 
+def of_rotation(results, pictures):
+    """Figures of functions of an open HDF5 file, name -> (function, caption)."""
+    return [Figure(name, made, caption, True, large=True) for name, (function, caption) in pictures.items() if (made := function(results)) is not None]
+
+
+def add_campbell(page, folder):
+    """Campbell diagram, modes in the hole, critical speeds."""
+    if not (folder / "campbell.h5").is_file():
+        return
+    with h5py.File(folder / "campbell.h5", "r") as results:
+        found = of_rotation(results, {"campbell": (rotating.campbell_figure, "Damped modes against the rotary speed, lines of the excitations, critical speeds."),
+                                      "campbell-shapes": (rotating.shapes_figure, "Modes in the hole: at critical speeds, and at one speed of the diagram.")})
+        crossings = rotating.columns(results, "crossings")
+        names = {(order, offset): name for name, order, offset in zip(rotating.texts(results["excitations"]), results["orders"][:], results["offsets"][:])}
+    rows = [] if crossings is None else [(names[crossings["order"][i], crossings["offset"][i]], f"{crossings['mode'][i]:.0f}", f"{plots.RPM * crossings['speed'][i]:.2f}", f"{crossings['frequency'][i]:.4f}",
+                                          f"{crossings['damping'][i]:.3g}", rotating.whirl_word(crossings["whirl"][i])) for i in range(len(crossings["order"]))]
+    page.plots("campbell", "Campbell diagram", found, tables.table(("excitation", "mode", "speed [rpm]", "frequency [Hz]", "damping ratio", "whirl"), rows, range(1, 5), "Critical speeds") if rows else "")
+
+
+def add_response(page, folder):
+    """Amplitudes over speed or frequency, and along a string."""
+    if not (folder / "response.h5").is_file():
+        return
+    with h5py.File(folder / "response.h5", "r") as results:
+        found = of_rotation(results, {"response": (rotating.response_figure, "Amplitudes and phases; circles: largest amplitudes."),
+                                      "response-profile": (rotating.profile_figure, "Bending moment beside that at rest, and distance left to the wall.")})
+    page.plots("response", "Harmonic response", found)
+
+
 def page_of(folder):
     """Of a folder that holds tables alone."""
-    page = Page(folder.resolve().name, "tables of " + " and ".join(name for name, file in (("torque-drag", "torque_drag.csv"), ("bha", "bha.csv"), ("buckling", "buckling.csv"), ("modes", "modes.csv"), ("damped modes", "damped_modes.csv"))
+    page = Page(folder.resolve().name, "tables of " + " and ".join(name for name, file in (("torque-drag", "torque_drag.csv"), ("bha", "bha.csv"), ("buckling", "buckling.csv"), ("campbell", "campbell.h5"), ("response", "response.h5"), ("modes", "modes.csv"), ("damped modes", "damped_modes.csv"))
                                                                 if (folder / file).is_file()))
     add_torque_drag(page, folder)
     add_bha(page, folder)
     add_buckling(page, folder)
+    add_campbell(page, folder)
+    add_response(page, folder)
     add_modes(page, folder)
     return page

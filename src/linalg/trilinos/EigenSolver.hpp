@@ -3,6 +3,7 @@
 /// Lowest modes of symmetric pencils K phi = lambda M phi, rank-local and the same in every run.
 #pragma once
 
+#include <complex>
 #include <functional>
 #include <optional>
 #include <string>
@@ -85,6 +86,14 @@ struct QuadraticModes {
 /// exceeds 1e-8.
 QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K);
 
+/// Which damped modes: the `count` ones with the smallest |s - centre|, and all others with
+/// |s - centre| <= radius.
+struct DampedTarget {
+  std::complex<double> centre;  ///< [1/s]; not zero, Im >= 0
+  double radius = 0.0;          ///< [1/s]
+  int count = 0;
+};
+
 /// What rounding leaves of phi^H K phi.
 using EnergyRounding = std::function<double(const Eigen::VectorXcd& phi)>;
 
@@ -100,5 +109,14 @@ using EnergyRounding = std::function<double(const Eigen::VectorXcd& phi)>;
 /// singular.
 QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse& K, int count,
                                  const DofNamer& name = {}, const EnergyRounding& rounding = {});
+
+/// The modes of the target, one of each conjugate pair (Im s >= 0), by |s|, without those at zero:
+/// a complex block Arnoldi space of (L - centre)^-1, L the linearised problem (GrowingKrylov; small
+/// ones whole), which is searched again for further copies of repeated values. Beyond the target
+/// nothing is computed, so that a few modes of a model of thousands are found where they are
+/// wanted. Vectors, residuals, accuracy and errors as lowestDampedModes; ConvergenceError also
+/// where the target holds too many modes.
+QuadraticModes dampedModesNear(const Sparse& M, const Sparse& C, const Sparse& K,
+                               const DampedTarget& target, const EnergyRounding& rounding = {});
 
 }  // namespace tooljoint::linalg

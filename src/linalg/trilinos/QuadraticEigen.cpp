@@ -3,12 +3,10 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 #include "common/Error.hpp"
 #include "common/report/StageTimes.hpp"
-#include "linalg/DynamicStiffness.hpp"
 #include "linalg/GrowingKrylov.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/trilinos/ProportionalModes.hpp"
@@ -38,17 +36,8 @@ constexpr int controlSteps = 5;
 constexpr double noFiniteValue = 1e-6, noDigits = 0.5;
 /// Others have a nu of rounding.
 constexpr double noDigitsOfNu = 1e-13;
-/// Relative change of a value by Newton's method up to which the mode is the same.
-constexpr double sameValue = 1e-6;
 /// Up to this size the inverse is formed whole.
 constexpr int denseBelow = 80;
-
-ComplexVector times(const Sparse& A, const ComplexVector& x) {
-  ComplexVector y(x.size());
-  y.real() = A * Vector(x.real());
-  y.imag() = A * Vector(x.imag());
-  return y;
-}
 
 /// (L - sigma)^-1 for the linearisation s z = L z of the pencil, z = (x, s x / sigma), sigma > 0.
 class ShiftedInverse {
@@ -167,7 +156,7 @@ double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer&
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round) {
     const auto inverse = inverseNear(pencil, shift, name);
-    GrowingKrylov space([&](const Matrix& z) { return (*inverse)(z); }, 2 * pencil.size());
+    GrowingKrylov<double> space([&](const Matrix& z) { return (*inverse)(z); }, 2 * pencil.size());
     space.start(block, 11);
     space.grow(static_cast<int>(wanted) + 4 * block);
     const RitzPairs ritz = space.ritz();
@@ -184,15 +173,6 @@ double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer&
     if (ratio > 0.25 && ratio < 4.0) break;
   }
   return shift;
-}
-
-/// |s| at which s is zero but for the rounding of K: |s|^2 phi'|M|phi + |s| phi'|C|phi of the size
-/// of what rounding leaves of phi'K phi.
-bool isZero(const ScaledPencil& pencil, Complex s, const ComplexVector& phi) {
-  const double work = std::norm(s) * std::abs(phi.dot(times(pencil.M, phi))) +
-                      std::abs(s) * std::abs(phi.dot(times(pencil.C, phi))) +
-                      std::abs(phi.dot(times(pencil.K, phi)));
-  return work <= pencil.rounding(phi);
 }
 
 /// One mode of each independent motion at zero: a free body without damping has every one of them
@@ -218,14 +198,6 @@ void dropRepeatedZeros(std::vector<Complex>& values, std::vector<ComplexVector>&
   }
   values = std::move(keptValues);
   vectors = std::move(keptVectors);
-}
-
-/// The mode that Newton's method finds from a pair far from the shift, where (L - sigma)^-1 has few
-/// digits of it; none where that is another one.
-std::optional<DampedMode> refinedMode(const ScaledPencil& pencil, Complex s,
-                                      const ComplexVector& phi) {
-  const auto mode = refine(pencil.M, pencil.C, pencil.K, {s, phi});
-  return mode && std::abs(mode->s - s) <= sameValue * std::abs(s) ? mode : std::nullopt;
 }
 
 /// Where a mode is to be looked for: a real value of a singular mass at the massless dof that
@@ -263,11 +235,7 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
     const double error = (better - phi).norm() / better.norm();
     if (pencil.singularMass && std::abs(s - inverse.shift()) >= farthest && !(error <= noDigits))
       continue;
-    const Vector size = better.cwiseAbs();
-    const double rounding =
-        pencil.rounding(better) /
-        (std::norm(s - inverse.shift()) *
-         std::max(size.dot(pencil.M.cwiseAbs() * size), std::numeric_limits<double>::min()));
+    const double rounding = roundingOfValue(pencil, s - inverse.shift(), better);
     const bool accurate = error <= acceptedError + rounding;
     const auto refined = accurate ? std::nullopt : refinedMode(pencil, s, better);
     if (!accurate && !refined)
@@ -292,7 +260,7 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
   const int all = 2 * static_cast<int>(pencil.size());
   auto wanted = static_cast<std::size_t>(count);
   const auto inverse = inverseNear(pencil, goodShift(pencil, wanted, name), name);
-  GrowingKrylov space([&](const Matrix& z) { return (*inverse)(z); }, all);
+  GrowingKrylov<double> space([&](const Matrix& z) { return (*inverse)(z); }, all);
   if (all <= 2 * denseBelow)
     space.startWhole();
   else
@@ -338,25 +306,11 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
   }
 }
 
-double rowNorm(const Sparse& A) {
-  double largest = 0;
-  for (int i = 0; i < A.outerSize(); ++i) {
-    double row = 0;
-    for (Sparse::InnerIterator it(A, i); it; ++it) row += std::abs(it.value());
-    largest = std::max(largest, row);
-  }
-  return largest;
-}
-
 }  // namespace
 
 QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse& K, int count,
                                  const DofNamer& name, const EnergyRounding& rounding) {
   const auto n = M.rows();
-  if (M.cols() != n || C.rows() != n || C.cols() != n || K.rows() != n || K.cols() != n)
-    throw ModelError(
-        "The mass, damping and stiffness matrices of a quadratic eigenproblem must be square and "
-        "of one size.");
   if (count < 0 || count > n)
     throw ModelError(std::to_string(count) +
                      " damped modes were asked for, but the eigenproblem has " + std::to_string(n) +
@@ -370,31 +324,7 @@ QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse&
   const ScaledPencil pencil(M, C, K, rounding);
   const auto simple = pencil.singularMass ? std::nullopt : proportionalModes(pencil, count, name);
   const DampedModes found = simple ? *simple : generalModes(pencil, count, name);
-  std::vector<std::size_t> order(found.values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return std::abs(found.values[a]) < std::abs(found.values[b]);
-  });
-  order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
-  const auto kept = static_cast<Eigen::Index>(order.size());
-  modes.values.resize(kept);
-  modes.vectors.resize(n, kept);
-  modes.residuals.resize(kept);
-  const double m = rowNorm(pencil.M), c = rowNorm(pencil.C), k = rowNorm(pencil.K);
-  for (Eigen::Index j = 0; j < kept; ++j) {
-    const Complex s = found.values[order[static_cast<std::size_t>(j)]];
-    const ComplexVector& phi = found.vectors[order[static_cast<std::size_t>(j)]];
-    const ComplexVector residual =
-        s * s * times(pencil.M, phi) + s * times(pencil.C, phi) + times(pencil.K, phi);
-    modes.residuals[j] = residual.cwiseAbs().maxCoeff() /
-                         ((std::norm(s) * m + std::abs(s) * c + k) * phi.cwiseAbs().maxCoeff());
-    ComplexVector shape = pencil.scale.cast<Complex>().cwiseProduct(phi);
-    Eigen::Index largest = 0;
-    shape.cwiseAbs().maxCoeff(&largest);
-    modes.values[j] = s;
-    modes.vectors.col(j) = shape / Complex(shape[largest]);
-  }
-  return modes;
+  return presented(pencil, found, count);
 }
 
 }  // namespace tooljoint::linalg

@@ -19,6 +19,7 @@
 #include "substructures/drillstring/case/StringOutline.hpp"
 #include "substructures/drillstring/case/StringRecord.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
+#include "substructures/drillstring/figures/BendingElements.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
 
 namespace tooljoint::drillstring {
@@ -49,6 +50,8 @@ class RestingString : public cases::RestingCase {
     cases::Measures m;
     const int count = scene_.string.nodeCount();
     for (int node = 1; node <= count; ++node) m.nodes.push_back(node);
+    for (const auto& node : scene_.string.nodes) m.depth.push_back(node.s);
+    m.bending = bendingPlaces(scene_.string, stage_.path);
     m.components = {0, 1, 2};
     m.vibrating = 2;
     m.clearance.assign(m.nodes.size(), std::numeric_limits<double>::infinity());

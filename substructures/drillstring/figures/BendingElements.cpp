@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "substructures/beam/NodalDofs.hpp"
+
 namespace tooljoint::drillstring {
 namespace {
 
@@ -32,6 +34,30 @@ std::vector<BendingElement> bendingElements(const DrillString& string,
     if (section.outerRadius() > 0.0)
       one.leastRange = leastStrainRange * one.rigidity / section.outerRadius();
     out.push_back(one);
+  }
+  return out;
+}
+
+/// M = E I/l (R2 t2 - R1 t1), t = (theta_y, -theta_x)
+std::vector<cases::BendingPlace> bendingPlaces(const DrillString& string,
+                                               const path::PathState& path) {
+  std::vector<cases::BendingPlace> out;
+  const auto elements = bendingElements(string, path);
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto& element = elements[e];
+    cases::BendingPlace place;
+    place.depth = 0.5 * (string.nodes[e].s + string.nodes[e + 1].s);
+    place.stressPerMoment = element.stressPerMoment;
+    for (std::size_t axis : {0, 1})
+      for (std::size_t end : {0, 1}) {
+        const auto node = static_cast<std::int64_t>(e + end + 1);
+        const Eigen::RowVector2d turn = (end == 1 ? 1.0 : -1.0) * element.rigidity /
+                                        element.length *
+                                        element.slopeRotation[end].row(static_cast<int>(axis));
+        place.moment[axis].push_back({node, beam::nodal::thetaY, turn[0]});
+        place.moment[axis].push_back({node, beam::nodal::thetaX, -turn[1]});
+      }
+    out.push_back(place);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/Case.hpp"
 #include "substructures/drillstring/DrillString.hpp"
 #include "substructures/drillstring/figures/BendingFigures.hpp"
 #include "substructures/path/PathState.hpp"
@@ -13,5 +14,10 @@
 namespace tooljoint::drillstring {
 
 std::vector<BendingElement> bendingElements(const DrillString& string, const path::PathState& path);
+
+/// The mean moments of the elements beside those at rest as sums of the rotations of their nodes,
+/// which are numbered from 1.
+std::vector<cases::BendingPlace> bendingPlaces(const DrillString& string,
+                                               const path::PathState& path);
 
 }  // namespace tooljoint::drillstring

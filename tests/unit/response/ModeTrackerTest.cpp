@@ -23,7 +23,7 @@ VibratingModes sorted(std::vector<double> frequencies, Eigen::MatrixXcd shapes) 
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return frequencies[static_cast<std::size_t>(a)] < frequencies[static_cast<std::size_t>(b)];
   });
-  VibratingModes out{Eigen::VectorXcd(shapes.cols()), shapes};
+  VibratingModes out{Eigen::VectorXcd(shapes.cols()), shapes, {0, 1}, {}};
   for (std::size_t i = 0; i < order.size(); ++i) {
     out.values[static_cast<Eigen::Index>(i)] =
         Complex(0, frequencies[static_cast<std::size_t>(order[i])]);
@@ -43,7 +43,7 @@ TEST(ModeTracker, CrossingModesKeepTheirNumbers) {
       [](double speed, int) {
         return sorted({1.0 + speed, 3.0 - speed}, Eigen::MatrixXcd::Identity(2, 2));
       },
-      identity(2), 2);
+      identity(2));
   for (const double speed : {0.0, 0.5, 1.0, 1.5, 2.0}) {
     tracker.advance(speed);
     EXPECT_EQ(track(tracker, 1).s, Complex(0, 1.0 + speed));
@@ -63,7 +63,7 @@ TEST(ModeTracker, StepsAreHalvedWhereShapesTurn) {
         shapes << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
         return sorted({2.0 - speed, 2.2 + speed}, shapes);
       },
-      identity(2), 2);
+      identity(2));
   tracker.advance(0.0);
   tracker.advance(1.0);
   EXPECT_GT(calls, 4);
@@ -80,13 +80,34 @@ TEST(ModeTracker, RepeatedValuesSplitWithoutBeingLost) {
         circles << 1.0, 1.0, Complex(0, -1), Complex(0, 1);
         return sorted({1.0 + speed, 1.0 - speed}, circles);
       },
-      identity(2), 2);
+      identity(2));
   tracker.advance(0.0);
   tracker.advance(0.5);
   ASSERT_EQ(tracker.now().size(), 2U);
   for (const auto& mode : tracker.now()) {
     EXPECT_LE(mode.track, 2);
     EXPECT_NEAR(mode.mac, 1.0, 1e-12);
+  }
+}
+
+// A mode at the edge of a window may leave it: no smaller step looks for it, and its track ends.
+TEST(ModeTracker, ModesAtTheEdgeLeaveWithoutSmallerSteps) {
+  for (const bool edge : {false, true}) {
+    int calls = 0;
+    ModeTracker tracker(
+        [&](double speed, int) {
+          ++calls;
+          auto modes = sorted({1.0, 2.0}, Eigen::MatrixXcd::Identity(2, 2));
+          modes.wanted = speed < 0.5 ? std::vector<int>{0, 1} : std::vector<int>{0};
+          if (speed >= 0.5 && edge) modes.edge = {1};
+          if (speed > 1.5) modes.shapes.col(1).setZero(), modes.shapes(0, 1) = 1.0;
+          return modes;
+        },
+        identity(2));
+    for (const double speed : {0.0, 1.0, 2.0}) tracker.advance(speed);
+    ASSERT_EQ(tracker.now().size(), 1U);
+    EXPECT_EQ(tracker.now()[0].track, 1);
+    EXPECT_EQ(calls == 3, edge);
   }
 }
 
@@ -98,7 +119,7 @@ TEST(ModeTracker, NewModesBeginTracksAndStrangersEndThem) {
         return sorted({1.0, 1.5},
                       Eigen::MatrixXcd((Eigen::MatrixXcd(3, 2) << 1, 0, 0, 0, 0, 1).finished()));
       },
-      identity(3), 2);
+      identity(3));
   tracker.advance(0.0);
   tracker.advance(1.0);
   ASSERT_EQ(tracker.now().size(), 2U);

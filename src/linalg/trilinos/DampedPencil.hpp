@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What the ways to damped modes share: the scaled matrices of s^2 M + s C + K, and what is done
+/// with pairs that were found. Included by sources of damped modes only.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "linalg/DynamicStiffness.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
+
+namespace tooljoint::linalg {
+
+using Complex = std::complex<double>;
+using ComplexVector = Eigen::VectorXcd;
+
+/// M, C and K with rows and columns scaled by powers of two near 1 / sqrt(M_ii): translations,
+/// rotations and modal amplitudes become comparable, and no entry is rounded.
+struct ScaledPencil {
+  Sparse M, C, K;
+  Vector scale;
+  bool singularMass = false;
+  EnergyRounding rounding;  ///< of shapes in scaled coordinates
+
+  /// ModelError: the matrices are not square and of one size. \param given isRounding's bound for K
+  /// where empty
+  ScaledPencil(const Sparse& m, const Sparse& c, const Sparse& k, const EnergyRounding& given);
+  ScaledPencil(const ScaledPencil&) = delete;
+  ScaledPencil& operator=(const ScaledPencil&) = delete;
+  Eigen::Index size() const { return M.rows(); }
+};
+
+/// Values s with Im s >= 0 and scaled vectors.
+struct DampedModes {
+  std::vector<Complex> values;
+  std::vector<ComplexVector> vectors;
+};
+
+ComplexVector times(const Sparse& A, const ComplexVector& x);
+
+/// |s| at which s is zero but for the rounding of K: |s|^2 phi'|M|phi + |s| phi'|C|phi of the size
+/// of what rounding leaves of phi'K phi.
+bool isZero(const ScaledPencil& pencil, Complex s, const ComplexVector& phi);
+
+/// What rounding of K makes of s - shift, relative.
+double roundingOfValue(const ScaledPencil& pencil, Complex distance, const ComplexVector& phi);
+
+/// The mode that Newton's method finds from a pair far from the shift, where (L - sigma)^-1 has few
+/// digits of it; none where that is another one.
+std::optional<DampedMode> refinedMode(const ScaledPencil& pencil, Complex s,
+                                      const ComplexVector& phi);
+
+/// The first `count` of them by |s|, in the coordinates of the unscaled matrices, with residuals.
+QuadraticModes presented(const ScaledPencil& pencil, const DampedModes& found, int count);
+
+}  // namespace tooljoint::linalg
