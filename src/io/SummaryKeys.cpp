@@ -97,7 +97,6 @@ const std::vector<std::string>& documentedKeys() {
       "transient.strategies.resting_impacts",
       "transient.strategies.newton",
       "transient.strategies.troubled_points",
-      "transient.strategies.bracketing",
       "transient.wall_s",
       "transient.cpu_s",
       "transient.ranks",

@@ -19,10 +19,9 @@ enum class Strategy : std::size_t {
   Turns,
   RestingImpacts,
   Newton,
-  TroubledPoints,
-  Bracketing
+  TroubledPoints
 };
-constexpr std::size_t strategyCount = 9;
+constexpr std::size_t strategyCount = 8;
 
 struct StrategyName {
   const char* deck;      ///< in the parameter Leave Out
@@ -39,7 +38,6 @@ constexpr std::array<StrategyName, strategyCount> strategyNames{{
      true},                                  // on walls too stiff for the step, without rebound
     {"Newton", "newton"},                    // for the whole model, with renewed tangents
     {"Troubled Points", "troubled_points"},  // of its line search, solved together
-    {"Bracketing", "bracketing"},            // of a jump along the Newton direction
 }};
 
 using StrategySet = std::bitset<strategyCount>;

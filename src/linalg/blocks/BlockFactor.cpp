@@ -277,6 +277,19 @@ TOOLJOINT_CLONES void BlockFactor::eliminate(std::size_t k) {
   }
 }
 
+namespace {
+
+/// even + odd += sign A x, A 6 x 6: kernel::addPairs() without its loop.
+template <int sign>
+TOOLJOINT_INLINED void addNode(const double* A, const double* x, kernel::Six& even,
+                               kernel::Six& odd) {
+  even.addColumn(A, sign * x[0]), odd.addColumn(A + 6, sign * x[1]);
+  even.addColumn(A + 12, sign * x[2]), odd.addColumn(A + 18, sign * x[3]);
+  even.addColumn(A + 24, sign * x[4]), odd.addColumn(A + 30, sign * x[5]);
+}
+
+}  // namespace
+
 /// b_i -= L_ik b_k
 TOOLJOINT_INLINED void BlockFactor::sweepDown(const Pivot& p, double* x) const {
   double* target = x + p.start;
@@ -286,7 +299,14 @@ TOOLJOINT_INLINED void BlockFactor::sweepDown(const Pivot& p, double* x) const {
   for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
     const double* L = down_.data() + couplings[c].down;
     if (far_) kernel::fetchAhead(L, couplings[c].width * p.width);
-    kernel::multiplySubtract(couplings[c].width, p.width, L, target, x + couplings[c].start);
+    if (couplings[c].width == 6 && p.width == 6) {
+      kernel::Six even(x + couplings[c].start), odd;
+      addNode<-1>(L, target, even, odd);
+      even.a += odd.a, even.b += odd.b;
+      even.to(x + couplings[c].start);
+    } else {
+      kernel::multiplySubtract(couplings[c].width, p.width, L, target, x + couplings[c].start);
+    }
   }
 }
 
@@ -297,11 +317,14 @@ TOOLJOINT_INLINED void BlockFactor::sweepUp(const Pivot& p, double* x) const {
   if (p.width == 6) {
     kernel::Six even, odd;
     if (far_) kernel::fetchAhead(up_.data() + p.up, 36);
-    kernel::addPairs(6, up_.data() + p.up, target, even, odd);
+    addNode<1>(up_.data() + p.up, target, even, odd);
     for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
       if (far_) kernel::fetchAhead(up_.data() + couplings[c].up, 6 * couplings[c].width);
-      kernel::addPairs<-1>(couplings[c].width, up_.data() + couplings[c].up, x + couplings[c].start,
-                           even, odd);
+      const double *W = up_.data() + couplings[c].up, *source = x + couplings[c].start;
+      if (couplings[c].width == 6)
+        addNode<-1>(W, source, even, odd);
+      else
+        kernel::addPairs<-1>(couplings[c].width, W, source, even, odd);
     }
     even.a += odd.a, even.b += odd.b;
     even.to(target);

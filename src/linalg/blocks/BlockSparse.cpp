@@ -16,6 +16,36 @@
 namespace tooljoint::linalg {
 namespace {
 
+/// Sums of products of 6 x 6 blocks and vectors. Two columns of a block are three quads: rows 0 to
+/// 3 of one, rows 4 and 5 of one with 0 and 1 of the other, rows 2 to 5 of the other.
+struct SixSum {
+  kernel::Quad a{0, 0, 0, 0}, m{0, 0, 0, 0}, b{0, 0, 0, 0};
+  TOOLJOINT_INLINED void addTwoColumns(const double* A, const double* x) {
+    const kernel::Quad x0{x[0], x[0], x[0], x[0]}, x1{x[1], x[1], x[1], x[1]};
+#if defined(__clang__)
+    const kernel::Quad both{x[0], x[0], x[1], x[1]};
+#else
+    using Order = long long __attribute__((vector_size(32)));
+    const kernel::Quad both = __builtin_shuffle(x0, x1, Order{0, 1, 6, 7});
+#endif
+    a += *reinterpret_cast<const kernel::Quad*>(A) * x0;
+    m += *reinterpret_cast<const kernel::Quad*>(A + 4) * both;
+    b += *reinterpret_cast<const kernel::Quad*>(A + 8) * x1;
+  }
+  /// even + odd += A x, A 6 x 6.
+  static TOOLJOINT_INLINED void add(const double* A, const double* x, SixSum& even, SixSum& odd) {
+    even.addTwoColumns(A, x);
+    odd.addTwoColumns(A + 12, x + 2);
+    even.addTwoColumns(A + 24, x + 4);
+  }
+  /// y += even + odd.
+  static TOOLJOINT_INLINED void total(const SixSum& even, const SixSum& odd, kernel::Six& y) {
+    const kernel::Quad m = even.m + odd.m, b = even.b + odd.b;
+    y.a += (even.a + odd.a) + kernel::Quad{m[2], m[3], b[0], b[1]};
+    y.b += kernel::Pair{m[0], m[1]} + kernel::Pair{b[2], b[3]};
+  }
+};
+
 /// Union-find with path halving.
 class Families {
  public:
@@ -275,6 +305,7 @@ TOOLJOINT_INLINED void BlockProduct::addEntries(const Row& row, int begin, int e
 TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* values,
                                             const double* x, kernel::Six& even,
                                             kernel::Six& odd) const {
+  SixSum some, others;
   const Entry* last = layout_->entries.data() + end;
   for (const Entry* entry = layout_->entries.data() + begin; entry != last; ++entry) {
     const double* block = values + entry->offset;
@@ -286,9 +317,12 @@ TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* va
     if (far_) kernel::fetchAhead(block, 36);
     if (entry->form == Form::Diagonal)
       odd.addDiagonal(block, source);
+    else if (entry->width == 6)
+      SixSum::add(block, source, some, others);
     else
       kernel::addPairs(entry->width, block, source, even, odd);
   }
+  SixSum::total(some, others, even);
 }
 
 TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* values,

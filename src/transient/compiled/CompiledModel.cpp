@@ -8,6 +8,7 @@
 
 #include "common/Index.hpp"
 #include "transient/Integrator.hpp"
+#include "transient/Tuned.hpp"
 #include "transient/compiled/ModelPattern.hpp"
 
 namespace tooljoint::transient {
@@ -26,7 +27,7 @@ bool isSkew(const Sparse& matrix) {
       largest = std::max(largest, std::abs(it.value()));
   for (int k = 0; k < sum.outerSize(); ++k)
     for (Sparse::InnerIterator it(sum, k); it; ++it)
-      if (std::abs(it.value()) > 1e-14 * largest) return false;
+      if (std::abs(it.value()) > Tuned::rounding * largest) return false;
   return true;
 }
 

@@ -8,14 +8,13 @@
 #include <utility>
 
 #include "common/Index.hpp"
+#include "transient/Tuned.hpp"
 
 namespace tooljoint::transient {
 namespace {
 
 /// Points on fewer entries than this are as cheap to measure as to bound.
 constexpr int cheapPoint = 12;
-/// Points that could touch within so many steps at the rate last seen stay awake.
-constexpr double lookAhead = 32;
 
 }  // namespace
 
@@ -100,7 +99,7 @@ void ContactBroadPhase::deactivate(const double* q, const double* clearance) {
   for (Group& group : groups_) {
     if (!group.moved) continue;
     any = true;
-    const double margin = group.steps > 0 ? lookAhead * group.reached / group.steps : 0.0;
+    const double margin = group.steps > 0 ? Tuned::lookAhead * group.reached / group.steps : 0.0;
     group.least = std::numeric_limits<double>::infinity();
     group.steps = group.reached = 0;
     for (std::size_t j = 0; j < group.columns.size(); ++j) group.reference[j] = q[group.columns[j]];

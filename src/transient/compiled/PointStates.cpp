@@ -6,13 +6,10 @@
 #include <limits>
 
 #include "common/Index.hpp"
+#include "transient/Tuned.hpp"
 
 namespace tooljoint::transient {
 namespace {
-
-/// Newton on the states of one point.
-constexpr int maxIterations = 50;
-constexpr double tolerance = 1e-13;  ///< of an update, beside the size of the states
 
 using Rows =
     Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
@@ -72,7 +69,7 @@ bool PointStates::solve(double t, int point, const double* d, const double* v) {
   one_[0] = point;
   double* x = &x_[at(point * states_)];
   const double* base = base_ + point * states_;
-  for (int iteration = 0; iteration < maxIterations; ++iteration) {
+  for (int iteration = 0; iteration < Tuned::mostPointIterations; ++iteration) {
     law_->forcesWithTangents(t, one_, d, v, x_.data(), f_.data(), g_.data(), tangents());
     setJacobian(point, factor_);
     double size = 0, update = 0;
@@ -85,7 +82,7 @@ bool PointStates::solve(double t, int point, const double* d, const double* v) {
       update = std::max(update, std::abs(step_[i]));
     }
     if (!std::isfinite(update)) return false;
-    if (update <= tolerance * size) return true;
+    if (update <= Tuned::rounding * size) return true;
   }
   return false;
 }

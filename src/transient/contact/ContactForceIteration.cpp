@@ -8,18 +8,11 @@
 #include <utility>
 
 #include "common/Index.hpp"
+#include "transient/Tuned.hpp"
 #include "transient/compiled/PointWidth.hpp"
 
 namespace tooljoint::transient {
 namespace {
-
-/// A point whose error shrinks by less in an iteration is solved by itself.
-constexpr double slowestRate = 0.5;
-/// Points wrong by less than this part of what is allowed stay as they are when few are left, and
-/// what is dropped then.
-constexpr double rightEnough = 0.25, negligible = 1e-5;
-/// Few: as many points as there are this many positions.
-constexpr int positionsPerPoint = 100;
 
 /// B = A^-1 for A 3 x 3, row-major, by cofactors; false when A is singular to rounding.
 bool invertThree(const double* A, double* B) {
@@ -27,7 +20,7 @@ bool invertThree(const double* A, double* B) {
                c2 = A[3] * A[7] - A[4] * A[6];
   const double determinant = A[0] * c0 + A[1] * c1 + A[2] * c2;
   const double size = std::abs(A[0] * c0) + std::abs(A[1] * c1) + std::abs(A[2] * c2);
-  if (!(std::abs(determinant) > 1e-12 * size)) return false;
+  if (!(std::abs(determinant) > Tuned::rounding * size)) return false;
   const double r = 1.0 / determinant;
   B[0] = r * c0, B[1] = r * (A[2] * A[7] - A[1] * A[8]), B[2] = r * (A[1] * A[5] - A[2] * A[4]);
   B[3] = r * c1, B[4] = r * (A[0] * A[8] - A[2] * A[6]), B[5] = r * (A[2] * A[3] - A[0] * A[5]);
@@ -44,6 +37,10 @@ bool invertFew(int n, const double* A, double* B) {
   if (!inverse.allFinite()) return false;
   std::copy_n(inverse.data(), n * n, B);
   return true;
+}
+
+void setIdentity(int n, double* B) {
+  for (int i = 0; i < n * n; ++i) B[i] = i % (n + 1) == 0 ? 1.0 : 0.0;
 }
 
 /// -tr(J G): above 1 where a wall gives way less than what meets it.
@@ -285,7 +282,7 @@ void ContactForceIteration::measure(Set& set, PointBatch& batch, double small, d
         if (!(size <= wrong)) wrong = size;  // keeps a NaN
         largest = std::max(largest, weight[r] * std::abs(f[r]));
       }
-      if (set.moved[at(p)] && wrong > small && wrong > slowestRate * set.error[at(p)] &&
+      if (set.moved[at(p)] && wrong > small && wrong > Tuned::slowestRate * set.error[at(p)] &&
           !set.exact[at(p)])
         set.exact[at(p)] = strategies_->use(Strategy::PointsAlone);
       set.error[at(p)] = wrong;
@@ -353,15 +350,19 @@ void ContactForceIteration::answer(Set& set, const PointBatch& batch, int point,
   const double* dfdv = batch.dfdv() + first * w;
   const double* G = &set.compliance[at(first * w)];
   double* B = &set.answer[at(first * w)];
-  for (int i = 0; i < w * w; ++i) change[i] = dfdd[i] + c * dfdv[i] - P[i];
+  bool changes = false;
+  for (int i = 0; i < w * w; ++i) {
+    change[i] = dfdd[i] + c * dfdv[i] - P[i];
+    changes = changes || change[i] != 0;
+  }
+  if (!changes) return setIdentity(w, B);
   for (int i = 0; i < w; ++i)
     for (int j = 0; j < w; ++j) {
       double sum = i == j ? 1.0 : 0.0;
       for (int k = 0; k < w; ++k) sum -= change[i * w + k] * G[k * w + j];
       A[i * w + j] = sum;
     }
-  if (!invertFew(w, A, B))
-    for (int i = 0; i < w * w; ++i) B[i] = i % (w + 1) == 0 ? 1.0 : 0.0;
+  if (!invertFew(w, A, B)) setIdentity(w, B);
 }
 
 void ContactForceIteration::solve(const linalg::BlockFactor& factor, const Vector* force,
@@ -387,7 +388,7 @@ void ContactForceIteration::solveNear(const linalg::BlockFactor& factor, double 
     batch.scatter(sets_[b].points, sets_[b].change.data(), near_.data());
     for (int p : sets_[b].points) batch.appendBlocks(p, live_);
   }
-  factor.solveNear(near_.data(), live_, weight_.data(), negligible * small);
+  factor.solveNear(near_.data(), live_, weight_.data(), Tuned::dropped * small);
   const auto& pattern = model_->pattern();
   double reached = 0;
   for (int b : live_) {
@@ -424,12 +425,12 @@ void ContactForceIteration::solvePoint(Set& set, PointBatch& batch, int point, d
 
 /// Not a number counts as wrong.
 bool ContactForceIteration::isWrong(const Set& set, int point, double small) const {
-  return !(set.error[at(point)] <= rightEnough * small);
+  return !(set.error[at(point)] <= Tuned::rightEnough * small);
 }
 
 bool ContactForceIteration::isFew(long here) const {
   const long points = std::lround(model_->cut().sum(static_cast<double>(here)));
-  return positionsPerPoint * points < model_->wholeSize();
+  return Tuned::positionsPerPoint * points < model_->wholeSize();
 }
 
 /// p += B defect, or to where the point is alone in equilibrium.
@@ -481,7 +482,7 @@ bool ContactForceIteration::sweepEveryFourth(double t, double c, double small, i
     Set& set = sets_[b];
     set.points.clear();
     for (int p : model_->points()[b].active()) {
-      set.moved[at(p)] = place++ % colours == colour && isWrong(set, p, small);
+      set.moved[at(p)] = place++ % Tuned::colours == colour && isWrong(set, p, small);
       if (!set.moved[at(p)]) continue;
       set.exact[at(p)] = strategies_->has(Strategy::PointsAlone);
       set.points.push_back(p);

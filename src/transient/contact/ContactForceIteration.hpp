@@ -24,6 +24,7 @@
 
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/Strategies.hpp"
+#include "transient/Tuned.hpp"
 #include "transient/compiled/CompiledModel.hpp"
 #include "transient/contact/PointSolve.hpp"
 
@@ -78,12 +79,11 @@ class ContactForceIteration {
   /// when it was only taken at the few points wrong by more than a part of `small` (never if `all`
   /// are asked for), and solveNear() can follow.
   bool correct(double t, double c, double small, bool all);
-  /// Every `colours`-th point, from the one of this colour, if it is wrong: solved by itself while
-  /// its neighbours stand still. In turns for all colours this is block Gauss-Seidel over the
+  /// Every Tuned::colours-th point, from the one of this colour, if it is wrong: solved by itself
+  /// while its neighbours stand still. In turns for all colours this is block Gauss-Seidel over the
   /// points, which converges where neighbours that stick and slip throw each other off when all
   /// move at once. Returns as correct().
   bool sweepEveryFourth(double t, double c, double small, int colour);
-  static constexpr int colours = 4;
 
  private:
   struct Set {

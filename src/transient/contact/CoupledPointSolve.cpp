@@ -5,17 +5,9 @@
 #include <cmath>
 
 #include "common/Index.hpp"
+#include "transient/Tuned.hpp"
 
 namespace tooljoint::transient {
-namespace {
-
-/// Points treated at once, and the share of the worst error from which a point counts as troubled.
-constexpr int mostPoints = 24;
-constexpr double troubledShare = 0.1;
-constexpr int mostSweeps = 30;
-
-}  // namespace
-
 void CoupledPointSolve::bind(CompiledModel& model, Strategies& strategies) {
   strategies_ = &strategies;
   model_ = &model;
@@ -25,8 +17,8 @@ void CoupledPointSolve::bind(CompiledModel& model, Strategies& strategies) {
     for (auto* arrays : {&d_, &v_, &f_}) arrays->emplace_back(size, 0.0);
     coordinates += batch.points() * batch.width();
   }
-  const int room = std::min(coordinates, mostPoints * PointSolve::widest);
-  points_.reserve(mostPoints);
+  const int room = std::min(coordinates, Tuned::mostTroubled * PointSolve::widest);
+  points_.reserve(Tuned::mostTroubled);
   columns_.resize(model.size(), room);
   compliance_.resize(room, room);
 }
@@ -71,11 +63,12 @@ bool CoupledPointSolve::addTroubled(const double* delta, const double* weight) {
     if (batch.width() > PointSolve::widest) continue;
     for (int p : batch.active()) {
       if (isIn(static_cast<int>(b), p) ||
-          error(batch, static_cast<int>(b), p, delta, weight) < troubledShare * worst)
+          error(batch, static_cast<int>(b), p, delta, weight) < Tuned::counted * worst)
         continue;
       const int first =
           points_.empty() ? 0 : points_.back().first + static_cast<int>(points_.back().y.size());
-      if (points_.size() == mostPoints || first + batch.width() > columns_.cols()) return any;
+      if (points_.size() == at(Tuned::mostTroubled) || first + batch.width() > columns_.cols())
+        return any;
       const int w = batch.width();
       Point added{static_cast<int>(b), first, {}, Local::Zero(w), Local::Zero(w)};
       added.problem.strategies = strategies_;
@@ -115,7 +108,7 @@ bool CoupledPointSolve::solve(double t, double c, const linalg::BlockFactor& fac
             batch.rowTimesVector(each.problem.point * batch.width() + k, columns_.col(j).data());
   }
   bool settled = false;
-  for (int sweep = 0; sweep < mostSweeps && !settled; ++sweep) {
+  for (int sweep = 0; sweep < Tuned::mostPointIterations && !settled; ++sweep) {
     settled = true;
     for (Point& each : points_) {
       const auto& batch = model_->points()[at(each.batch)];
@@ -133,7 +126,8 @@ bool CoupledPointSolve::solve(double t, double c, const linalg::BlockFactor& fac
       each.problem.G = compliance_.block(each.first, each.first, w, w);
       if (!each.problem.solve(model_->points()[at(each.batch)], t, c, each.y, each.phi))
         return false;
-      if ((each.y - before).norm() > 1e-10 * (each.y.norm() + free.norm())) settled = false;
+      if ((each.y - before).norm() > Tuned::pointTolerance * (each.y.norm() + free.norm()))
+        settled = false;
     }
     if (points_.size() == 1) settled = true;
   }

@@ -8,24 +8,14 @@
 #include "common/Constants.hpp"
 #include "common/Index.hpp"
 #include "transient/Integrator.hpp"
+#include "transient/Tuned.hpp"
 
 namespace tooljoint::transient {
 namespace {
 
-/// Parts of the energy that one impact may lose, and may misplace.
-constexpr double mostLost = 0.005, mostMisplaced = 0.015;
-/// w h, and the part of its velocity that damping takes in a step, at which steps are short enough
-/// for any impact.
-constexpr double resolved = 0.15, resolvedDamping = 0.005;
-/// Steps in a row without motion in closed contact, at least, before they grow again: the scheme
-/// remembers half of an acceleration from one step to the next at a spectral radius of 0, which
-/// must be gone from a step eight times as long.
-constexpr int calmSteps = 12;
+/// Of reboundLoss(), fitted to single masses.
+constexpr double lossFit = 0.55;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-/// Speeds below this are rest [m/s]: a ball would rise by half a nanometre.
-constexpr double quiet = 1e-4;
-/// Steps from one look at the energy of the motion to the next: a look costs a product with M.
-constexpr long lookStride = 8;
 
 /// Largest part that depends on where in a step the wall is met, likewise. The force of a wall with
 /// damping c sets in with a jump c v; met up to half a step early or late, it takes W c h of the
@@ -36,7 +26,7 @@ double scatter(double wh, double damping) { return std::min(1.0, 0.25 * wh * wh 
 
 double reboundLoss(double wh, double r) {
   if (wh > 2.0) return 1.0;
-  const double slow = 0.55 * std::pow(1.0 - r, 4) * wh * wh;
+  const double slow = lossFit * std::pow(1.0 - r, 4) * wh * wh;
   return slow / (1.0 + slow);
 }
 
@@ -145,33 +135,22 @@ double ImpactResolution::square() const {
 
 /// Whether what changes by this, (dv)^2, is worth a shorter step.
 bool ImpactResolution::matters(double change) const {
-  return change > 4 * mostLost * std::max(quiet * quiet, square() / norm_.mass());
+  return change >
+         4 * Tuned::mostLost * std::max(Tuned::quiet * Tuned::quiet, square() / norm_.mass());
 }
 
 bool ImpactResolution::resolves(const Wall& wall, double change, double h) const {
   const double wh = wall.frequency * h, damping = wall.damping * h;
-  if ((wh <= resolved && damping <= resolvedDamping) || !matters(change * change)) return true;
+  if ((wh <= Tuned::resolved && damping <= Tuned::mostLost) || !matters(change * change))
+    return true;
   if (matters(reboundLoss(wh, radius_) * change * change)) return false;
-  return scatter(wh, damping) * change * change / wall.mobility <= 4 * mostMisplaced * square();
+  return scatter(wh, damping) * change * change / wall.mobility <=
+         4 * Tuned::mostMisplaced * square();
 }
 
-/// Whether the step has changed the velocity of a point by what is worth a look.
-bool ImpactResolution::anyMatters(double h) {
-  for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
-    const PointBatch& batch = model_->points()[at(b)];
-    for (int p : batch.active()) {
-      const auto [change, speed] = bound(b, p, h, &sets_[at(b)].force[at(p * batch.width())]);
-      if (matters(change * (change + 2 * speed))) return true;
-    }
-  }
-  return false;
-}
-
-int ImpactResolution::halvings(const State& from, const State& to, double h) {
+/// Halvings that the points of this rank ask for, beside the motion of square().
+int ImpactResolution::halvingsOfPoints(const State& from, const State& to, double h) {
   int most = 0;
-  current_ = 0;
-  if (!model_->cut().any(anyMatters(h))) return 0;
-  current_ = model_->massForm(to.v.data());
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     PointBatch& batch = model_->points()[at(b)];
     const int w = batch.width();
@@ -194,7 +173,16 @@ int ImpactResolution::halvings(const State& from, const State& to, double h) {
       most = std::max(most, count);
     }
   }
-  most = static_cast<int>(model_->cut().largest(most));
+  return most;
+}
+
+/// What is resolved beside the mean motion of the run is so beside more; v'M v of the step costs a
+/// product.
+int ImpactResolution::halvings(const State& from, const State& to, double h) {
+  current_ = 0;
+  if (!model_->cut().any(halvingsOfPoints(from, to, h) > 0)) return 0;
+  current_ = model_->massForm(to.v.data());
+  const int most = static_cast<int>(model_->cut().largest(halvingsOfPoints(from, to, h)));
   if (most > 0) {
     recovering_ = true;
     calm_ = 0;
@@ -217,7 +205,7 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
       for (int k = p * batch.width(); k < (p + 1) * batch.width(); ++k)
         fastest = std::max(fastest, std::abs(batch.rowTimesVector(k, to.v.data())));
       const Wall met = wall(b, p, to.t, fastest, h);
-      if (met.frequency * h <= resolved) continue;
+      if (met.frequency * h <= Tuned::resolved) continue;
       needed =
           std::max(needed, resolves(met, 2 * along(b, p, to.v), h) ? constants::pi / met.frequency
                                                                    : unbounded);
@@ -231,10 +219,10 @@ int ImpactResolution::nextLevel(const State& to, double h, const StepGrid& grid)
     recovering_ = false;
     return grid.lowest(0);
   }
-  const int least = std::max(0, grid.level() - atATime);
+  const int least = std::max(0, grid.level() - Tuned::atATime);
   const double needed = calmNeeded(to, grid.length(least));
   calm_ = std::isfinite(needed) ? calm_ + h : 0.0;
-  if (calm_ < std::max(needed, calmSteps * h)) return grid.level();
+  if (calm_ < std::max(needed, Tuned::calmSteps * h)) return grid.level();
   const int level = grid.lowest(least);
   if (level != grid.level()) calm_ = 0;
   recovering_ = level > 0;
@@ -250,7 +238,7 @@ void ImpactResolution::keep(const State& to, double h) {
         sets_[b].force[at(k)] = batch.force()[k] / batch.scale(p);
   }
   unseen_ += h;
-  if (++kept_ % lookStride != 0) return;
+  if (++kept_ % Tuned::lookStride != 0) return;
   squares_ += model_->massForm(to.v.data()) * unseen_;
   time_ += unseen_;
   unseen_ = 0;

@@ -34,10 +34,6 @@ double reboundLoss(double wh, double r);
 
 class ImpactResolution {
  public:
-  /// Halvings that impacts may ask for, and how many at a time: on the way to an impact, steps are
-  /// cut only as far as it takes to find it.
-  static constexpr int mostHalvings = 16, atATime = 3;
-
   /// For the scheme of spectral radius r and a mass that is inverted.
   void bind(CompiledModel& model, const MassFactor& mass, double radius);
 
@@ -46,8 +42,8 @@ class ImpactResolution {
   int halvings(const State& from, const State& to, double h);
   /// The step that ended at `to` counts.
   void keep(const State& to, double h);
-  /// Level of the next step. After an impact steps grow, at most by `atATime` halvings at once,
-  /// when closed contact has been without motion for half a period of its vibration.
+  /// Level of the next step. After an impact steps grow, at most by Tuned::atATime halvings at
+  /// once, when closed contact has been without motion for half a period of its vibration.
   int nextLevel(const State& to, double h, const StepGrid& grid);
 
   void save(std::vector<double>& memory) const;
@@ -77,7 +73,7 @@ class ImpactResolution {
   double calmNeeded(const State& to, double h);
   double square() const;
   bool matters(double change) const;
-  bool anyMatters(double h);
+  int halvingsOfPoints(const State& from, const State& to, double h);
   /// Component along the normal of the last wall().
   double along(int batch, int point, const Vector& v) const;
 

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "transient/Tuned.hpp"
+
 namespace tooljoint::transient {
 namespace {
 
-/// Brackets in a row without a smaller defect before Newton at a point is given up.
-constexpr int mostIdle = 2;
+constexpr double tiny = 1e-300;  // keeps zero out of denominators
 
 }  // namespace
 
@@ -41,20 +42,20 @@ void PointSolve::flow(PointBatch& batch, double t, double c, const Local& scale,
   const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
   LocalMatrix slope(w, w);
   Local now = defect(batch, t, c, y, phi, &slope);
-  double tau = 0.1;
-  for (int iteration = 0; iteration < 200 && size(now) > enough; ++iteration) {
+  double tau = 1;
+  for (int iteration = 0; iteration < Tuned::mostPathSteps && size(now) > enough; ++iteration) {
     const LocalMatrix J = (1 + 1 / tau) * LocalMatrix::Identity(w, w) - G * slope;
     const Local trial = y - J.partialPivLu().solve(now);
     if (!trial.allFinite()) return;
     LocalMatrix nextSlope(w, w);
     const Local next = defect(batch, t, c, trial, phi, &nextSlope);
-    const double ratio = size(now) / std::max(size(next), 1e-300);
-    if (!(ratio > 0.5)) {  // also catches NaN
+    const double ratio = size(now) / std::max(size(next), tiny);
+    if (!(ratio > Tuned::slowestRate)) {  // also catches NaN
       tau *= 0.25;
       continue;
     }
     y = trial, now = next, slope = nextSlope;
-    tau = std::min(1e12, tau * std::min(4.0, std::max(0.5, 2 * ratio)));
+    tau = std::min(1 / Tuned::rounding, tau * std::min(4.0, std::max(0.5, 2 * ratio)));
   }
 }
 
@@ -66,8 +67,6 @@ void PointSolve::follow(PointBatch& batch, double t, double c, const Local& scal
   using Path = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, widest + 1, 1>;  // y scaled, s
   using PathMatrix =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, widest + 1, widest + 1>;
-  constexpr int mostSteps = 400, mostIterations = 8, quick = 4;
-  constexpr double shortest = 1e-14, longest = 0.5;
   const Eigen::Index w = free.size();
   const double unit = std::max(free.cwiseProduct(scale).norm(), y.cwiseProduct(scale).norm());
   if (!(unit > 0)) return;
@@ -90,8 +89,8 @@ void PointSolve::follow(PointBatch& batch, double t, double c, const Local& scal
   };
   Path at(w + 1), ahead = whole;
   at << free.cwiseProduct(size), 0.0;
-  double step = 0.1;
-  for (int count = 0; count < mostSteps && step > shortest; ++count) {
+  double step = 0.5;  // of the path, which is about one long; the longest
+  for (int count = 0; count < Tuned::mostPathSteps && step > Tuned::rounding; ++count) {
     evaluate(at, ahead);
     const Path tangent = J.partialPivLu().solve(whole).normalized();
     if (!tangent.allFinite()) return;
@@ -100,7 +99,7 @@ void PointSolve::follow(PointBatch& batch, double t, double c, const Local& scal
     Path next = at + length * tangent;
     bool found = false;
     int iteration = 0;
-    for (; iteration < mostIterations && !found && next.allFinite(); ++iteration) {
+    for (; iteration < Tuned::mostTries && !found && next.allFinite(); ++iteration) {
       wrong[w] = last ? 0.0 : tangent.dot(next - at) - length;
       evaluate(next, last ? whole : tangent);
       found = wrong.norm() * unit <= enough;
@@ -116,7 +115,7 @@ void PointSolve::follow(PointBatch& batch, double t, double c, const Local& scal
       y = at.head(w).cwiseQuotient(size);
       return;
     }
-    if (iteration <= quick) step = std::min(longest, 2 * step);
+    if (2 * iteration <= Tuned::mostTries) step = std::min(0.5, 2 * step);
   }
 }
 
@@ -131,21 +130,21 @@ double PointSolve::iterate(PointBatch& batch, double t, double c, const Local& s
   Local best = y;
   double bestSize = INFINITY;
   int idle = 0;  // brackets in a row that were of no use
-  for (int iteration = 0; iteration < 30; ++iteration) {
+  for (int iteration = 0; iteration < Tuned::mostPointIterations; ++iteration) {
     const Local now = defect(batch, t, c, y, phi, &slope);
     const double before = size(now);
     if (!std::isfinite(before)) break;
-    if (before < 0.9 * bestSize) idle = 0;
+    if (before < Tuned::progress * bestSize) idle = 0;
     if (before < bestSize) best = y, bestSize = before;
-    if (before <= 1e-11 * (size(free) + size(y)) + 1e-300) break;
+    if (before <= 0.1 * Tuned::pointTolerance * (size(free) + size(y)) + tiny) break;
     const LocalMatrix J = LocalMatrix::Identity(w, w) - G * slope;
     const Local step = -J.partialPivLu().solve(now);
     if (!step.allFinite()) break;
     double fraction = 1, beyond = 0;
     bool decreased = false;
-    for (int cut = 0; cut < 10 && !decreased; ++cut, fraction *= 0.5) {
+    for (int cut = 0; cut < Tuned::mostTries && !decreased; ++cut, fraction *= 0.5) {
       const Local trial = defect(batch, t, c, y + fraction * step, phi, nullptr);
-      if (size(trial) <= (1 - 1e-4 * fraction) * before) {
+      if (size(trial) <= (1 - Tuned::decrease * fraction) * before) {
         y += fraction * step;
         decreased = true;
       } else if (step.cwiseProduct(scale).dot(trial.cwiseProduct(scale)) > 0) {
@@ -153,9 +152,9 @@ double PointSolve::iterate(PointBatch& batch, double t, double c, const Local& s
       }
     }
     if (decreased) continue;
-    if (beyond == 0 || ++idle > mostIdle) break;
+    if (beyond == 0 || ++idle > Tuned::mostIdle) break;
     double low = 0, high = beyond;
-    for (int i = 0; i < 60; ++i) {
+    while (high - low > std::numeric_limits<double>::epsilon() * beyond) {
       const double middle = 0.5 * (low + high);
       const Local trial = defect(batch, t, c, y + middle * step, phi, nullptr);
       (step.cwiseProduct(scale).dot(trial.cwiseProduct(scale)) > 0 ? high : low) = middle;
@@ -170,11 +169,11 @@ double PointSolve::iterate(PointBatch& batch, double t, double c, const Local& s
 /// 1e-12 m is no better known than that.
 double PointSolve::rounding(PointBatch& batch, double t, double c, const Local& scale,
                             const Local& y) const {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   LocalMatrix slope(y.size(), y.size());
   Local phi;
   defect(batch, t, c, y, phi, &slope);
-  const Local unsure = epsilon * (d.cwiseAbs() + 2 * y.cwiseAbs() + v.cwiseAbs() / c);
+  const Local unsure =
+      std::numeric_limits<double>::epsilon() * (d.cwiseAbs() + 2 * y.cwiseAbs() + v.cwiseAbs() / c);
   return (G.cwiseAbs() * (slope.cwiseAbs() * unsure)).cwiseProduct(scale).norm();
 }
 
@@ -184,13 +183,13 @@ bool PointSolve::solve(PointBatch& batch, double t, double c, Local& y, Local& p
   const Eigen::Index w = free.size();
   Local scale(w);
   for (Eigen::Index i = 0; i < w; ++i)
-    scale[i] = 1.0 / std::sqrt(std::max(std::abs(G(i, i)), 1e-300));
+    scale[i] = 1.0 / std::sqrt(std::max(std::abs(G(i, i)), tiny));
   const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
   const Local guess = y;
   Local best = y;
   double bestSize = INFINITY;
   const auto balanced = [&] {
-    return bestSize <= 1e-9 * (size(free) + size(best)) ||
+    return bestSize <= 10 * Tuned::pointTolerance * (size(free) + size(best)) ||
            (std::isfinite(bestSize) && bestSize <= rounding(batch, t, c, scale, best));
   };
   const auto keep = [&](double reached) {
@@ -207,12 +206,12 @@ bool PointSolve::solve(PointBatch& batch, double t, double c, Local& y, Local& p
   for (const Local* start : {&guess, static_cast<const Local*>(&free)}) {
     if (!follows || balanced()) break;
     y = *start;
-    flow(batch, t, c, scale, 1e-10 * (size(free) + size(best)), y, phi);
+    flow(batch, t, c, scale, Tuned::pointTolerance * (size(free) + size(best)), y, phi);
     keep(measure());
   }
   if (follows && !balanced()) {
     y = best;
-    follow(batch, t, c, scale, 1e-10 * (size(free) + size(best)), y, phi);
+    follow(batch, t, c, scale, Tuned::pointTolerance * (size(free) + size(best)), y, phi);
     keep(measure());
   }
   y = best;

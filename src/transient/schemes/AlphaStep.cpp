@@ -6,15 +6,9 @@
 #include <utility>
 
 #include "common/report/Log.hpp"
+#include "transient/Tuned.hpp"
 
 namespace tooljoint::transient {
-namespace {
-
-/// What the acceleration by an impact has fallen to, beside its largest, where it is left out.
-constexpr double negligible = 1e-12;
-
-}  // namespace
-
 AlphaStep::AlphaStep(const Parameters& parameters) : parameters_(parameters) {
   const double r = parameters.radius;
   alphaM_ = (2 * r - 1) / (r + 1);
@@ -31,8 +25,8 @@ AlphaStep::AlphaStep(const Parameters& parameters) : parameters_(parameters) {
 ///
 /// A mass that is smaller by 2 e (w h)^2 makes up for it: M - k M (I - F), F = s ca (s ca M + K)^-1
 /// M, is that for low frequencies, (1 - k) M for high ones, symmetric and positive between, so that
-/// the scheme stays unconditionally stable; what is at rest stays where it is. s keeps k at 0.7 or
-/// below.
+/// the scheme stays unconditionally stable; what is at rest stays where it is. s keeps k at
+/// Tuned::mostPhase or below.
 void AlphaStep::setPhaseCorrection() {
   const double d = alphaM_ - alphaF_;
   const double ofVelocity =
@@ -40,7 +34,7 @@ void AlphaStep::setPhaseCorrection() {
   const double ofDisplacement = d / 2 + beta_ - 1.0 / 6;
   const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_);  // times h^2
   const double whole = (ofVelocity + ofDisplacement) * ca;
-  filter_ = std::min(1.0, 0.7 / whole);
+  filter_ = std::min(1.0, Tuned::mostPhase / whole);
   phase_ = filter_ * whole;
 }
 
@@ -116,11 +110,13 @@ void AlphaStep::predict(const State& from, State& to, double h) {
   const StepScheme s = scheme(h);
   const double half = 0.5 * h * h, c = 1 / (1 - alphaF_), perVelocity = 1 / s.velocity,
                ofVelocity = s.acceleration / s.velocity;
-  for (int i = 0; i < A_.size(); ++i) {
-    const double v = from.v[i] + h * A_[i];
-    to.v[i] = v;
-    to.q[i] = from.q[i] + h * from.v[i] + half * A_[i] - perVelocity * v;
-    to.a[i] = c * (A_[i] - alphaF_ * from.a[i]) - ofVelocity * v;
+  for (const auto& run : model_->runs()) {
+    const int begin = model_->pattern().start(run.begin),
+              length = model_->pattern().start(run.end) - begin;
+    const auto part = [begin, length](auto& x) { return x.segment(begin, length); };
+    part(to.v) = part(from.v) + h * part(A_);
+    part(to.q) = part(from.q) + h * part(from.v) + half * part(A_) - perVelocity * part(to.v);
+    part(to.a) = c * (part(A_) - alphaF_ * part(from.a)) - ofVelocity * part(to.v);
   }
   addImpacts(c * alphaF_ / s.impact, lastImpacts_, to.a);
   if (model_->stateSize() > 0) bindStates(from, h);
@@ -157,7 +153,7 @@ void AlphaStep::complete(const State& from, State& to, double h) {
   const double s = scheme(h).impact;
   findImpacts();
   if (model_->stateSize() > 0) completeStates(from, to);
-  for (int i = 0; i < A_.size(); ++i) nextA_[i] = now * to.a[i] + before * from.a[i] - last * A_[i];
+  nextA_ = now * to.a + before * from.a - last * A_;
   addImpacts(-now, impacts_, nextA_);
   addImpacts(-before / s, lastImpacts_, nextA_);
   addImpacts(1 / s - 1, impacts_, to.a);
@@ -169,7 +165,7 @@ void AlphaStep::findImpacts() {
   for (const auto& batch : model_->points())
     if (batch.isScaled()) batch.addScaledForce(impacts_.a.data(), impacts_.blocks);
   if (model_->cut().any(!impacts_.blocks.empty()))
-    mass_->solveNear(impacts_.a, impacts_.blocks, negligible);
+    mass_->solveNear(impacts_.a, impacts_.blocks, Tuned::rounding);
 }
 
 void AlphaStep::keep() {

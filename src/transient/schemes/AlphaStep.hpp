@@ -17,7 +17,7 @@ namespace tooljoint::transient {
 class AlphaStep {
  public:
   struct Parameters {
-    double radius = 0.8;  ///< spectral radius at infinite frequency
+    double radius = 1.0;  ///< spectral radius at infinite frequency
     bool phaseCorrection = true;
     ImplicitStep::Options equations;
   };

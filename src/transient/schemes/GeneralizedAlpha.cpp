@@ -48,6 +48,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "transient/Integrator.hpp"
+#include "transient/Tuned.hpp"
 #include "transient/accuracy/NumericalDamping.hpp"
 #include "transient/accuracy/StepControl.hpp"
 #include "transient/accuracy/StepGrid.hpp"
@@ -58,7 +59,7 @@
 namespace tooljoint::transient {
 namespace {
 
-constexpr double defaultTolerance = 1e-5;
+constexpr double defaultTolerance = 1e-5, defaultRadius = 0.8;
 
 std::vector<std::string> strategyTitles() {
   std::vector<std::string> titles;
@@ -77,7 +78,7 @@ StrategySet leftOut(const Teuchos::ParameterList& own) {
 
 deck::ListSpec specification() {
   return deck::ListSpec("Generalized-alpha", "Parameters of the generalized-alpha integrator.")
-      .real("Spectral Radius", "", 0.8, deck::Range::between(0.0, 1.0),
+      .real("Spectral Radius", "", defaultRadius, deck::Range::between(0.0, 1.0),
             "Spectral radius at infinite frequency: 1 keeps all frequencies, 0 removes those above "
             "the step in one step.")
       .real("Tolerance", "", defaultTolerance, deck::Range::positive(),
@@ -214,7 +215,7 @@ void GeneralizedAlpha::bind(CompiledModel& model, const Window& window, double t
       resolveImpacts_ && !controlled_ && !model.points().empty() && scheme_->mass().regular();
   grid_.set(window, step,
             controlled_       ? deepestLevel(step)
-            : resolveImpacts_ ? ImpactResolution::mostHalvings
+            : resolveImpacts_ ? Tuned::mostHalvings
                               : maxHalvings_);
   if (controlled_) control_.set(stepTolerance_, grid_.deepest());
   length_.bind(model);
@@ -253,9 +254,10 @@ void GeneralizedAlpha::checkParameters(double step) const {
 
 /// Halvings of the longest step that leave it no shorter than allowed.
 int GeneralizedAlpha::deepestLevel(double longest) const {
-  constexpr int usual = 10, most = 30;
-  if (!(smallest_ > 0)) return usual;
-  return std::clamp(static_cast<int>(std::floor(std::log2(longest / smallest_) + 1e-9)), 0, most);
+  constexpr int defaultDeepest = 10, deepestOfAll = 30;
+  if (!(smallest_ > 0)) return defaultDeepest;
+  return std::clamp(static_cast<int>(std::floor(std::log2(longest / smallest_) + Tuned::rounding)),
+                    0, deepestOfAll);
 }
 
 void GeneralizedAlpha::advance(const State& from, State& to) {
@@ -299,7 +301,7 @@ bool GeneralizedAlpha::resolvesImpacts(const State& from, const State& to, doubl
   const int missing = resolveImpacts_ ? impacts_.halvings(from, to, h) : 0;
   if (missing == 0) return true;
   if (grid_.level() + missing > grid_.deepest()) giveUpImpacts(from, std::ldexp(h, -missing));
-  grid_.setLevel(grid_.level() + std::min(missing, ImpactResolution::atATime));
+  grid_.setLevel(grid_.level() + std::min(missing, Tuned::atATime));
   return false;
 }
 
@@ -348,7 +350,7 @@ void GeneralizedAlpha::giveUpAccuracy(const State& from, double h) {
 void GeneralizedAlpha::giveUpImpacts(const State& from, double h) const {
   std::ostringstream text;
   text << "An impact at t = " << from.t << " s needs steps of " << h << " s, "
-       << "shorter than Transient/Step / 2^" << ImpactResolution::mostHalvings
+       << "shorter than Transient/Step / 2^" << Tuned::mostHalvings
        << ". Reduce Transient/Step or the stiffness of the wall.";
   throw ConvergenceError(text.str());
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The nonlinear equations of one implicit step. From the q, a of a step that would end at rest,
+/// The nonlinear equations of one implicit step. From the q, a of a step that
+/// would end at rest,
 ///
-///     M (a + ca delta) + cv C delta + K (q + delta) = F + R' f(q + delta, cv delta, t)
+///     M (a + ca delta) + cv C delta + K (q + delta) = F + R' f(q + delta, cv
+///     delta, t)
 ///
-/// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme asks for it, see
-/// AlphaStep::setPhaseCorrection) is solved for delta = v / cv, first by relaxation of the point
-/// forces with the effective matrix S = ca M + cv C + K - R'PR factored once
-/// (ContactForceIteration), and where that is slow by modified Newton with exact tangents: the
-/// factor is renewed, each update backtracked on the residual scaled by the diagonal of S, points
-/// whose force jumps are solved by themselves (CoupledPointSolve), and a jump along the search
-/// direction is bracketed.
+/// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme
+/// asks for it, see AlphaStep::setPhaseCorrection) is solved for delta = v /
+/// cv, first by relaxation of the point forces with the effective matrix S = ca
+/// M + cv C + K - R'PR factored once (ContactForceIteration), and where that is
+/// slow by modified Newton with exact tangents: the factor is renewed, each
+/// update backtracked on the residual scaled by the diagonal of S, and points
+/// whose force jumps are solved by themselves (CoupledPointSolve).
 #pragma once
 
 #include <algorithm>
@@ -18,45 +20,37 @@
 #include <string>
 #include <vector>
 
-#include "linalg/blocks/BlockFactor.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/compiled/CompiledModel.hpp"
 #include "transient/contact/ContactForceIteration.hpp"
 #include "transient/contact/CoupledPointSolve.hpp"
+#include "transient/schemes/EffectiveMatrix.hpp"
+#include "transient/schemes/PhaseCorrection.hpp"
 
 namespace tooljoint::transient {
-
-/// Derivatives of a scheme's velocity and acceleration with respect to its displacement over a step
-/// of length h.
-struct StepScheme {
-  double h = 0;
-  double velocity = 0;      ///< cv
-  double acceleration = 0;  ///< ca
-  double filter = 0;        ///< s and
-  double phase = 0;         ///< k of the phase correction, 0 for none
-  double impact =
-      1;  ///< what forces of impacts (ContactForceIteration::setImpacts) are multiplied by
-};
 
 class ImplicitStep {
  public:
   struct Options {
-    double tolerance = 1e-8;  ///< on max |w R| over the largest scaled force
+    double tolerance = 0;  ///< on max |w R| over the largest scaled force
     int maxIterations = 25;
     StrategySet without;  ///< strategies not to use
   };
 
   void bind(CompiledModel& model, const Options& options);
 
-  /// What depends on the scheme alone; solve() calls it when it has another one.
+  /// What depends on the scheme alone; solve() calls it when it has another
+  /// one.
   void prepare(const StepScheme& scheme, double t);
-  /// Completes `to`, which has q and a as they are where v = 0, and the predicted v; false when
-  /// nothing converged (`to` then holds the last iterate).
+  /// Completes `to`, which has q and a as they are where v = 0, and the
+  /// predicted v; false when nothing converged (`to` then holds the last
+  /// iterate).
   bool solve(State& to, const StepScheme& scheme, Counters& counters);
 
   /// Whether the iterate left by a failed solve() is made of numbers.
   bool isFinite() const { return std::isfinite(merit_); }
-  /// max |w R| over the largest scaled force, and where, at the end of the last solve().
+  /// max |w R| over the largest scaled force, and where, at the end of the last
+  /// solve().
   double relativeError() const;
   std::string worstName() const;
 
@@ -80,10 +74,7 @@ class ImplicitStep {
     return options_.tolerance * std::min(reference_, mostForce_) + floor_;
   }
   void refactor(const State& to);
-  void buildFactor();
-  bool drifted() const { return factorStamp_ != model_->matrixStamp(); }
-  void addDrift(const Vector& delta, Vector& y);
-  double driftNorm() const;
+  void finishFactor();
   void guess(const State& to, double norm);
   double relaxOnce(const State& to, bool near, double norm);
   bool begin(const State& to, double norm);
@@ -92,26 +83,18 @@ class ImplicitStep {
   const Vector* otherForces(double norm);
   bool backtrack(State& to);
   bool solveTroubledPoints(State& to, double before);
-  bool bracket(State& to, double beyond);
   void place(State& to, double fraction);
   void findChange();
-  bool correctsPhase() const;
-  void correctPhase(const State& to);
 
   CompiledModel* model_ = nullptr;
   Options options_;
   StepScheme scheme_;
   Counters* counters_ = nullptr;
 
-  linalg::BlockFactor factor_;
-  bool factored_ = false;
-  StepScheme factorScheme_;  ///< scheme, time and matrix stamp the factor belongs to
-  double factorTime_ = 0;
-  double scaleTime_ = 0;  ///< of the scale of the rows
-  long factorStamp_ = -1;
-  std::vector<double> factorLaws_;  ///< law values at that time
-  bool fresh_ = false;              ///< the tangent in the factor is that of the current iterate
-  bool wanted_ = false;             ///< convergence was slow: factor anew
+  EffectiveMatrix matrix_;
+  bool fresh_ = false;   ///< the tangent in the factor is that of the current iterate
+  bool wanted_ = false;  ///< convergence was slow: factor anew
+  PhaseCorrection phase_;
 
   Strategies strategies_;
   ContactForceIteration relaxation_;
@@ -119,13 +102,9 @@ class ImplicitStep {
   bool compliant_ = false;  ///< its compliance belongs to the factor
   double usual_ = 0;        ///< relaxations of the first step with this factor
   double debt_ = 0;         ///< relaxations beyond that since
-  Vector guess_, drift_;    ///< where iterations began, and what the changes of the laws make of it
+  Vector guess_, drift_;    ///< where iterations began, and what the changes of
+                            ///< the laws make of it
   State predicted_;         ///< to go back to
-  bool corrected_ = false;  ///< correction_ belongs to this step
-
-  linalg::BlockFactor filter_;  ///< s ca M + K - R' df/dd R
-  Vector correction_;           ///< k M (I - F) q'' at the iterate
-  Vector filtered_, acceleration_;
 
   Vector linear_, residual_, delta_, change_;
   CoupledPointSolve nodal_;
@@ -133,12 +112,12 @@ class ImplicitStep {
   Vector base_, saved_, savedChange_;
   Vector q0_, v0_, a0_, linear0_;  ///< iterate to go back to in the line search
   Vector weight_, rowSize_, scratch_;
-  Vector atCut_;    ///< forces at the cut of a model that is divided among ranks
-  Vector inertia_;  ///< w_i M_ii
-  std::vector<double> dampingNorms_, stiffnessNorms_;  ///< max_i w_i sum_j |A_ij| per term
-  double error_ = 0;                                   ///< max |w R|
-  double merit_ = 0;                                   ///< |w R|_2
-  double reference_ = 0;                               ///< largest scaled force of this step
+  Vector atCut_;          ///< forces at the cut of a model that is divided among ranks
+  Vector inertia_;        ///< w_i M_ii
+  double scaleTime_ = 0;  ///< of the scale of the rows
+  double error_ = 0;      ///< max |w R|
+  double merit_ = 0;      ///< |w R|_2
+  double reference_ = 0;  ///< largest scaled force of this step
   double mostForce_ = 0;  ///< what forces of this step are believed to reach
   double linearReference_ = 0;
   double floor_ = 0;  ///< rounding of K q, scaled alike

@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The slow and safe way through an implicit step: modified Newton with line search.
+// The slow and safe way through an implicit step: modified Newton with line
+// search.
 #include <algorithm>
 #include <cmath>
 
+#include "transient/Tuned.hpp"
 #include "transient/schemes/ImplicitStep.hpp"
 
 namespace tooljoint::transient {
-namespace {
-
-/// A residual that shrinks by less than this factor in an iteration asks for a new factorisation
-/// ...
-constexpr double slowestRate = 0.5;
-/// ... and so does one that would need more iterations than this to converge: a factorisation costs
-/// about as much.
-constexpr double patience = 5;
-/// Iterations in a row that hardly change the residual before the step is given up, and times in a
-/// step that points are solved by themselves.
-constexpr int maxStalled = 3;
-constexpr int maxRescues = 5;
-
-}  // namespace
-
 /// Residual and its scaled size at the iterate.
 double ImplicitStep::measure(const State& to) {
   scratch_.setZero();
@@ -54,43 +41,42 @@ double ImplicitStep::measure(const State& to) {
 
 /// Whether a new factor is cheaper than going on at this rate of convergence.
 bool ImplicitStep::isSlow(double rate) const {
-  if (rate >= slowestRate) return true;
+  if (rate >= Tuned::slowestRate) return true;
   const double left = error_ / tolerance();
-  return left > 1 && std::log(left) > -std::log(rate) * patience;
+  return left > 1 && std::log(left) > -std::log(rate) * Tuned::patience;
 }
 
-/// change_ = (c0 M + c1 C + K) delta for the solution of S delta = -R + force: -R + force + R'P R
-/// delta, corrected by what the laws have changed in C and K since S was built.
+/// change_ = (c0 M + c1 C + K) delta for the solution of S delta = -R + force:
+/// -R + force + R'P R delta, corrected by what the laws have changed in C and K
+/// since S was built.
 void ImplicitStep::findChange() {
   change_ -= residual_;
   for (const auto& batch : model_->points()) batch.addTangentTimes(delta_.data(), change_.data());
-  if (drifted()) addDrift(delta_, change_);
+  if (matrix_.hasDrifted()) matrix_.addDrift(scheme_, delta_, change_);
 }
 
-/// Take the step delta_, halving it until the scaled residual falls. False when it does not.
+/// Take the step delta_, halving it until the scaled residual falls. False when
+/// it does not.
 bool ImplicitStep::backtrack(State& to) {
   change_.setZero();
   findChange();
   q0_ = to.q, v0_ = to.v, a0_ = to.a, linear0_ = linear_;
   const double before = merit_;
   double fraction = 1;
-  double beyond = 0;  // a fraction at which the residual along delta has changed sign
-  for (int cut = 0; cut < (fresh_ ? 5 : 3); ++cut, fraction *= 0.5) {
+  for (int cut = 0; cut < Tuned::mostTries; ++cut, fraction *= 0.5) {
     place(to, fraction);
-    if (converged() || merit_ <= (1 - 0.1 * fraction) * before) return true;
-    if (model_->dot(delta_, residual_) > 0) beyond = fraction;
+    if (converged() || merit_ <= (1 - Tuned::decrease * fraction) * before) return true;
   }
   // the points of one rank alone know nothing of those of others
-  if (fresh_ && !model_->cut().isDivided() && rescues_++ < maxRescues &&
+  if (fresh_ && !model_->cut().isDivided() && rescues_++ < Tuned::patience &&
       strategies_.use(Strategy::TroubledPoints) && solveTroubledPoints(to, before))
     return true;
-  if (fresh_ && beyond > 0 && strategies_.use(Strategy::Bracketing)) return bracket(to, beyond);
   place(to, 0);
   return false;
 }
 
-/// The points that spoil the Newton step are solved as what they are. False, with the iterate and
-/// its step restored, when that does not help.
+/// The points that spoil the Newton step are solved as what they are. False,
+/// with the iterate and its step restored, when that does not help.
 bool ImplicitStep::solveTroubledPoints(State& to, double before) {
   saved_ = delta_, savedChange_ = change_;
   place(to, 0);
@@ -98,40 +84,29 @@ bool ImplicitStep::solveTroubledPoints(State& to, double before) {
   nodal_.begin();
   place(to, 1);
   bool good = false;
-  for (int attempt = 0; attempt < 4 && !good && nodal_.addTroubled(delta_.data(), weight_.data());
+  for (int attempt = 0;
+       attempt < Tuned::patience && !good && nodal_.addTroubled(delta_.data(), weight_.data());
        ++attempt) {
-    buildFactor();
+    matrix_.rebuild();
+    finishFactor();
     ++counters_->factorisations;
-    if (!factored_ || !nodal_.solve(to.t, scheme_.velocity, factor_, base_, delta_, change_)) break;
+    if (!matrix_.isFactored() ||
+        !nodal_.solve(to.t, scheme_.velocity, matrix_.factor(), base_, delta_, change_))
+      break;
     ++counters_->newtonIterations;
     residual_ = base_;
     findChange();
     place(to, 1);
-    good = converged() || merit_ <= 0.9 * before;
+    good = converged() || merit_ <= Tuned::progress * before;
   }
   wanted_ = true;  // the factor lacks tangents now
-  factored_ = false;
+  matrix_.spoil();
   if (!good) delta_ = saved_, change_ = savedChange_;
   return good;
 }
 
-/// Contact that switches within the step, or friction that reverses, is a jump of the residual that
-/// no decrease of its norm can find: search for the sign change of delta . R between 0 and `beyond`
-/// by bisection. The law is continuous, so there is a root, and at the root the tangent knows the
-/// steep branch.
-bool ImplicitStep::bracket(State& to, double beyond) {
-  double low = 0;
-  double high = beyond;
-  for (int i = 0; i < 60 && high - low > 1e-15 * beyond; ++i) {
-    const double middle = 0.5 * (low + high);
-    place(to, middle);
-    if (converged()) return true;
-    (model_->dot(delta_, residual_) > 0 ? high : low) = middle;
-  }
-  return std::isfinite(merit_);
-}
-
-/// The iterate at a fraction of delta from where the line search began, measured.
+/// The iterate at a fraction of delta from where the line search began,
+/// measured.
 void ImplicitStep::place(State& to, double fraction) {
   to.q = q0_ + fraction * delta_;
   to.v = v0_ + fraction * scheme_.velocity * delta_;
@@ -155,12 +130,12 @@ bool ImplicitStep::iterate(State& to) {
       if (converged()) return true;
     }
     if (!std::isfinite(merit_) || iteration >= options_.maxIterations) return false;
-    if (!factored_ || factorScheme_.h != scheme_.h || (wanted_ && !fresh_)) {
+    if (!matrix_.isOf(scheme_) || (wanted_ && !fresh_)) {
       refactor(to);
-      if (!factored_) return false;
+      if (!matrix_.isFactored()) return false;
     }
     delta_ = -residual_;
-    factor_.solve(delta_.data());
+    matrix_.factor().solve(delta_.data());
     ++counters_->newtonIterations;
     const double before = merit_;
     const bool accepted = backtrack(to);
@@ -169,8 +144,8 @@ bool ImplicitStep::iterate(State& to) {
       wanted_ = true;
       continue;
     }
-    stalled = merit_ > 0.99 * before ? stalled + 1 : 0;
-    if (stalled == maxStalled) return false;
+    stalled = merit_ > Tuned::progress * before ? stalled + 1 : 0;
+    if (stalled > Tuned::mostIdle) return false;
     wanted_ = wanted_ || isSlow(merit_ / before);
     fresh_ = false;
   }

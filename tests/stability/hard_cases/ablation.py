@@ -26,7 +26,7 @@ from scenes import HELICAL, LYING, STRESS, alpha, parts_deck, times
 
 OWN = "Transient/Generalized-alpha/"
 STRATEGIES = {name: {OWN + "Leave Out": [name]} for name in
-              ("Relaxation", "Near Solves", "Points Alone", "Point Paths", "Turns", "Resting Impacts", "Newton", "Troubled Points", "Bracketing")}
+              ("Relaxation", "Near Solves", "Points Alone", "Point Paths", "Turns", "Resting Impacts", "Newton", "Troubled Points")}
 STRATEGIES |= {"Halving": {OWN + "Max Halvings": 0}, "Impacts resolved": {OWN + "Resolve Impacts": False}, "Phase correction": {OWN + "Phase Correction": False}}
 WINS = 0.05  # of the time, below which a strategy does not earn its place
 SAME, NOISE = 0.01, 3.0  # vibration error that counts as the same motion, and how often that of a run with half the tolerance
@@ -95,6 +95,7 @@ def cases(program, short):
         Case("sharp friction, stress_170m, 2 rpm, reduced", STRESS, {**sharp, **friction(1e-5, 2)}, ()),
         Case("sharp friction, helical_170m, 1 rpm", HELICAL, {**sharp, **times(0.6, 0.005), **friction(3e-5, 1)}),
         Case("sharp friction, helical_170m, 0.2 rpm", HELICAL, {**sharp, **times(0.6, 0.005), **friction(1e-5, 0.2)}),
+        Case("sharp friction, helical_170m, 2 rpm", HELICAL, {**sharp, **friction(3e-5, 2)}),
         Case("walls of 1e8 N/m, stress_170m", STRESS, {**alpha(1e-3), **times(0.3, 0.0025), **walls(1e8)}),
         Case("walls of 3e9 N/m, stress_170m", STRESS, {**alpha(1e-3), **times(0.15, 0.0025), **walls(3e9)}),
         Case("walls of 3e9 N/m, stress_170m, reduced", STRESS, {**alpha(1e-3, 0.2), **times(0.15, 0.0025), **walls(3e9)}, ()),
@@ -119,7 +120,7 @@ def end(case):
 def used(one, strategy):
     """Uses of a strategy in a run, infinite for those that are not counted."""
     if strategy in ("Impacts resolved", "Halving"):
-        return one.motion.get("rejected" if strategy == "Impacts resolved" else "halved", 0)
+        return one.motion.get("rejected" if strategy == "Impacts resolved" else "halved") or 0  # a refused run has none
     return (one.motion.get("strategies") or {}).get(strategy.lower().replace(" ", "_"), math.inf)
 
 
