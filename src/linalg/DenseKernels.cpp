@@ -41,6 +41,12 @@ void addProduct(double factor, const Matrix& A, const Matrix& B, Matrix& C) {
                 A.data(), rowsOf(A), B.data(), rowsOf(B), 1.0, C.data(), rowsOf(C));
 }
 
+void addTransposedProduct(const Matrix& A, const Matrix& B, Matrix& C) {
+  if (C.size() > 0 && A.cols() > 0)
+    Blas().GEMM(Teuchos::NO_TRANS, Teuchos::TRANS, rowsOf(A), rowsOf(B), columnsOf(A), 1.0,
+                A.data(), rowsOf(A), B.data(), rowsOf(B), 1.0, C.data(), rowsOf(C));
+}
+
 void subtractSquare(const Matrix& Y, Matrix& C) {
   if (C.size() == 0) return;
   if (Y.rows() > 0)

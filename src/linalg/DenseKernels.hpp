@@ -11,6 +11,8 @@ namespace tooljoint::linalg {
 Matrix transposedTimes(const Matrix& A, const Matrix& B);
 /// C += factor A B.
 void addProduct(double factor, const Matrix& A, const Matrix& B, Matrix& C);
+/// C += A B'.
+void addTransposedProduct(const Matrix& A, const Matrix& B, Matrix& C);
 /// C -= Y' Y, both triangles.
 void subtractSquare(const Matrix& Y, Matrix& C);
 

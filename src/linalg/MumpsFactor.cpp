@@ -57,10 +57,8 @@ struct MumpsFactor::Impl {
   DMUMPS_STRUC_C id{};
   bool open = false, factored = false;
   Symmetry symmetry = Symmetry::None;
-  std::vector<int> outer, inner;  ///< pattern that was analysed
-  std::vector<int> rows, columns;
-  std::vector<double> values;
-  std::optional<long> memory;  ///< [MB] given, instead of what is free
+  std::vector<int> rows, columns;  ///< of the entries that were analysed, counted from 1
+  std::optional<long> memory;      ///< [MB] given, instead of what is free
 
   ~Impl() { close(); }
 
@@ -95,27 +93,40 @@ struct MumpsFactor::Impl {
     control(27) = blockOfColumns;
   }
 
-  bool samePattern(const Sparse& A) const {
-    return at(A.outerSize()) + 1 == outer.size() && at(A.nonZeros()) == inner.size() &&
-           std::equal(outer.begin(), outer.end(), A.outerIndexPtr()) &&
-           std::equal(inner.begin(), inner.end(), A.innerIndexPtr());
+  /// visit(row, column, value) of the entries that MUMPS reads: of a symmetric A those of its lower
+  /// triangle.
+  template <class Visit>
+  void forEachRead(const Sparse& A, const Visit& visit) const {
+    const bool half = symmetry != Symmetry::None;
+    forEachEntry(A, [&](int row, int column, double value) {
+      if (!half || column <= row) visit(row, column, value);
+    });
   }
 
-  /// Entries of A, of its lower triangle where it is symmetric, counted from 1.
-  void take(const Sparse& A) {
-    const bool half = symmetry != Symmetry::None;
-    rows.clear(), columns.clear(), values.clear();
-    forEachEntry(A, [&](int row, int column, double value) {
-      if (half && column > row) return;
+  bool samePattern(const Sparse& A) const {
+    if (id.n != A.rows()) return false;
+    std::size_t k = 0;
+    bool same = true;
+    forEachRead(A, [&](int row, int column, double) {
+      same = same && k < rows.size() && rows[k] == row + 1 && columns[k] == column + 1;
+      ++k;
+    });
+    return same && k == rows.size();
+  }
+
+  void takePattern(const Sparse& A) {
+    std::size_t count = 0;
+    forEachRead(A, [&](int, int, double) { ++count; });
+    rows.clear(), columns.clear();
+    rows.reserve(count), columns.reserve(count);
+    forEachRead(A, [&](int row, int column, double) {
       rows.push_back(row + 1);
       columns.push_back(column + 1);
-      values.push_back(value);
     });
     id.n = static_cast<MUMPS_INT>(A.rows());
     id.nnz = static_cast<MUMPS_INT8>(rows.size());
     id.irn = rows.data();
     id.jcn = columns.data();
-    id.a = values.data();
   }
 
   [[noreturn]] void fail() const {
@@ -126,13 +137,26 @@ struct MumpsFactor::Impl {
   }
 
   void analysePattern(const Sparse& A) {
+    takePattern(A);
     call(analyse);
     if (status() < 0) fail();
-    outer.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.outerSize() + 1);
-    inner.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
     const long needed = info(16);  // INFOG(16): MB of the factorisation
     const auto most = available();
     if (most && needed > *most) refuseMemory(A.rows(), needed, most);
+  }
+
+  /// With room for pivots that the analysis did not foresee. MUMPS does not read the entries again.
+  void decomposeEntries(const Sparse& A) {
+    std::vector<double> values;
+    values.reserve(rows.size());
+    forEachRead(A, [&](int, int, double value) { values.push_back(value); });
+    id.a = values.data();
+    call(decompose);
+    while ((status() == noRoom || status() == realRoom) && control(14) < mostRoom) {
+      control(14) *= 2;
+      call(decompose);
+    }
+    id.a = nullptr;
   }
 };
 
@@ -148,13 +172,8 @@ bool MumpsFactor::factor(const Sparse& A, Symmetry symmetry) {
   const bool known = m.open && m.symmetry == symmetry && m.samePattern(A);
   if (!known) m.start(symmetry);
   m.factored = false;
-  m.take(A);
   if (!known) m.analysePattern(A);
-  m.call(decompose);
-  while ((m.status() == noRoom || m.status() == realRoom) && m.control(14) < mostRoom) {
-    m.control(14) *= 2;
-    m.call(decompose);
-  }
+  m.decomposeEntries(A);
   if (m.status() == singular || m.status() == notDefinite) return false;
   if (m.status() < 0) m.fail();
   if (symmetry == Symmetry::Definite && m.info(12) > 0) return false;  // negative pivots
@@ -189,19 +208,29 @@ bool suitsMumps(const Sparse& A) {
 }
 
 bool isDefinite(const Sparse& A, double tolerance) {
-  Sparse lowered = A;
+  Sparse lowered = withoutZeros(A);  // masses often couple each direction with itself alone
   for (int i = 0; i < A.rows(); ++i) lowered.coeffRef(i, i) *= 1.0 - tolerance;
   return MumpsFactor().factor(lowered, MumpsFactor::Symmetry::Definite);
 }
 
 bool isExactlySymmetric(const Sparse& A) {
-  const Sparse transpose = A.transpose();
-  return A.nonZeros() == transpose.nonZeros() &&
-         std::equal(A.outerIndexPtr(), A.outerIndexPtr() + A.outerSize() + 1,
-                    transpose.outerIndexPtr()) &&
-         std::equal(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros(),
-                    transpose.innerIndexPtr()) &&
-         std::equal(A.valuePtr(), A.valuePtr() + A.nonZeros(), transpose.valuePtr());
+  if (A.rows() != A.cols() || !A.isCompressed()) return false;
+  const int *begin = A.outerIndexPtr(), *column = A.innerIndexPtr();
+  const double* value = A.valuePtr();
+  // Entries (i, j) with j < i, row by row, are those right of the diagonal of row j in turn.
+  std::vector<int> next(begin, begin + A.rows());
+  for (int i = 0; i < A.rows(); ++i) {
+    int k = begin[i];
+    for (; k < begin[i + 1] && column[k] < i; ++k) {
+      const int j = column[k], mirrored = next[at(j)]++;
+      if (mirrored == begin[j + 1] || column[mirrored] != i || value[mirrored] != value[k])
+        return false;
+    }
+    next[at(i)] = k < begin[i + 1] && column[k] == i ? k + 1 : k;
+  }
+  for (int i = 0; i < A.rows(); ++i)
+    if (next[at(i)] != begin[i + 1]) return false;
+  return true;
 }
 
 }  // namespace tooljoint::linalg

@@ -13,6 +13,7 @@
 #include "linalg/Deterministic.hpp"
 #include "linalg/MumpsFactor.hpp"
 #include "linalg/Scientific.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "linalg/blocks/ChainFactor.hpp"
 #include "linalg/trilinos/TpetraConversion.hpp"
 
@@ -111,10 +112,9 @@ class Klu2 {
 /// where that is not enough.
 class Factors {
  public:
-  /// False when a pivot is exactly zero.
-  bool factor(const Sparse& A) {
-    if (!samePattern(pattern_, A)) {
-      pattern_ = A;
+  /// False when a pivot is exactly zero. \param newPattern it is not that of the matrix before
+  bool factor(const Sparse& A, bool newPattern) {
+    if (newPattern) {
       chain_ = A.rows() >= longChain && ChainFactor::isChain(A) ? ChainFactor(A) : ChainFactor();
     }
     byBlocks_ = !chain_.empty() && chain_.factor(A);
@@ -146,7 +146,6 @@ class Factors {
   }
 
  private:
-  Sparse pattern_;
   ChainFactor chain_;
   Klu2 sparse_;
   MumpsFactor filled_;
@@ -210,30 +209,6 @@ WeakMotion weakestMotion(const Sparse& A, const Factors& factors, const Equilibr
 
 }  // namespace
 
-double backwardError(const Sparse& A, const Matrix& X, const Matrix& B) {
-  double worst = 0.0;
-  for (Eigen::Index j = 0; j < X.cols(); ++j) {
-    const double xMax = X.rows() > 0 ? X.col(j).cwiseAbs().maxCoeff() : 0.0;
-    for (int row = 0; row < A.rows(); ++row) {
-      // r_i = b_i - sum_k a_ik x_k,  d_i = |b_i| + sum_k |a_ik||x_k|
-      double r = B(row, j), d = std::abs(B(row, j)), rowSum = 0.0;
-      for (Sparse::InnerIterator it(A, row); it; ++it) {
-        const double product = it.value() * X(it.col(), j);
-        r -= product;
-        d += std::abs(product);
-        rowSum += std::abs(it.value());
-      }
-      // A row whose products all nearly vanish is measured against |a_i| |x|_max instead.
-      const double floor = 1000.0 * static_cast<double>(A.rows()) *
-                           std::numeric_limits<double>::epsilon() * rowSum * xMax;
-      if (d <= floor) d += rowSum * xMax;
-      if (!std::isfinite(r)) return std::numeric_limits<double>::infinity();
-      if (r != 0.0) worst = std::max(worst, std::abs(r) / d);
-    }
-  }
-  return worst;
-}
-
 struct DirectSolver::Impl {
   DofNamer name;
   DirectSolverOptions options;
@@ -246,10 +221,11 @@ struct DirectSolver::Impl {
     requireSquareAndFinite(A, name);
     count("factorisations");
     transposed.reset();
+    const bool newPattern = !samePattern(matrix, A);
     matrix = A;
     matrix.makeCompressed();
     if (matrix.rows() == 0) return;
-    if (!factors.factor(matrix)) explainZeroPivot(matrix, name);
+    if (!factors.factor(matrix, newPattern)) explainZeroPivot(matrix, name);
     if (!checkSingular) return;
     const WeakMotion weak = weakestMotion(matrix, factors, Equilibration(matrix), 2);
     if (!(weak.resistance > options.singularTolerance))
@@ -260,16 +236,18 @@ struct DirectSolver::Impl {
   /// x and the backward error that iterative refinement leaves.
   Matrix refined(const Matrix& b) {
     Matrix x = factors.solve(b);
-    residual = backwardError(matrix, x, b);
+    Residual left = residualOf(matrix, x, b);
+    residual = left.backwardError;
     // x <- x + A^-1 (b - A x) while it helps
     constexpr double enough = 4.0 * std::numeric_limits<double>::epsilon();
     for (int k = 0; k < options.refinements && residual > enough && std::isfinite(residual); ++k) {
-      const Matrix better = x + factors.solve(b - matrix * x);
-      const double after = backwardError(matrix, better, b);
-      if (!(after < residual)) break;
+      const Matrix better = x + factors.solve(left.values);
+      Residual after = residualOf(matrix, better, b);
+      if (!(after.backwardError < residual)) break;
       x = better;
-      const bool worthwhile = after < 0.5 * residual;
-      residual = after;
+      const bool worthwhile = after.backwardError < 0.5 * residual;
+      residual = after.backwardError;
+      left = std::move(after);
       if (!worthwhile) break;
     }
     return x;

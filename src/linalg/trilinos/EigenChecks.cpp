@@ -10,10 +10,12 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/MumpsFactor.hpp"
 #include "linalg/Scientific.hpp"
+#include "linalg/SparseProducts.hpp"
 
 namespace tooljoint::linalg {
 
@@ -76,13 +78,16 @@ Sparse congruent(const Sparse& A, std::uint64_t seed) {
 }
 
 /// D A D with rows of order one.
-Sparse equilibrated(const Sparse& A) {
+Sparse equilibrated(Sparse A) {
   Vector d = Vector::Zero(A.rows());
   for (int row = 0; row < A.rows(); ++row)
     for (Sparse::InnerIterator it(A, row); it; ++it)
       d[row] = std::max(d[row], std::abs(it.value()));
   d = d.unaryExpr([](double size) { return size > 0.0 ? 1.0 / std::sqrt(size) : 1.0; });
-  return d.asDiagonal() * A * d.asDiagonal();
+  for (int row = 0; row < A.rows(); ++row)
+    for (Sparse::InnerIterator it(A, row); it; ++it)
+      it.valueRef() = d[row] * it.value() * d[it.col()];
+  return A;
 }
 
 }  // namespace
@@ -110,6 +115,13 @@ Sparse symmetricPart(const Sparse& A, const std::string& what, const DofNamer& n
                          nameOf(name, row) + " and " + nameOf(name, static_cast<int>(it.col())) +
                          ": give its symmetric part.");
   return 0.5 * (A + transpose);
+}
+
+std::shared_ptr<const Sparse> sharedSymmetricPart(const Sparse& A, const std::string& what,
+                                                  const DofNamer& name) {
+  const bool finite = A.isCompressed() && A.coeffs().allFinite();
+  if (finite && isExactlySymmetric(A)) return {std::shared_ptr<const Sparse>(), &A};
+  return std::make_shared<const Sparse>(symmetricPart(A, what, name));
 }
 
 void requirePositiveDefinite(const Sparse& M, const DofNamer& name) {
@@ -144,12 +156,14 @@ void applyConventions(EigenPairs& modes, const Sparse& M) {
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return modes.values[a] < modes.values[b]; });
+  const Vector masses =
+      modes.vectors.cwiseProduct(product(M, modes.vectors)).colwise().sum().transpose();
   EigenPairs sorted = modes;
   for (std::size_t j = 0; j < order.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
     sorted.values[column] = modes.values[order[j]];
     Vector phi = modes.vectors.col(order[j]);
-    phi /= std::sqrt(phi.dot(M * phi));
+    phi /= std::sqrt(masses[order[j]]);
     if (phi[largestEntry(phi)] < 0.0) phi = -phi;
     sorted.vectors.col(column) = phi;
   }
@@ -190,9 +204,10 @@ bool isRounding(double value, const Vector& phi, const Sparse& K) {
 }
 
 std::vector<char> areRounding(const Vector& values, const Matrix& shapes, const Sparse& K) {
-  const Matrix size = shapes.cwiseAbs();
+  // |phi|'|K||phi|
   const Vector bound =
-      roundingOf(K) * size.cwiseProduct(Matrix(K.cwiseAbs() * size)).colwise().sum().transpose();
+      roundingOf(K) *
+      shapes.cwiseAbs().cwiseProduct(absoluteProduct(K, shapes)).colwise().sum().transpose();
   std::vector<char> small(static_cast<std::size_t>(values.size()));
   for (Eigen::Index j = 0; j < values.size(); ++j)
     small[static_cast<std::size_t>(j)] = std::abs(values[j]) <= bound[j];
@@ -203,17 +218,18 @@ void recomputeErrors(EigenPairs& modes, const Sparse& K, const Sparse& M, double
                      double orthogonality) {
   // |D (K - lambda M) phi| against |D| (|K| + |lambda| |M|) |phi| with D = diag(M)^(-1/2)
   const Vector d = unitMassScale(K, M);
-  const Matrix MPhi = M * modes.vectors;
-  const Matrix R = d.asDiagonal() * (K * modes.vectors - MPhi * modes.values.asDiagonal());
-  const Matrix size = modes.vectors.cwiseAbs();
-  const Sparse absK = d.asDiagonal() * K.cwiseAbs(), absM = d.asDiagonal() * M.cwiseAbs();
-  const Matrix KSize = absK * size, MSize = absM * size,
-               dSize = d.cwiseInverse().asDiagonal() * size;
+  const Matrix MPhi = product(M, modes.vectors);
+  const Matrix R = d.asDiagonal() * (product(K, modes.vectors) - MPhi * modes.values.asDiagonal());
+  const Matrix KSize = d.asDiagonal() * absoluteProduct(K, modes.vectors),
+               MSize = d.asDiagonal() * absoluteProduct(M, modes.vectors),
+               dSize = d.cwiseInverse().asDiagonal() * modes.vectors.cwiseAbs();
+  double largest = 0.0;
+  forEachEntry(K, [&](int i, int j, double value) {
+    largest = std::max(largest, d[i] * std::abs(value) * d[j]);
+  });
   // Rounding of the largest stiffness reaches modes that do not feel it: a free coordinate of a
   // diagonal K has |K||phi| = 0.
-  const double rounding =
-      64.0 * epsilon / tolerance *
-      (K.nonZeros() == 0 ? 0.0 : Sparse(absK * d.asDiagonal()).coeffs().maxCoeff());
+  const double rounding = 64.0 * epsilon / tolerance * largest;
   modes.residuals.resize(modes.values.size());
   for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
     const double defect = R.col(j).norm();  // nothing at all where there is no stiffness

@@ -4,6 +4,7 @@
 /// result.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace tooljoint::linalg {
 /// (A + A')/2. ModelError naming the dofs where |a_ij - a_ji| > 1e-9 of the size of their rows, or
 /// an entry is not finite.
 Sparse symmetricPart(const Sparse& A, const std::string& what, const DofNamer& name);
+
+/// The same; where A is symmetric to the last bit, A itself, which must outlive the result.
+std::shared_ptr<const Sparse> sharedSymmetricPart(const Sparse& A, const std::string& what,
+                                                  const DofNamer& name);
 
 /// ModelError naming the dof when the symmetric M is not positive definite.
 void requirePositiveDefinite(const Sparse& M, const DofNamer& name);

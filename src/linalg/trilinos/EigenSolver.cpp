@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "common/Error.hpp"
@@ -15,6 +16,7 @@
 #include "common/report/StageTimes.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/Scientific.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/FunctionOperator.hpp"
 #include "linalg/trilinos/TpetraConversion.hpp"
@@ -31,13 +33,18 @@ constexpr double iterationShare = 1e-4;
 /// An eigenvalue below this part of the largest is too near zero for a shift of zero.
 constexpr double wellAboveZero = 1e-10;
 
-/// A checked symmetric pencil and what is derived from it once.
+/// A checked symmetric pencil and what is derived from it once; k and m outlive it.
 struct Pencil {
-  Sparse K, M;
+  std::shared_ptr<const Sparse> symmetricK, symmetricM;
+  const Sparse &K, &M;
   double scale;  ///< lower bound of the largest eigenvalue
 
   Pencil(const Sparse& k, const Sparse& m, const DofNamer& name)
-      : K(symmetricPart(k, "stiffness", name)), M(symmetricPart(m, "mass", name)), scale(0.0) {
+      : symmetricK(sharedSymmetricPart(k, "stiffness", name)),
+        symmetricM(sharedSymmetricPart(m, "mass", name)),
+        K(*symmetricK),
+        M(*symmetricM),
+        scale(0.0) {
     if (K.rows() != M.rows())
       throw ModelError("The stiffness and mass matrices of an eigenproblem have " +
                        std::to_string(K.rows()) + " and " + std::to_string(M.rows()) +
@@ -93,37 +100,51 @@ Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int at
   return list;
 }
 
+/// x'A x of every column.
+Vector energies(const Sparse& A, const Matrix& X) {
+  return X.cwiseProduct(product(A, X)).colwise().sum().transpose();
+}
+
+/// |x|'|A||x| of every column.
+Vector absoluteEnergies(const Sparse& A, const Matrix& X) {
+  return X.cwiseAbs().cwiseProduct(absoluteProduct(A, X)).colwise().sum().transpose();
+}
+
 /// |phi - (lambda - sigma) (K - sigma M)^-1 M phi|_M per mode: bounds the relative error of lambda
 /// - sigma.
 void requireAccurate(const EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors,
                      double shift, double tolerance) {
-  const Matrix image = factors.solve(pencil.M * modes.vectors);
-  const Sparse absK = pencil.K.cwiseAbs();
+  const Vector above = modes.values.array() - shift;
+  const Matrix errors =
+      modes.vectors - factors.solve(product(pencil.M, modes.vectors)) * above.asDiagonal();
+  const Vector sizes = energies(pencil.M, errors).cwiseMax(0.0).cwiseSqrt(),
+               stiffness = absoluteEnergies(pencil.K, modes.vectors);
   for (int j = 0; j < modes.count(); ++j) {
-    const Vector error = modes.vectors.col(j) - (modes.values[j] - shift) * image.col(j);
-    const double size = std::sqrt(std::max(0.0, error.dot(pencil.M * error)));
     // What rounding in the lowest mode leaves in this one, eps nu_1 / nu_j, and what rounding of K
     // itself does to lambda - sigma.
-    const Vector phi = modes.vectors.col(j).cwiseAbs();
-    const double rounding = 1e3 * epsilon * (modes.values[j] - shift) / (modes.values[0] - shift) +
-                            4.0 * epsilon * phi.dot(absK * phi) / (modes.values[j] - shift);
-    if (!(size <= tolerance + rounding))
+    const double rounding =
+        1e3 * epsilon * above[j] / above[0] + 4.0 * epsilon * stiffness[j] / above[j];
+    if (!(sizes[j] <= tolerance + rounding))
       throw ConvergenceError("Mode " + std::to_string(j + 1) + " (" + modes.method +
                              ") was called converged, but its relative error is " +
-                             scientific(size) + " where " + scientific(tolerance) + " is allowed");
+                             scientific(sizes[j]) + " where " + scientific(tolerance) +
+                             " is allowed");
   }
 }
 
-/// Eigenvalue from the shift-inverted value nu or from the Rayleigh quotient, whichever rounding
+/// Eigenvalues from the shift-inverted values nu or from the Rayleigh quotients, whichever rounding
 /// spoils less.
-double bestValue(double nu, double nuMax, double shift, const Vector& phi, const Pencil& pencil,
-                 const Sparse& absK) {
-  const double mass = phi.dot(pencil.M * phi);
-  const double quotient = phi.dot(pencil.K * phi) / mass;
-  const double quotientRounding = phi.cwiseAbs().dot(absK * phi.cwiseAbs()) / mass;
-  const double inverted = shift + 1.0 / nu;
-  const double invertedRounding = std::abs(nuMax / nu) * std::abs(1.0 / nu);
-  return invertedRounding < quotientRounding ? inverted : quotient;
+Vector bestValues(const Vector& nu, double shift, const Matrix& shapes, const Pencil& pencil) {
+  const Vector mass = energies(pencil.M, shapes),
+               quotients = energies(pencil.K, shapes).cwiseQuotient(mass),
+               roundings = absoluteEnergies(pencil.K, shapes).cwiseQuotient(mass);
+  const double nuMax = nu.cwiseAbs().maxCoeff();
+  Vector values(nu.size());
+  for (Eigen::Index j = 0; j < nu.size(); ++j) {
+    const double invertedRounding = std::abs(nuMax / nu[j]) * std::abs(1.0 / nu[j]);
+    values[j] = invertedRounding < roundings[j] ? shift + 1.0 / nu[j] : quotients[j];
+  }
+  return values;
 }
 
 /// One step of subspace iteration for the upper modes: the Krylov basis leaves rounding of eps nu_1
@@ -138,12 +159,13 @@ void polishUpperModes(EigenPairs& modes, const Pencil& pencil, const DirectSolve
   while (first < count && modes.values[first] - shift <= split) ++first;
   const int upper = count - first;
   if (upper < 2) return;
-  Matrix phi = factors.solve(pencil.M * modes.vectors.rightCols(upper));
+  Matrix phi = factors.solve(product(pencil.M, modes.vectors.rightCols(upper)));
   const Matrix lower = modes.vectors.leftCols(first), massLower = pencil.M * lower;
   phi -= lower * (massLower.transpose() * phi);
-  for (int j = 0; j < upper; ++j) phi.col(j) /= std::sqrt(phi.col(j).dot(pencil.M * phi.col(j)));
+  phi = phi * energies(pencil.M, phi).cwiseSqrt().cwiseInverse().asDiagonal();
   phi -= lower * (massLower.transpose() * phi);
-  const Matrix K = phi.transpose() * (pencil.K * phi), M = phi.transpose() * (pencil.M * phi);
+  const Matrix K = phi.transpose() * product(pencil.K, phi),
+               M = phi.transpose() * product(pencil.M, phi);
   const EigenPairs ritz = symmetricModes(0.5 * (K + K.transpose()), 0.5 * (M + M.transpose()));
   modes.vectors.rightCols(upper) = phi * ritz.vectors;
   modes.values.tail(upper) = ritz.values;
@@ -164,10 +186,11 @@ EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double
   const bool refine = attempt > 0 || !factors.negativeEigenvalues().has_value();
   const Teuchos::RCP<tpetra::Operator> inverse =
       Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) {
-        return refine ? factors.solve(pencil.M * x) : factors.apply(pencil.M * x);
+        const Matrix load = product(pencil.M, x);
+        return refine ? factors.solve(load) : factors.apply(load);
       }));
   const Teuchos::RCP<tpetra::Operator> mass = Teuchos::rcp(
-      new FunctionOperator(map, [&](const Matrix& x) { return Matrix(pencil.M * x); }));
+      new FunctionOperator(map, [&](const Matrix& x) { return product(pencil.M, x); }));
   const auto start = toTpetra(
       scatteredNumbers(pencil.size(), std::max(1, block), 17 + static_cast<std::uint64_t>(attempt)),
       map);
@@ -191,13 +214,9 @@ EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double
     throw ConvergenceError(std::to_string(solution.numVecs) + " of " + std::to_string(wanted) +
                            " modes converged (" + modes.method + ")");
   modes.vectors = toEigen(*solution.Evecs).leftCols(wanted);
-  modes.values.resize(wanted);
-  const Sparse absK = pencil.K.cwiseAbs();
-  const auto nu = [&](int j) { return solution.Evals[static_cast<std::size_t>(j)].realpart; };
-  double nuMax = 0.0;
-  for (int j = 0; j < wanted; ++j) nuMax = std::max(nuMax, std::abs(nu(j)));
-  for (int j = 0; j < wanted; ++j)
-    modes.values[j] = bestValue(nu(j), nuMax, shift, modes.vectors.col(j), pencil, absK);
+  Vector nu(wanted);
+  for (int j = 0; j < wanted; ++j) nu[j] = solution.Evals[static_cast<std::size_t>(j)].realpart;
+  modes.values = bestValues(nu, shift, modes.vectors, pencil);
   applyConventions(modes, pencil.M);
   polishUpperModes(modes, pencil, factors, shift);
   applyConventions(modes, pencil.M);
@@ -226,14 +245,44 @@ EigenPairs denseModes(const Pencil& pencil, int count, const EigenOptions& optio
   return modes;
 }
 
+/// The factors of K - sigma M: those of the options, or own ones, which make room when something
+/// else of their size is computed and are made again when they are needed.
+class ShiftedFactors {
+ public:
+  ShiftedFactors(const Pencil& pencil, const DirectSolver& given)
+      : pencil_(pencil), given_(&given) {}
+  ShiftedFactors(const Pencil& pencil, double shift, DofNamer name)
+      : pencil_(pencil), shift_(shift), name_(std::move(name)) {}
+
+  double shift() const { return shift_; }
+  const DirectSolver& get() {
+    if (given_ != nullptr) return *given_;
+    if (!own_) {
+      const Stage stage("factorisation for modes");
+      own_ = std::make_unique<DirectSolver>(Sparse(pencil_.K - shift_ * pencil_.M), name_);
+    }
+    return *own_;
+  }
+  void makeRoom() {
+    if (own_ && own_->negativeEigenvalues().has_value()) own_.reset();  // of a large matrix
+  }
+
+ private:
+  const Pencil& pencil_;
+  const DirectSolver* given_ = nullptr;
+  double shift_ = 0.0;
+  DofNamer name_;
+  std::unique_ptr<DirectSolver> own_;
+};
+
 /// One attempt, complete with all checks; ConvergenceError says which of them failed. `extra` modes
 /// beyond `count` show where the last cluster ends, and grow when they do not.
-EigenPairs checkedModes(const Pencil& pencil, const DirectSolver& factors, double shift, int count,
-                        int& extra, int attempt, const EigenOptions& options) {
+EigenPairs checkedModes(const Pencil& pencil, ShiftedFactors& factors, int count, int& extra,
+                        int attempt, const EigenOptions& options) {
   const double floor = 1e-14 * pencil.scale;
   const Stage stage("Krylov-Schur iteration");
-  EigenPairs modes = krylovSchur(pencil, factors, shift, std::min(count + extra, pencil.size() / 2),
-                                 attempt, options);
+  EigenPairs modes = krylovSchur(pencil, factors.get(), factors.shift(),
+                                 std::min(count + extra, pencil.size() / 2), attempt, options);
   const auto gap = lastGap(modes.values, count, floor);
   const int keep =
       options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count;
@@ -244,27 +293,28 @@ EigenPairs checkedModes(const Pencil& pencil, const DirectSolver& factors, doubl
     extra *= 4;
     throw ConvergenceError(cluster);
   }
+  truncate(modes, keep);
+  requireAccurate(modes, pencil, factors.get(), factors.shift(), options.tolerance);
+  factors.makeRoom();
   // Sylvester: as many eigenvalues lie below a gap as were found below it.
   const int below = pencil.below(gap->second);
   if (below != gap->first)
     throw ConvergenceError(std::to_string(below) + " eigenvalues lie below " +
                            scientific(gap->second) + " but " + std::to_string(gap->first) +
                            " were found there (" + modes.method + ")");
-  truncate(modes, keep);
-  requireAccurate(modes, pencil, factors, shift, options.tolerance);
   recomputeErrors(modes, pencil.K, pencil.M, options.tolerance, options.orthogonality);
   return modes;
 }
 
-/// The modes nearest above the shift, with the factors of K - shift M.
-EigenPairs modesAbove(double shift, const DirectSolver& factors, const Pencil& pencil, int count,
+/// The modes nearest above the shift of the factors.
+EigenPairs modesAbove(ShiftedFactors factors, const Pencil& pencil, int count,
                       const EigenOptions& options) {
   std::string reason;
   int extra = 4;
   constexpr int attempts = 4;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     try {
-      return checkedModes(pencil, factors, shift, count, extra, attempt, options);
+      return checkedModes(pencil, factors, count, extra, attempt, options);
     } catch (const ConvergenceError& failure) {
       reason = failure.what();
     }
@@ -279,15 +329,11 @@ EigenPairs modesAbove(double shift, const DirectSolver& factors, const Pencil& p
 EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& options) {
   if (options.stiffness != nullptr && !options.shift &&
       options.stiffness->negativeEigenvalues() == 0) {
-    EigenPairs modes = modesAbove(0.0, *options.stiffness, pencil, count, options);
+    EigenPairs modes = modesAbove({pencil, *options.stiffness}, pencil, count, options);
     if (modes.values[0] > wellAboveZero * pencil.scale) return modes;
   }
   const double shift = shiftBelowSpectrum(pencil, options);
-  const DirectSolver factors = [&] {
-    const Stage stage("factorisation for modes");
-    return DirectSolver(Sparse(pencil.K - shift * pencil.M), options.name);
-  }();
-  return modesAbove(shift, factors, pencil, count, options);
+  return modesAbove({pencil, shift, options.name}, pencil, count, options);
 }
 
 EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Parallel.hpp"
 #include "io/MatrixMarket.hpp"
 #include "io/ResultsFile.hpp"
@@ -42,7 +43,8 @@ class FolderWriter {
     if (!m_.damping.empty()) root_["damping"] = terms("damping", m_.damping);
     if (!m_.loads.empty()) loads();
     if (!content_.interfaces.empty()) interfaces();
-    if (!content_.part.retained.empty()) root_["retained"] = names(at(content_.part.retained));
+    if (!content_.part.retained.empty())
+      root_["retained"] = names(labelsAt(content_.part.retained));
     if (content_.part.reference.size() > 0)
       root_["reference"] = column("reference.mtx", content_.part.reference);
     root_["initial_displacement"] = column("initial_displacement.mtx", m_.initialDisplacement);
@@ -69,7 +71,7 @@ class FolderWriter {
     for (const auto& label : labels) out.push_back(name(label));
     return out;
   }
-  std::vector<DofLabel> at(const std::vector<int>& positions) const {
+  std::vector<DofLabel> labelsAt(const std::vector<int>& positions) const {
     std::vector<DofLabel> out;
     for (int i : positions) out.push_back(m_.dofs[static_cast<std::size_t>(i)]);
     return out;
@@ -102,7 +104,8 @@ class FolderWriter {
     root_["loads"] = out;
   }
   void interfaces() {
-    for (const auto& set : content_.interfaces) root_["interfaces"][set.name] = names(at(set.dofs));
+    for (const auto& set : content_.interfaces)
+      root_["interfaces"][set.name] = names(labelsAt(set.dofs));
   }
 
   const PartContent& content_;
@@ -126,10 +129,10 @@ class Hdf5Writer {
     terms("/damping", m_.damping);
     for (std::size_t i = 0; i < m_.loads.size(); ++i) load(m_.loads[i]);
     for (const auto& set : content_.interfaces)
-      names("/interfaces/" + set.name, at(set.dofs),
+      names("/interfaces/" + set.name, labelsAt(set.dofs),
             "Dofs that may be joined with those of another part");
     if (!content_.part.retained.empty())
-      names("/retained", at(content_.part.retained), "Dofs that a reduction keeps");
+      names("/retained", labelsAt(content_.part.retained), "Dofs that a reduction keeps");
     if (content_.part.reference.size() > 0)
       column("/reference", content_.part.reference, "m, rad", "State the matrices are taken about");
     column("/initial_displacement", m_.initialDisplacement, "m, rad", "State at the start");
@@ -149,7 +152,7 @@ class Hdf5Writer {
   }
 
  private:
-  std::vector<DofLabel> at(const std::vector<int>& positions) const {
+  std::vector<DofLabel> labelsAt(const std::vector<int>& positions) const {
     std::vector<DofLabel> out;
     for (int i : positions) out.push_back(m_.dofs[static_cast<std::size_t>(i)]);
     return out;
@@ -164,18 +167,20 @@ class Hdf5Writer {
     file_.write(path, rows, {labels.size(), 2}, "1", longName);
   }
   void matrix(const std::string& path, const Sparse& A, const std::string& longName) {
-    std::vector<int> row, column;
+    const auto count = static_cast<std::size_t>(A.nonZeros());
+    const auto indices = [&](const std::string& name, const auto& of, const std::string& text) {
+      std::vector<int> list;
+      list.reserve(count);
+      forEachEntry(A, [&](int i, int j, double) { list.push_back(of(i, j)); });
+      file_.write(path + name, list, {count}, "1", longName + text);
+    };
+    indices(
+        "/row", [](int i, int) { return i; }, ": row of each entry, from 0");
+    indices(
+        "/column", [](int, int j) { return j; }, ": column of each entry, from 0");
     std::vector<double> value;
-    for (int i = 0; i < A.rows(); ++i)
-      for (Sparse::InnerIterator it(A, i); it; ++it) {
-        row.push_back(i);
-        column.push_back(static_cast<int>(it.col()));
-        value.push_back(it.value());
-      }
-    const std::size_t count = value.size();
-    file_.write(path + "/row", row, {count}, "1", longName + ": row of each entry, from 0");
-    file_.write(path + "/column", column, {count}, "1",
-                longName + ": column of each entry, from 0");
+    value.reserve(count);
+    forEachEntry(A, [&](int, int, double x) { value.push_back(x); });
     file_.write(path + "/value", value, {count}, "1", longName + ": entries, SI");
     file_.write(path + "/shape",
                 std::vector<int>{static_cast<int>(A.rows()), static_cast<int>(A.cols())}, {2}, "1",

@@ -9,6 +9,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/report/StageTimes.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "reduction/part/PartView.hpp"
 #include "reduction/part/RowFiller.hpp"
 
@@ -26,7 +27,7 @@ ConstraintModeBuilder::ConstraintModeBuilder(const Partition& partition)
 
 void ConstraintModeBuilder::add(const Sparse& KII, const Matrix& KIC, Matrix phi,
                                 const std::vector<int>& inner, const std::vector<int>& touched) {
-  const Matrix defect = KII * phi + KIC;
+  const Matrix defect = linalg::product(KII, phi) + KIC;
   double norm = 0;
   for (int i = 0; i < KII.outerSize(); ++i) {
     double row = 0;

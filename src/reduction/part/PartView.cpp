@@ -22,6 +22,8 @@ class Lazy {
     if (!value_) value_.emplace(make());
     return *value_;
   }
+  /// Computed before.
+  const T& value() const { return *value_; }
 
  private:
   std::optional<T> value_;
@@ -31,11 +33,17 @@ class Lazy {
 /// rounding of its assembly.
 constexpr double roundingOfAssembly = 1e-14;
 
+/// A_II; A itself where there is no boundary.
+model::SharedSparse interiorOf(const Partition& partition, const model::SharedSparse& A) {
+  if (sizeOf(partition.interior) == partition.size) return A;
+  return block(A, partition.interior, partition.interior);
+}
+
 }  // namespace
 
 /// What views of one part with different boundaries share.
 struct PartView::Stiffness {
-  Lazy<Sparse> full, symmetric;
+  Lazy<model::SharedSparse> full, symmetric;
   Lazy<bool> isSymmetric;
 };
 
@@ -63,7 +71,7 @@ struct PartView::State {
   std::shared_ptr<Stiffness> stiffness;
   std::vector<int> interface, retained;
   Lazy<Partition> partition;
-  Lazy<Sparse> interiorStiffness, symmetricInteriorStiffness, interiorMass;
+  Lazy<model::SharedSparse> interiorStiffness, symmetricInteriorStiffness, interiorMass;
   std::vector<Block> blocks;
   Lazy<ConstraintModes> constraintModes;
   Lazy<PartView> unsupported;
@@ -82,7 +90,8 @@ PartView PartView::withBoundary(std::vector<int> interface, std::vector<int> ret
   auto stiffness = state_->stiffness;
   if (symmetric) {
     stiffness = std::make_shared<Stiffness>();
-    stiffness->full.get([&] { return symmetricStiffness(); });
+    symmetricStiffness();
+    stiffness->full.get([&] { return state_->stiffness->symmetric.value(); });
   }
   return {*part_, std::make_shared<State>(stiffness, std::move(interface), std::move(retained))};
 }
@@ -108,14 +117,24 @@ const Partition& PartView::partition() const {
 }
 
 const Sparse& PartView::stiffness() const {
-  return state_->stiffness->full.get([&] {
+  return state_->stiffness->full.get([&]() -> model::SharedSparse {
     checkPart(*part_);
+    const model::MatrixTerm* only = nullptr;
+    int constant = 0;
+    for (const auto& term : model().stiffness)
+      if (model().laws[at(term.law)].name == "1") only = &term, ++constant;
+    if (constant == 1) return only->matrix;
     return constantStiffness(model());
   });
 }
 
 const Sparse& PartView::symmetricStiffness() const {
-  return state_->stiffness->symmetric.get([&] { return symmetricPart(stiffness()); });
+  stiffness();
+  return state_->stiffness->symmetric.get([&]() -> model::SharedSparse {
+    const auto& K = state_->stiffness->full.value();
+    if (linalg::isExactlySymmetric(K)) return K;
+    return symmetricPart(K);
+  });
 }
 
 bool PartView::symmetric() const {
@@ -123,18 +142,22 @@ bool PartView::symmetric() const {
 }
 
 const Sparse& PartView::interiorStiffness() const {
+  stiffness();
   return state_->interiorStiffness.get(
-      [&] { return block(stiffness(), partition().interior, partition().interior); });
+      [&] { return interiorOf(partition(), state_->stiffness->full.value()); });
 }
 
 const Sparse& PartView::symmetricInteriorStiffness() const {
-  return state_->symmetricInteriorStiffness.get(
-      [&] { return block(symmetricStiffness(), partition().interior, partition().interior); });
+  interiorStiffness(), symmetricStiffness();
+  return state_->symmetricInteriorStiffness.get([&] {
+    const auto& [full, symmetric, isSymmetric] = *state_->stiffness;
+    return symmetric.value().sharesWith(full.value()) ? state_->interiorStiffness.value()
+                                                      : interiorOf(partition(), symmetric.value());
+  });
 }
 
 const Sparse& PartView::interiorMass() const {
-  return state_->interiorMass.get(
-      [&] { return block(mass(), partition().interior, partition().interior); });
+  return state_->interiorMass.get([&] { return interiorOf(partition(), model().mass); });
 }
 
 const InteriorBlock& PartView::interiorBlock(int number) const {
@@ -207,6 +230,7 @@ void PartView::releaseFactors() const {
     if (linalg::suitsMumps(interiorBlock(i).stiffness)) {
       state_->blocks[at(i)].full = {};
       state_->blocks[at(i)].symmetric = {};
+      state_->constraintModes = {};
     }
 }
 

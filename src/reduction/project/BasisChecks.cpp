@@ -12,10 +12,12 @@
 #include "common/report/StageTimes.hpp"
 #include "linalg/DenseDecompositions.hpp"
 #include "linalg/MumpsFactor.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "model/DofNames.hpp"
+#include "reduction/project/FullBasis.hpp"
 
 namespace tooljoint::reduction {
 
@@ -29,26 +31,36 @@ constexpr double zeroEnergy = 1e-12;
 constexpr int zeroEnergyCandidates = 8;
 
 /// Shapes recovered at a time, so that a check needs little memory beside the basis.
-constexpr Eigen::Index shapesAtATime = 64;
+constexpr int shapesAtATime = 2 * zeroEnergyCandidates;
 
 /// Mass-normalised shapes phi with omega^2 = phi' K phi.
 int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenvalues) {
-  const Sparse absolute = K.cwiseAbs();
-  int found = 0;
-  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
-    const Vector shape = shapes.col(k).cwiseAbs();
-    if (std::abs(eigenvalues[k]) <= zeroEnergy * shape.dot(absolute * shape)) ++found;
-  }
-  return found;
+  const Vector size =
+      shapes.cwiseAbs().cwiseProduct(linalg::absoluteProduct(K, shapes)).colwise().sum();
+  return static_cast<int>((eigenvalues.array().abs() <= zeroEnergy * size.array()).count());
 }
 
-/// The same of the shapes Phi q.
-int countZeroEnergy(const Sparse& K, const Matrix& Phi, const Matrix& q,
+Matrix times(const Sparse& Phi, const Matrix& q) {
+  return isLargeAndFull(Phi) ? timesByRows(Phi, q) : Matrix(Phi * q);
+}
+
+/// The same of the shapes Phi [q; 0], those of least omega^2 first, until some have none.
+int countZeroEnergy(const Sparse& K, const Sparse& Phi, const Matrix& q,
                     const Vector& eigenvalues) {
+  std::vector<int> order = range(q.cols());
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::abs(eigenvalues[a]) < std::abs(eigenvalues[b]);
+  });
   int found = 0;
-  for (Eigen::Index k = 0; k < q.cols(); k += shapesAtATime) {
-    const auto count = std::min(shapesAtATime, q.cols() - k);
-    found += countZeroEnergy(K, Phi * q.middleCols(k, count), eigenvalues.segment(k, count));
+  for (std::size_t first = 0; first < order.size(); first += at(shapesAtATime)) {
+    const std::vector<int> some(order.begin() + static_cast<std::ptrdiff_t>(first),
+                                order.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                    order.size(), first + at(shapesAtATime))));
+    Matrix coordinates = Matrix::Zero(Phi.cols(), sizeOf(some));
+    coordinates.topRows(q.rows()) = q(Eigen::all, some);
+    const int here = countZeroEnergy(K, times(Phi, coordinates), eigenvalues(some));
+    if (here == 0) break;
+    found += here;
   }
   return found;
 }
@@ -68,6 +80,20 @@ int zeroEnergyOfWhole(const PartView& part) {
   return below == 0 ? 0 : below - linalg::eigenvaluesBelow(K, M, -bound);
 }
 
+/// Products of the columns of a basis, scaled to unit length.
+Matrix scaledGram(const Sparse& Phi) {
+  if (!isLargeAndFull(Phi)) {
+    Matrix scaled = Phi;
+    for (Eigen::Index j = 0; j < scaled.cols(); ++j)
+      if (const double length = scaled.col(j).norm(); length > 0) scaled.col(j) /= length;
+    return scaled.transpose() * scaled;
+  }
+  const Matrix gram = gramByRows(Phi);
+  const Vector scale = gram.diagonal().unaryExpr(
+      [](double square) { return square > 0 ? 1.0 / std::sqrt(square) : 1.0; });
+  return scale.asDiagonal() * gram * scale.asDiagonal();
+}
+
 void checkRank(const Basis& basis, BasisReport& report) {
   const Stage stage("check of the rank");
   // Without residual flexibility, which may be nothing.
@@ -77,12 +103,7 @@ void checkRank(const Basis& basis, BasisReport& report) {
     report.conditioning = 1;
     return;
   }
-  Matrix scaled = basis.vectors.leftCols(size);
-  for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
-    const double length = scaled.col(j).norm();
-    if (length > 0) scaled.col(j) /= length;
-  }
-  const Vector gram = linalg::symmetricValues(scaled.transpose() * scaled);
+  const Vector gram = linalg::symmetricValues(scaledGram(basis.vectors).topLeftCorner(size, size));
   const double largest = gram.maxCoeff();
   report.rank = static_cast<int>((gram.array() > 1e-14 * largest).count());
   report.conditioning = std::sqrt(largest / std::max(gram.minCoeff(), 1e-16 * largest));
@@ -153,7 +174,7 @@ void checkStatics(const PartView& part, const Basis& basis, const ProjectedMatri
         "boundary dofs");
     return;
   }
-  const Matrix recovered = basis.vectors * linalg::DenseLu(k).solve(small);
+  const Matrix recovered = times(basis.vectors, linalg::DenseLu(k).solve(small));
   report.staticDefect = 0;
   for (Eigen::Index c = 0; c < exact.cols(); ++c) {
     const Vector error = Vector(recovered.col(c))(positions) - exact.col(c);
@@ -223,7 +244,6 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
   const Matrix m = Matrix(reduced.mass).topLeftCorner(size, size);
   const Sparse& K = part.symmetricStiffness();
   const Matrix k = Matrix(symmetricPart(reduced.constantStiffness)).topLeftCorner(size, size);
-  const Matrix vectors = basis.vectors.leftCols(size);
   if (m.rows() == 0) {
     report.largestOmega = 0;
     report.explicitStep = 0;
@@ -237,7 +257,7 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
                                std::to_string(size) + " coordinates: implicit integrators only");
     else
       report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
-    report.zeroEnergyReduced = countZeroEnergy(K, vectors, pairs.vectors, pairs.values);
+    report.zeroEnergyReduced = countZeroEnergy(K, basis.vectors, pairs.vectors, pairs.values);
   } else {
     const Eigen::LLT<Matrix> factor(m);
     if (factor.info() != Eigen::Success)
@@ -252,7 +272,7 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
     const Matrix& shapes = pairs.vectors;
     report.largestOmega = std::sqrt(std::max(0.0, pairs.values.maxCoeff()));
     report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
-    report.zeroEnergyReduced = countZeroEnergy(K, vectors, shapes, pairs.values);
+    report.zeroEnergyReduced = countZeroEnergy(K, basis.vectors, shapes, pairs.values);
   }
   report.zeroEnergyFull = zeroEnergyOfWhole(part);
 }

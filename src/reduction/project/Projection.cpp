@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "reduction/project/FullBasis.hpp"
 
 namespace tooljoint::reduction {
 
@@ -19,9 +20,6 @@ constexpr double enforceBelow = 1e-10;
 constexpr double roundingLevel = 1e-14;
 /// Share of entries from which a basis is multiplied as a dense matrix.
 constexpr double fullFrom = 0.1;
-/// Rows from which a full basis is taken by some columns at a time, so that products need little
-/// memory beside it.
-constexpr Eigen::Index manyRows = 2000, columnsAtATime = 64;
 
 double norm(const Sparse& A) { return A.norm(); }
 double product(const Sparse& A, const Sparse& B) { return A.cwiseProduct(B).sum(); }
@@ -61,17 +59,8 @@ bool isFull(const Sparse& Phi) {
 
 /// Natural size of phi_i' A phi_j: s_i s_j with s_i^2 = |phi_i|' |A| |phi_i|.
 Vector naturalSize(const Sparse& A, const Sparse& Phi) {
+  if (isLargeAndFull(Phi)) return absoluteEnergiesByRows(A, Phi).cwiseSqrt();
   const Sparse absolute = A.cwiseAbs();
-  if (isFull(Phi) && Phi.rows() >= manyRows) {
-    Vector sizes(Phi.cols());
-    for (Eigen::Index j = 0; j < Phi.cols(); j += columnsAtATime) {
-      const auto count = std::min(columnsAtATime, Phi.cols() - j);
-      const Matrix shapes = Matrix(Phi.middleCols(j, count)).cwiseAbs();
-      sizes.segment(j, count) =
-          shapes.cwiseProduct(Matrix(absolute * shapes)).colwise().sum().cwiseSqrt();
-    }
-    return sizes;
-  }
   const Sparse shapes = Phi.cwiseAbs();
   const Sparse product = absolute * shapes;
   Vector sizes = Vector::Zero(Phi.cols());
@@ -200,6 +189,7 @@ std::vector<model::MatrixTerm> stiffnessTerms(const model::SecondOrderModel& mod
 }
 
 Sparse project(const Sparse& A, const Sparse& Phi) {
+  if (isLargeAndFull(Phi)) return projectByRows(A, Phi).sparseView();
   if (!isFull(Phi)) {
     const Sparse transposed = Phi.transpose();
     const Sparse right = A * Phi;

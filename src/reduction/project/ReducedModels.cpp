@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "linalg/blocks/BlockKernels.hpp"
+#include "reduction/project/FullBasis.hpp"
 #include "reduction/project/Projection.hpp"
 #include "reduction/vectors/InitialState.hpp"
 
@@ -22,6 +23,10 @@ bool same(const model::SharedSparse& a, const model::SharedSparse& b) {
          (a.nonZeros() == 0 ||
           std::memcmp(a.valuePtr(), b.valuePtr(),
                       sizeof(double) * static_cast<std::size_t>(a.nonZeros())) == 0);
+}
+
+std::string nameOfReaction(const model::MatrixTerm& term) {
+  return term.law == 0 ? "reference state" : "reference state: " + term.name;
 }
 
 /// (v'M v + |x'K x|) / 2 with K at t = 0 [J].
@@ -63,30 +68,41 @@ ReducedModels::ReducedModels(const model::Substructure& like,
                              const ReductionOptions& options)
     : like_(like),
       core_(std::move(core)),
-      keepStatic_(options.initialState == InitialState::KeepStatic),
-      project_(core_->basis.vectors.transpose()) {}
+      keepStatic_(options.initialState == InitialState::KeepStatic) {}
+
+const LinearMap& ReducedModels::transposedBasis() {
+  if (!project_) project_.emplace(core_->basis.vectors.transpose());
+  return *project_;
+}
+
+Vector ReducedModels::projected(const Vector& load) {
+  const Sparse& Phi = core_->basis.vectors;
+  return isLargeAndFull(Phi) ? Vector(Phi.transpose() * load) : transposedBasis()(load);
+}
 
 const std::vector<ReducedModels::Reaction>& ReducedModels::reactions() {
   if (reactions_.empty())
     for (const auto& term : stiffnessTerms(like_.model))
-      reactions_.push_back({term.law == 0 ? "reference state" : "reference state: " + term.name,
-                            project_.times(-term.matrix), term.law});
+      reactions_.push_back({nameOfReaction(term), transposedBasis().times(-term.matrix), term.law});
   return reactions_;
 }
 
 void ReducedModels::addLoads(const model::Substructure& part, const Vector& offset,
                              model::SecondOrderModel& reduced) {
   const bool atRest = offset.isZero(0.0);
-  reduced.loads.reserve(part.model.loads.size() + (atRest ? 0 : reactions().size() + 1));
   for (const auto& load : part.model.loads)
-    reduced.loads.push_back({load.name, project_(load.vector), load.law});
+    reduced.loads.push_back({load.name, projected(load.vector), load.law});
   if (atRest) return;
   // K (D_s + Phi q) = ... : -K_i D_s joins the loads, with the law of K_i.
-  for (const auto& reaction : reactions()) {
-    Vector force = reaction.force(offset);
-    if (!force.isZero(0.0))
-      reduced.loads.push_back({reaction.name, std::move(force), reaction.law});
+  const auto add = [&](const std::string& name, Vector force, int law) {
+    if (!force.isZero(0.0)) reduced.loads.push_back({name, std::move(force), law});
+  };
+  if (isLargeAndFull(core_->basis.vectors)) {
+    for (const auto& term : stiffnessTerms(like_.model))
+      add(nameOfReaction(term), projected(-(term.matrix * offset)), term.law);
+    return;
   }
+  for (const auto& reaction : reactions()) add(reaction.name, reaction.force(offset), reaction.law);
 }
 
 void ReducedModels::addPoints(const model::Substructure& part, const Vector& offset,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,10 @@ class ReducedModels {
     int law;
   };
 
+  const LinearMap& transposedBasis();
+  /// Phi' f.
+  Vector projected(const Vector& load);
+  /// -Phi' K_i of the terms of the stiffness. Not of a large basis, which is as large.
   const std::vector<Reaction>& reactions();
   void addLoads(const model::Substructure& part, const Vector& offset,
                 model::SecondOrderModel& reduced);
@@ -56,9 +61,9 @@ class ReducedModels {
   const model::Substructure& like_;
   std::shared_ptr<const ReducedCore> core_;
   bool keepStatic_;
-  LinearMap project_;                ///< Phi'
-  model::SharedSparse recovery_;     ///< of `like` times Phi, for those parts that have one
-  std::vector<Reaction> reactions_;  ///< for those parts that have a reference state
+  std::optional<LinearMap> project_;  ///< Phi'
+  model::SharedSparse recovery_;      ///< of `like` times Phi, for those parts that have one
+  std::vector<Reaction> reactions_;   ///< for those parts that have a reference state
 };
 
 }  // namespace tooljoint::reduction

@@ -15,6 +15,10 @@ namespace tooljoint::reduction {
 
 namespace {
 
+/// Modes beyond those requested show where the last pair ends: at first, and more where they are
+/// one pair, as a part of those computed.
+constexpr int guard = 4, guardShare = 4;
+
 /// How many modes an interior block has (fewer than dofs where some have no mass), and how many of
 /// them were computed.
 struct Progress {
@@ -22,7 +26,7 @@ struct Progress {
   int computed = 0;
 };
 
-/// Modes to compute for one block. Two more than requested detect a cut through a pair. Dofs
+/// Modes to compute for one block. Dofs
 /// without mass are static: the finite modes and the constraint modes hold every motion of
 /// the others.
 linalg::EigenPairs solve(const PartView& part, int number, const ModeRequest& request, int count,
@@ -101,7 +105,7 @@ InteriorVectors fixedInterfaceModes(const PartView& part, const ModeRequest& req
   for (std::size_t i = 0; i < blocks.size(); ++i)
     progress[i].available = part.interiorBlock(blocks[i]).size();
   int perBlock = request.kind == ModeRequest::Kind::All ? std::numeric_limits<int>::max()
-                                                        : std::min(request.count, interior) + 2;
+                                                        : std::min(request.count, interior) + guard;
   if (request.kind == ModeRequest::Kind::Count && request.count == 0) perBlock = 0;
 
   for (result.kept = -1; result.kept < 0;) {
@@ -125,7 +129,7 @@ InteriorVectors fixedInterfaceModes(const PartView& part, const ModeRequest& req
     }
     result.keepAll();
     result.kept = decide(result, request);
-    perBlock = perBlock < interior ? 2 * perBlock : perBlock;
+    if (perBlock < interior) perBlock += std::max(guard, perBlock / guardShare);
   }
   for (int k = 0; k < sizeOf(result.vectors); ++k)
     result.vectors[at(k)].name = "mode " + std::to_string(k + 1);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Products of a large sparse matrix with some columns, in one pass over its entries for eight
+/// columns instead of one for each.
+#pragma once
+
+#include "common/Types.hpp"
+
+namespace tooljoint::linalg {
+
+/// A X, with the sums of each row in the order of its entries, as A * X.
+Matrix product(const Sparse& A, const Matrix& X);
+/// |A| |X|, by absolute values of the entries.
+Matrix absoluteProduct(const Sparse& A, const Matrix& X);
+
+/// B - A X and its size beside what it is made of.
+struct Residual {
+  Matrix values;         ///< rows x columns
+  double backwardError;  ///< linalg::backwardError
+};
+Residual residualOf(const Sparse& A, const Matrix& X, const Matrix& B);
+
+}  // namespace tooljoint::linalg
