@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Index.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/RecordedNodes.hpp"
 
+#include <string>
+
 #include "common/Error.hpp"
 
 namespace tooljoint::cases {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "io/Csv.hpp"
 
