@@ -215,6 +215,7 @@ const std::vector<ReferenceUnit> referenceUnits = {
     {"pressure", "Pa", "GPa", 1e9, {}},
     {"pressure", "Pa", "bar", 1e5, {}},
     {"pressure", "Pa", "psi", 6894.7572931683613, {}},
+    {"pressure", "Pa", "ksi", 6894757.2931683613, {"kpsi"}},
     {"power", "W", "W", 1.0, {}},
     {"power", "W", "kW", 1000.0, {}},
     {"density", "kg/m3", "ppg", 119.82642731689663, {}},
