@@ -7,7 +7,7 @@
 effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json` with * for names of the user's own,
 "set": overrides, "base": overrides of the run it is compared with (the scene as it is when absent), "key": what is looked at,
 "effect": "up", "down", "changes" or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run `tooljoint study` on tests/study/study.xml, those of the Map list `tooljoint map` on tests/study/map.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
-"files" for the list of files; tables and figures of an analysis (ANALYSES) are those of its own command, which "COMMAND.file:NAME" names where two have the table. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
+"files" for the list of files, or "dataset:NAME:PATH" for a dataset of an HDF5 file; tables and figures of an analysis (ANALYSES) are those of its own command, which "COMMAND.file:NAME" names where two have the table. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
 an effect cannot be seen in a run, and names the test that shows it.
 """
 import argparse
@@ -17,6 +17,8 @@ import pathlib
 import subprocess
 import sys
 
+import h5py
+
 HERE = pathlib.Path(__file__).resolve().parent
 STUDY = "../study/study.xml"
 MAP = "../study/map.xml"
@@ -25,7 +27,7 @@ ANALYSES = {  # command -> its tables; the keys of its figures begin with its na
     "torque-drag": ["file:torque_drag.csv", "file:torque_drag_broomstick.csv", "file:torque_drag_calibration.csv"],
     "bha": ["file:bha.csv", "file:bha_profile.csv"],
     "buckling": ["file:buckling.csv", "file:buckling_profile.csv"],
-    "campbell": ["file:campbell.csv", "file:crossings.csv", "file:spot_checks.csv"],
+    "campbell": ["file:campbell.csv", "file:crossings.csv", "file:spot_checks.csv", "dataset:campbell.h5:shapes/speed"],
     "response": ["file:response.csv"],
 }
 
@@ -65,6 +67,10 @@ class Runs:
         file = key.removeprefix(f"{command}.")
         if file.startswith("file:"):
             return (folder / file[5:]).read_bytes()
+        if file.startswith("dataset:"):
+            _, name, path = file.split(":")
+            with h5py.File(folder / name, "r") as content:
+                return content[path][()].tobytes()
         if key == "size":
             return (folder / "results.h5").stat().st_size
         value = json.loads((folder / "summary.json").read_text(encoding="utf-8"))

@@ -244,11 +244,12 @@ def map_numbers(text):
         rows = list(csv.DictReader(file))
     done = [row for row in rows if row["status"] == "done"]
     expect("map: half of the points fail", len(rows) == 18 and len(done) == 9, len(done))
-    for name, limit, words in (("stick-slip index", 0.5, ("best", "worst")), ("lateral acceleration", 6.5, ("best", "worst")), ("backward whirl", math.inf, ("least", "largest"))):
+    for name, unit, limit, words in (("stick-slip index", "", 0.5, ("best", "worst")), ("lateral acceleration", " m/s2", 6.5, ("best", "worst")),
+                                     ("backward whirl", "", math.inf, ("least", "largest"))):
         for word, pick in zip(words, (min, max)):
             row = pick(done, key=lambda row, name=name: float(row[name]))
             bad = " bad" if float(row[name]) > limit else ""
-            card = (f'<div class="card{bad}"><div class="name">{name}, {word}</div><div class="value">{float(row[name]):.4g}</div>'
+            card = (f'<div class="card{bad}"><div class="name">{name}, {word}</div><div class="value">{float(row[name]):.4g}{unit}</div>'
                     f'<div class="field">speed {row["speed [rpm]"]} rpm, weight on bit {row["weight on bit [kN]"]} kN, iterations {row["iterations"]}</div>')
             expect(f"map: {name}, {word}", card in text, card)
     safe = sum(float(row["stick-slip index"]) <= 0.5 and float(row["lateral acceleration"]) <= 6.5 for row in done)

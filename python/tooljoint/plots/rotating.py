@@ -56,10 +56,11 @@ def campbell_figure(results: Any) -> Any:
             frequencies.annotate(name, (at, order * at / 60 + offset), fontsize=8, color="0.4", ha="right", va="bottom")
     if crossings is not None:
         frequencies.plot(RPM * crossings["speed"], crossings["frequency"], "ko", markersize=4, fillstyle="none", label="critical speeds")
-    for text, look in (("forward whirl", FORWARD), ("backward whirl", BACKWARD)):
-        frequencies.plot([], [], color=look, label=text)
+    for text, colour in (("forward whirl", FORWARD), ("backward whirl", BACKWARD)):
+        frequencies.plot([], [], color=colour, label=text)
     frequencies.set_xlim(first, last), frequencies.set_ylim(low, top)
-    frequencies.set_ylabel(label("frequency", "Hz")), legend_above(frequencies)
+    frequencies.set_ylabel(label("frequency", "Hz"))
+    legend_above(frequencies)
     damping.axhline(0, color="0.7", linewidth=0.6)
     damping.set_ylim(bottom=min(-1e-4, 1.1 * rows["damping"].min()), top=max(1e-3, 1.1 * rows["damping"].max()))  # no picture of rounding
     damping.set_ylabel("damping ratio"), damping.set_xlabel(label("rotary speed", "rpm"))
@@ -142,7 +143,8 @@ def response_figure(results: Any) -> Any:
     positive = positive[positive > 0]
     if positive.size:
         amplitudes.set_ylim(bottom=0.5 * positive.min())
-    amplitudes.set_ylabel(label("amplitude", units.pop() if len(units) == 1 else "unit of the output")), legend_above(amplitudes, 3)
+    amplitudes.set_ylabel(label("amplitude", units.pop() if len(units) == 1 else "unit of the output"))
+    legend_above(amplitudes, 3)
     phases.set_ylabel(label("phase", "deg")), phases.set_xlabel(along)
     return made
 
@@ -150,8 +152,7 @@ def response_figure(results: Any) -> Any:
 def profile_figure(results: Any) -> Any:
     """Bending moments and distances to the wall along a string: what each place reaches in the sweep, and where over speed or frequency; None without a string."""
     rows = columns(results, "response")
-    groups = [(name, columns(results, name)) for name in ("bending", "margins")]
-    groups = [(name, group) for name, group in groups if group is not None]
+    groups = [(name, group) for name in ("bending", "margins") if (group := columns(results, name)) is not None]
     if not groups or rows is None:
         return None
     x, along = over(rows)
