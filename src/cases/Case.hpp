@@ -76,6 +76,12 @@ struct CaseOutline {
   std::vector<std::string> notes;  ///< further lines on the coupling
 };
 
+/// A number that tells states at rest apart.
+struct RestFigure {
+  std::string name, unit, longName;
+  double value = 0.0;
+};
+
 /// A case at rest. All calls are collective.
 class RestingCase {
  public:
@@ -95,6 +101,8 @@ class RestingCase {
   /// Lines of the log; "" for none.
   virtual std::string describe() const = 0;
   virtual void summarise(io::Summary& summary) const = 0;
+  /// The same names in the same order for all states of a case.
+  virtual std::vector<RestFigure> figures() const { return {}; }
   /// Groups of results.h5 before the motion, and tables beside it.
   virtual void write(io::ResultsFile& file) const = 0;
   virtual void stageTables(io::OutputFolder& folder) const { (void)folder; }
@@ -119,6 +127,12 @@ class Case {
   /// The same deck with other overrides; its file is not read again. DeckError, ModelError,
   /// FileError.
   virtual std::unique_ptr<Case> with(const std::vector<std::string>& overrides) const = 0;
+  /// The same case turning at a constant rotary speed [rad/s], 0: as slowly as can be; null where
+  /// its state at rest is that of all speeds. DeckError: it has no such state.
+  virtual std::unique_ptr<Case> turningAt(double speed) const {
+    (void)speed;
+    return nullptr;
+  }
   /// Lists that the full model does without.
   virtual std::vector<std::string> reductionLists() const = 0;
   /// True when a run reduces the parts although the deck has no Transient list.

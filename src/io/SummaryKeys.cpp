@@ -276,6 +276,7 @@ const std::vector<std::string>& documentedKeys() {
       "campbell.model",
       "campbell.dofs",
       "campbell.points",
+      "campbell.states",
       "campbell.modes",
       "campbell.least_damping",
       "campbell.largest_estimate",

@@ -28,8 +28,9 @@ constexpr double repeated = 1e-6;
 constexpr double noLateral = 1e-9;
 /// A refined mode is that of the diagram when their MAC is not below this.
 constexpr double sameMode = 0.5;
-/// Of the frequency: |Im s - excitation| at a crossing, and iterations allowed.
-constexpr double crossed = 1e-10;
+/// Of the frequency: |Im s - excitation| at a crossing, about one state and about states that are
+/// each found to a tolerance of their own, and iterations allowed.
+constexpr double crossed = 1e-10, crossedStates = 1e-6;
 constexpr int mostIterations = 40;
 
 /// Displacements of a mode and its sense. With u = Re(U exp(i w t)), v likewise: u v' - v u' =
@@ -38,14 +39,14 @@ constexpr int mostIterations = 40;
 ///     whirl = 2 sum Im(U conj(V)) / sum (|U|^2 + |V|^2)
 class Shapes {
  public:
-  Shapes(const model::SecondOrderModel& model, const std::string& axis)
-      : recovery_(model.recovery),
-        width_(static_cast<Eigen::Index>(model.componentNames.size())),
-        lateral_(cases::lateralComponents(model, axis)) {}
+  Shapes(const RotatingStates& states, const std::string& axis)
+      : states_(states),
+        width_(static_cast<Eigen::Index>(states.first().model().componentNames.size())),
+        lateral_(cases::lateralComponents(states.first().model(), axis)) {}
 
   double whirl(const Eigen::VectorXcd& shape) const {
     if (lateral_[0] < 0 || lateral_[1] < 0) return 0.0;
-    const auto x = recovered(shape);
+    const auto x = states_.recovered(shape);
     double area = 0.0, size = 0.0;
     for (Eigen::Index row = 0; row + width_ <= x.size(); row += width_) {
       const Complex u = x[row + lateral_[0]], v = x[row + lateral_[1]];
@@ -57,7 +58,7 @@ class Shapes {
 
   /// Rows of the recovery, scaled as ModeShape::shape.
   Eigen::VectorXcd scaled(const Eigen::VectorXcd& shape) const {
-    const auto x = recovered(shape);
+    const auto x = states_.recovered(shape);
     Complex largest = 0.0, lateral = 0.0;
     const auto take = [](Complex& best, Complex one) {
       if (std::abs(one) > std::abs(best)) best = one;
@@ -71,32 +72,25 @@ class Shapes {
   }
 
  private:
-  Eigen::VectorXcd recovered(const Eigen::VectorXcd& shape) const {
-    Eigen::VectorXcd x(recovery_.rows());
-    x.real() = recovery_ * Vector(shape.real());
-    x.imag() = recovery_ * Vector(shape.imag());
-    return x;
-  }
-
-  Sparse recovery_;
+  const RotatingStates& states_;
   Eigen::Index width_;
   std::array<int, 2> lateral_;
 };
 
 class Diagram {
  public:
-  Diagram(const RotatingCase& rotating, const CampbellSettings& settings)
-      : rotating_(rotating),
+  Diagram(const RotatingStates& states, const CampbellSettings& settings)
+      : states_(states),
         settings_(settings),
-        search_(rotating, settings),
-        shapes_(rotating.model(), settings.axis),
-        mass_(rotating.at(0.0).mass),
+        search_(states, settings),
+        shapes_(states, settings.axis),
+        mass_(states.mass()),
         tracker_([this](double speed, int followed) { return search_.at(speed, followed); },
                  mass_) {}
 
   CampbellDiagram compute() {
     const auto checked =
-        spread(settings_.speeds.size(), rotating_.reduced() ? settings_.spotChecks : 0);
+        spread(settings_.speeds.size(), states_.first().reduced() ? settings_.spotChecks : 0);
     const std::size_t drawn = shapePlace();
     SweepProgress progress("campbell", settings_.speeds.size());
     for (std::size_t i = 0; i < settings_.speeds.size(); ++i) {
@@ -104,8 +98,8 @@ class Diagram {
       tracker_.advance(settings_.speeds[i]);
       addRows();
       if (i == drawn) addShapes();
-      if (i > 0) addCrossings(settings_.speeds[i - 1], before);
       if (contains(checked, i)) addChecks();
+      if (i > 0) addCrossings(settings_.speeds[i - 1], before);
       progress.done(i + 1);
     }
     std::stable_sort(out_.crossings.begin(), out_.crossings.end(),
@@ -136,7 +130,9 @@ class Diagram {
     const auto& now = tracker_.now();
     const double speed = tracker_.speed();
     Eigen::VectorXcd errors;
-    if (rotating_.estimated()) errors = search_.errors(speed);
+    if (states_.first().estimated()) errors = search_.errors(speed);
+    if (states_.ofEachSpeed())
+      out_.states.push_back({speed, states_.about(speed)->rest().figures()});
     const auto& latest = search_.latest();
     for (const auto& mode : now) {
       if (!search_.shown(mode.s)) continue;
@@ -185,6 +181,7 @@ class Diagram {
                     const TrackedMode& late, linalg::DampedMode& guess) {
     const auto& excitation = settings_.lines[line];
     const double to = tracker_.speed();
+    const double close = states_.ofEachSpeed() ? crossedStates : crossed;
     double a = from, b = to, ga = early.s.imag() - excitation.at(a),
            gb = late.s.imag() - excitation.at(b);
     const double linear = a - ga * (b - a) / (gb - ga);
@@ -195,14 +192,13 @@ class Diagram {
     int side = 0;  // that moved last: its opposite weighs half when it moves again
     for (int i = 0; i < mostIterations; ++i) {
       const double speed = a - ga * (b - a) / (gb - ga);
-      const auto m = rotating_.at(speed);
-      const auto mode = linalg::refine(m.mass, m.damping, m.stiffness, guess);
+      const auto mode = refined(speed, guess);
       if (!mode || !isSame(mode->shape, early, late)) break;
       guess = *mode;
       found.at.speed = speed;
       found.at.s = mode->s;
       const double g = mode->s.imag() - excitation.at(speed);
-      if (std::abs(g) <= crossed * std::abs(mode->s) || b - a <= crossed * b) return found;
+      if (std::abs(g) <= close * std::abs(mode->s) || b - a <= close * b) return found;
       if ((g > 0.0) == (ga > 0.0)) {
         a = speed, ga = g, gb *= side < 0 ? 0.5 : 1.0, side = -1;
       } else {
@@ -213,6 +209,16 @@ class Diagram {
     found.at.s = interpolated;
     found.refined = false;
     return found;
+  }
+
+  /// The mode at a speed near a guess; both have common shapes.
+  std::optional<linalg::DampedMode> refined(double speed, linalg::DampedMode guess) const {
+    const auto rotating = states_.about(speed);
+    const auto m = rotating->at(speed);
+    guess.shape = states_.own(*rotating, guess.shape);
+    auto mode = linalg::refine(m.mass, m.damping, m.stiffness, guess);
+    if (mode) mode->shape = states_.common(*rotating, mode->shape);
+    return mode;
   }
 
   /// The last row of a track; one without figures where a window has not shown it yet.
@@ -242,7 +248,7 @@ class Diagram {
     }
   }
 
-  const RotatingCase& rotating_;
+  const RotatingStates& states_;
   const CampbellSettings& settings_;
   ModeSearch search_;
   Shapes shapes_;
@@ -257,8 +263,8 @@ class Diagram {
 double CampbellRow::frequency() const { return s.imag() / constants::twoPi; }
 double CampbellRow::damping() const { return -s.real() / std::abs(s); }
 
-CampbellDiagram campbell(const RotatingCase& rotating, const CampbellSettings& settings) {
-  return Diagram(rotating, settings).compute();
+CampbellDiagram campbell(const RotatingStates& states, const CampbellSettings& settings) {
+  return Diagram(states, settings).compute();
 }
 
 }  // namespace tooljoint::response

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "deck/ListSpec.hpp"
-#include "response/RotatingCase.hpp"
+#include "response/RotatingStates.hpp"
 
 namespace tooljoint::response {
 
@@ -40,8 +40,9 @@ struct CampbellSettings {
                                      ///< [rad/s]; none: the last speed
   std::vector<ExcitationLine> lines;
   bool friction = false;
-  int spotChecks = 0;  ///< speeds at which the full model is solved too
-  std::string axis;    ///< of the rotation: "x", "y" or "z"
+  bool stateOfEachSpeed = false;  ///< false: one static state for all
+  int spotChecks = 0;             ///< speeds at which the full model is solved too
+  std::string axis;               ///< of the rotation: "x", "y" or "z"
 };
 deck::ListSpec campbellParameters();
 /// From the validated list. DeckError: speeds or frequencies do not increase, a window and a
@@ -86,21 +87,28 @@ struct SpotCheck {
   double mac = 0.0;
 };
 
+/// The state at rest at a speed.
+struct StateRow {
+  double speed = 0.0;  ///< [rad/s]
+  std::vector<cases::RestFigure> figures;
+};
+
 struct CampbellDiagram {
   std::vector<CampbellRow> rows;    ///< speed by speed, by |s|
   std::vector<Crossing> crossings;  ///< by line, then speed
   std::vector<SpotCheck> checks;
   std::vector<ModeShape> shapes;  ///< of one speed, then of the crossings
+  std::vector<StateRow> states;   ///< speed by speed; none of one state
 };
 
 /// Follows the modes through the speeds of the settings (ModeTracker). A crossing is refined with
 /// the equations at its own speed. ConvergenceError, ModelError of the eigensolver. Every rank
 /// computes the same.
-CampbellDiagram campbell(const RotatingCase& rotating, const CampbellSettings& settings);
+CampbellDiagram campbell(const RotatingStates& states, const CampbellSettings& settings);
 
 /// `tooljoint campbell`: state at rest, diagram, campbell.csv, crossings.csv, spot_checks.csv,
-/// campbell.h5 with the shapes, and summary.json in `folder` ("": see cases::analysisFolder).
-/// DeckError without the list Campbell. Collective.
+/// states.csv, campbell.h5 with the shapes, and summary.json in `folder` ("": see
+/// cases::analysisFolder). DeckError without the list Campbell. Collective.
 void runCampbell(const cases::Case& one, const std::string& folder);
 
 }  // namespace tooljoint::response

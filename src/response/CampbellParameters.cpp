@@ -34,6 +34,10 @@ deck::ListSpec campbellParameters() {
             "The nearest speed of the diagram has the shapes of its modes written, beside those "
             "at critical speeds. Default: the last speed.")
       .expert()
+      .choice("Static State", std::string("One"), {"One", "Each Speed"},
+              "What the equations are linearised about: one state, that of the start, or the state "
+              "of steady rotation at each speed, with its contacts, friction and law of the bit. "
+              "The latter costs a static state, and a reduction, at every speed.")
       .realArray("Orders", "", std::vector<double>{1.0, 2.0, 3.0}, deck::Range::positive(),
                  "Excitation frequencies over the rotary speed: 1 unbalance, 3 a bit of three "
                  "cones. Where a mode meets one there is a critical speed.")
@@ -102,6 +106,7 @@ CampbellSettings readCampbell(const Teuchos::ParameterList& list) {
   readWindow(list, settings);
   readLines(list, settings);
   settings.friction = wantsFriction(list);
+  settings.stateOfEachSpeed = list.get<std::string>("Static State") == "Each Speed";
   settings.spotChecks = list.get<int>("Spot Checks");
   settings.axis = list.get<std::string>("Axis");
   return settings;
@@ -124,7 +129,8 @@ std::string describe(const cases::Case& one) {
   return modesText(settings) + " at " + std::to_string(settings.speeds.size()) + " speeds up to " +
          fmt::format("{:.6g}", settings.speeds.back() * constants::rpmPerRadianPerSecond) +
          " rpm, crossings with " + join(lines, ", ") +
-         (settings.friction ? ", with" : ", without") + " friction; " +
+         (settings.friction ? ", with" : ", without") + " friction, about " +
+         (settings.stateOfEachSpeed ? "the static state of each speed; " : "one static state; ") +
          (one.reduces()
               ? "reduced model, full model at " + std::to_string(settings.spotChecks) + " speeds"
               : "full model") +

@@ -88,6 +88,19 @@ Columns checkTable(const CampbellDiagram& diagram) {
   }};
 }
 
+Columns stateTable(const CampbellDiagram& diagram) {
+  const auto& rows = diagram.states;
+  Columns table{
+      {{"speed", "rad/s", "Rotary speed", collect(rows, [](const auto& r) { return r.speed; })}}};
+  if (rows.empty()) return table;
+  for (std::size_t i = 0; i < rows.front().figures.size(); ++i) {
+    const auto& one = rows.front().figures[i];
+    table.columns.push_back({one.name, one.unit, one.longName,
+                             collect(rows, [i](const auto& r) { return r.figures[i].value; })});
+  }
+  return table;
+}
+
 const char* whirlWord(double whirl) {
   constexpr double clear = 0.1;  ///< of a circle
   return whirl > clear ? "forward" : whirl < -clear ? "backward" : "-";
@@ -206,6 +219,7 @@ void summarise(const RotatingCase& rotating, const CampbellDiagram& diagram,
                const CampbellSettings& settings, io::Summary& summary) {
   summary.set("campbell.model", rotating.reduced() ? "reduced" : "full");
   summary.set("campbell.dofs", rotating.model().size());
+  summary.set("campbell.states", std::max(1L, static_cast<long>(diagram.states.size())));
   summary.set("campbell.points", static_cast<long>(settings.speeds.size()));
   double least = 1.0, estimate = 0.0, error = 0.0;
   int modes = 0;
@@ -243,28 +257,31 @@ void runCampbell(const cases::Case& one, const std::string& folder) {
   const auto settings = readCampbell(one.list().sublist("Campbell"));
   cases::AnalysisFiles files(one, folder, "campbell");
   CampbellDiagram diagram;
-  std::unique_ptr<RotatingCase> rotating;
+  std::unique_ptr<RotatingStates> states;
   files.complete(
       [&] {
         cases::announce(one);
-        rotating = std::make_unique<RotatingCase>(one, settings.friction);
-        rotating->announceLaws();
-        diagram = campbell(*rotating, settings);
-        print(diagram, settings, rotating->estimated());
+        states = std::make_unique<RotatingStates>(one, settings.friction, settings.stateOfEachSpeed,
+                                                  settings.speeds.front());
+        states->first().announceLaws();
+        diagram = campbell(*states, settings);
+        print(diagram, settings, states->first().estimated());
         warnOfEmptiness(diagram);
         warnOfGrowth(diagram);
         warnOfCoarseness(diagram);
         log::info("times       " + stageTimes());
       },
       [&](io::ResultsFile& file) {
-        const bool estimated = rotating->estimated();
+        const auto& rotating = states->first();
+        const bool estimated = rotating.estimated();
         rowTable(diagram, estimated).write("campbell", files.folder(), file);
         crossingTable(diagram, settings, estimated).write("crossings", files.folder(), file);
         checkTable(diagram).write("spot_checks", files.folder(), file);
+        stateTable(diagram).write("states", files.folder(), file);
         writeLines(settings, file);
-        rotating->rest().writeProfile(file);
-        writeShapes(*rotating, diagram, file);
-        summarise(*rotating, diagram, settings, files.summary());
+        rotating.rest().writeProfile(file);
+        writeShapes(rotating, diagram, file);
+        summarise(rotating, diagram, settings, files.summary());
       });
 }
 

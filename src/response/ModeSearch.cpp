@@ -53,8 +53,8 @@ std::vector<int> nearestTo(Complex centre, const Eigen::VectorXcd& values, int c
 
 bool vibrates(Complex s) { return s.imag() > noVibration * std::abs(s); }
 
-ModeSearch::ModeSearch(const RotatingCase& rotating, const CampbellSettings& settings)
-    : rotating_(rotating), settings_(settings) {}
+ModeSearch::ModeSearch(const RotatingStates& states, const CampbellSettings& settings)
+    : states_(states), settings_(settings) {}
 
 std::optional<linalg::DampedTarget> ModeSearch::target(int count) const {
   if (nearest())
@@ -66,17 +66,20 @@ std::optional<linalg::DampedTarget> ModeSearch::target(int count) const {
                               0};
 }
 
-linalg::QuadraticModes ModeSearch::solve(double speed, int count) const {
-  const auto m = rotating_.at(speed);
+linalg::QuadraticModes ModeSearch::solve(const RotatingCase& rotating, double speed,
+                                         int count) const {
+  const auto m = rotating.at(speed);
   const auto where = target(count);
-  return where ? rotating_.modes(m, *where) : rotating_.modes(m, count);
+  return where ? rotating.modes(m, *where) : rotating.modes(m, count);
 }
 
 VibratingModes ModeSearch::at(double speed, int followed) {
   const int enough = std::max(settings_.modes, followed) + beyond;
+  const auto rotating = states_.about(speed);
   for (int looked = enough;; looked *= 2) {
-    latest_ = solve(speed, looked);
+    latest_ = solve(*rotating, speed, looked);
     auto modes = vibrating(latest_);
+    modes.shapes = states_.common(*rotating, modes.shapes);
     if (settings_.window) {
       markWindow(modes);
       return modes;
@@ -102,13 +105,15 @@ bool ModeSearch::shown(Complex s) const {
 }
 
 Eigen::VectorXcd ModeSearch::errors(double speed) const {
-  return rotating_.error().ofModes(rotating_.partsAt(speed), rotating_.at(speed), latest_,
+  const auto rotating = states_.about(speed);
+  return rotating->error().ofModes(rotating->partsAt(speed), rotating->at(speed), latest_,
                                    target(0));
 }
 
 std::vector<estimate::ModeComparison> ModeSearch::compare(double speed) const {
   const auto where = target(settings_.modes);
-  auto all = where ? rotating_.compare(speed, *where) : rotating_.compare(speed, settings_.modes);
+  const auto rotating = states_.about(speed);
+  auto all = where ? rotating->compare(speed, *where) : rotating->compare(speed, settings_.modes);
   all.erase(
       std::remove_if(all.begin(), all.end(),
                      [&](const auto& one) { return !vibrates(one.full) || !shown(one.full); }),

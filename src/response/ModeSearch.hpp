@@ -10,7 +10,7 @@
 
 #include "response/Campbell.hpp"
 #include "response/ModeTracker.hpp"
-#include "response/RotatingCase.hpp"
+#include "response/RotatingStates.hpp"
 
 namespace tooljoint::response {
 
@@ -20,12 +20,13 @@ bool vibrates(std::complex<double> s);
 class ModeSearch {
  public:
   /// Both must outlive the object.
-  ModeSearch(const RotatingCase& rotating, const CampbellSettings& settings);
+  ModeSearch(const RotatingStates& states, const CampbellSettings& settings);
 
-  /// The modes at a speed [rad/s] for a tracker that follows so many: of a window all in it, a
-  /// quarter of its width to both sides, and those that are damped more at the edge.
+  /// The modes at a speed [rad/s], with common shapes, for a tracker that follows so many: of a
+  /// window all in it, a quarter of its width to both sides, and those that are damped more at the
+  /// edge.
   VibratingModes at(double speed, int followed);
-  /// All modes of the last call, with those that do not vibrate.
+  /// All modes of the last call, with those that do not vibrate, and shapes of their model.
   const linalg::QuadraticModes& latest() const { return latest_; }
 
   /// A mode of the diagram: in a window
@@ -43,10 +44,10 @@ class ModeSearch {
   bool nearest() const { return settings_.target.has_value(); }
   /// Where modes are looked for; none for the lowest ones.
   std::optional<linalg::DampedTarget> target(int count) const;
-  linalg::QuadraticModes solve(double speed, int count) const;
+  linalg::QuadraticModes solve(const RotatingCase& rotating, double speed, int count) const;
   void markWindow(VibratingModes& modes) const;
 
-  const RotatingCase& rotating_;
+  const RotatingStates& states_;
   const CampbellSettings& settings_;
   linalg::QuadraticModes latest_;
 };

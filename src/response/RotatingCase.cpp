@@ -13,16 +13,19 @@
 
 namespace tooljoint::response {
 
-RotatingCase::RotatingCase(const cases::Case& one, bool friction)
-    : case_(one), friction_(friction), time_(cases::timeOfLaws(one)), rest_(one.atRest()) {
+RotatingCase::RotatingCase(const cases::Case& one, bool friction, bool announce)
+    : case_(one),
+      friction_(friction),
+      time_(cases::timeOfLaws(one)),
+      rest_(announce ? one.atRest() : one.solveStatic()) {
   const auto text = rest_->describe();
-  if (!text.empty()) log::info(text);
+  if (announce && !text.empty()) log::info(text);
   if (!one.reduces()) {
     full();
     return;
   }
   reduced_ = cases::reduce(one, *rest_);
-  log::info(cases::describeCoupling(reduced_->coupled()));
+  if (announce) log::info(cases::describeCoupling(reduced_->coupled()));
   for (const auto& remark : reduced_->coupled().remarks) log::warn(remark);
   const auto& synthesis = reduced_->outcome.synthesis;
   rounding_ = estimate::roundingOfParts(parts(), synthesis);

@@ -24,8 +24,9 @@ namespace tooljoint::response {
 class RotatingCase {
  public:
   /// Finds the state at rest and reduces the parts. \param friction false: contacts without
-  /// friction. Throws what these stages throw. Collective. The case must outlive the object.
-  RotatingCase(const cases::Case& one, bool friction);
+  /// friction. \param announce logs the state and the coupling, and judges the state. Throws what
+  /// these stages throw. Collective. The case must outlive the object.
+  RotatingCase(const cases::Case& one, bool friction, bool announce = true);
 
   const cases::Case& deckCase() const { return case_; }
   const cases::RestingCase& rest() const { return *rest_; }

@@ -44,6 +44,8 @@ class RotarySpeed {
   /// From the validated deck list `Rotary Speed`. DeckError when the parameters of the chosen law
   /// make no sense together.
   explicit RotarySpeed(const Teuchos::ParameterList& list);
+  /// One speed [rad/s] for ever.
+  static RotarySpeed steady(double speed);
   /// From the whole deck: the list `Rotary Speed` when it is there, else no rotation.
   static RotarySpeed fromDeck(const Teuchos::ParameterList& deck);
 

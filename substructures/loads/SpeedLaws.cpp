@@ -20,7 +20,8 @@ using constants::twoPi;
 /// Omega = Omega_0
 class Constant : public SpeedLaw {
  public:
-  explicit Constant(const ParameterList& list) : speed_(list.get<double>("Speed")) {}
+  explicit Constant(double speed) : speed_(speed) {}
+  explicit Constant(const ParameterList& list) : Constant(list.get<double>("Speed")) {}
   double speed(double /*t*/) const override { return speed_; }
   double acceleration(double /*t*/) const override { return 0.0; }
   double angle(double t) const override { return speed_ * t; }
@@ -158,4 +159,9 @@ bool add(ListSpec parameters, const std::string& doc) {
     "Mean speed with a harmonic fluctuation.");
 
 }  // namespace
+
+RotarySpeed RotarySpeed::steady(double speed) {
+  return RotarySpeed(std::make_shared<Constant>(speed));
+}
+
 }  // namespace tooljoint::loads

@@ -69,6 +69,7 @@ class RestingString : public cases::RestingCase {
 
   std::string describe() const override { return describeStatic(stage_); }
   void summarise(io::Summary& summary) const override { drillstring::summarise(stage_, summary); }
+  std::vector<cases::RestFigure> figures() const override { return restFigures(stage_); }
   void write(io::ResultsFile& file) const override {
     writeModel(scene_, stage_, file);
     writeSections(scene_, file);
@@ -115,6 +116,11 @@ std::unique_ptr<cases::Case> DrillstringCase::with(
   auto other = std::make_unique<DrillstringCase>(readScene(deck().with(overrides)));
   other->found_ = found_;
   return other;
+}
+
+std::unique_ptr<cases::Case> DrillstringCase::turningAt(double speed) const {
+  if (!scene_->rotary.present()) return nullptr;
+  return std::make_unique<DrillstringCase>(drillstring::turningAt(*scene_, speed));
 }
 
 std::vector<std::int64_t> DrillstringCase::recordedNodes() const {

@@ -22,6 +22,7 @@ class DrillstringCase : public cases::Case, public cases::NodeChoice {
 
   const deck::Deck& deck() const override { return scene_->deck; }
   std::unique_ptr<cases::Case> with(const std::vector<std::string>& overrides) const override;
+  std::unique_ptr<cases::Case> turningAt(double speed) const override;
   std::vector<std::string> reductionLists() const override {
     return {"Substructures", "Reduction"};
   }

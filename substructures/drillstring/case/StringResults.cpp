@@ -169,6 +169,18 @@ void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputF
   elements.stage(folder.file("static_elements.csv"));
 }
 
+std::vector<cases::RestFigure> restFigures(const StaticStage& stage) {
+  const auto& state = stage.state;
+  return {
+      {"contact_nodes", "1", "Nodes on the wall", static_cast<double>(state.contactNodes)},
+      {"top_axial_force", "N", "Tension of the first element", state.topAxialForce},
+      {"last_axial_force", "N", "Tension of the last element", state.lastElementAxialForce},
+      {"top_torque", "N m", "Torque of the first element", state.topTorque},
+      {"last_torque", "N m", "Torque of the last element", state.lastElementTorque},
+      {"total_normal_force", "N", "Sum of the normal contact forces", state.totalNormalForce},
+  };
+}
+
 void summarise(const Scene& scene, io::Summary& summary) {
   summary.set("deck.file", scene.deck.file());
   summary.set("deck.sha256", scene.deck.sha256());

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "cases/Case.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/Summary.hpp"
@@ -27,6 +29,8 @@ void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputF
 
 void summarise(const Scene& scene, io::Summary& summary);
 void summarise(const StaticStage& stage, io::Summary& summary);
+/// Contacts and loads at the ends.
+std::vector<cases::RestFigure> restFigures(const StaticStage& stage);
 
 /// Lines of the log.
 std::string describeScene(const Scene& scene);

@@ -304,6 +304,12 @@ double feedOfSetWeight(const Scene& scene) {
   }
 }
 
+/// An autodriller finds the block speed of the static state.
+bool feedsBySetWeight(const Scene& scene) {
+  return scene.bit && scene.bit->law->givesWeight() && scene.topDrive.autodriller &&
+         drilling::readTopDrive(scene.list().sublist("Top Drive")).blockSpeed == 0.0;
+}
+
 /// What can be said of parts and basis before the static state.
 void checkReduction(const Scene& scene) {
   requireKnownNodes(scene.string, scene.partition);
@@ -315,6 +321,13 @@ void checkReduction(const Scene& scene) {
 }
 
 }  // namespace
+
+Scene turningAt(Scene scene, double speed) {
+  constexpr double slowest = 1e-6;  // [rad/s], beside it every speed of drilling is fast
+  scene.rotary = loads::RotarySpeed::steady(std::max(speed, slowest));
+  if (feedsBySetWeight(scene)) scene.topDrive.blockSpeed = feedOfSetWeight(scene);
+  return scene;
+}
 
 Scene readScene(const std::string& file, const std::vector<std::string>& overrides) {
   return readScene(deck::Deck::read(file, sceneSpec(), overrides));
@@ -370,7 +383,7 @@ Scene readScene(const deck::Deck& deck) {
   scene.coupling = common.coupling;
   scene.bit = bit;
   scene.topDrive = tunedToPipe(topDrive, scene.string);
-  if (bit && bit->law->givesWeight() && topDrive.autodriller && scene.topDrive.blockSpeed == 0.0)
+  if (feedsBySetWeight(scene))
     faults.attempt([&] { scene.topDrive.blockSpeed = feedOfSetWeight(scene); });
   if (!deck.gives("Supports/Top")) releaseTop(topDrive, scene.supports);
   if (scene.coupling)

@@ -66,6 +66,9 @@ struct Scene {
 /// Checks a deck read by sceneSpec(). DeckError (one line per fault of the phase that failed),
 /// FileError. Collective.
 Scene readScene(const deck::Deck& deck);
+/// The scene turning at a constant speed [rad/s], 0: as slowly as can be. An autodriller that sets
+/// the block speed does so at this speed. DeckError: its weight is not reached.
+Scene turningAt(Scene scene, double speed);
 /// Reads the file first, with overrides.
 Scene readScene(const std::string& file, const std::vector<std::string>& overrides);
 
