@@ -14,7 +14,7 @@ from scipy.linalg import eig
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from along import bending, excitations, window  # noqa: E402
-from rotors import friswell, nelson  # noqa: E402
+from rotors import anisotropic, damped, friswell, nelson  # noqa: E402
 import states  # noqa: E402
 from scenes import GYROSCOPIC, RPM, SHAFT, SOURCES, close, deck, estimates, expect, lists, material, modes_at, part, run, table, tooljoint, values  # noqa: E402
 from checks import finish  # noqa: E402
@@ -238,7 +238,7 @@ def refusals():
 
 
 if sys.argv[4] == "rotors":
-    for check in (laval, overhung, excitations, bearing, nelson, friswell, transfer, shaft, window, walls, bending, states.states, pictures, refusals):
+    for check in (laval, overhung, excitations, bearing, nelson, friswell, anisotropic, damped, transfer, shaft, window, walls, bending, states.states, pictures, refusals):
         check()
 else:
     string()

@@ -2,8 +2,8 @@
 """Published rotors: critical speeds, whirl and unbalance against the published numbers and a dense solver.
 
 Nelson: H. D. Nelson and J. M. McVaugh, J. Eng. Ind. 98 (1976) 593-600. Friswell: M. I. Friswell, J. E. T. Penny, S. D. Garvey and A. W. Lees, Dynamics of Rotating
-Machines (Cambridge University Press, 2010), example 5.9.1, with the frequencies that the ROSS project prints of it (R. Timbo et al., J. Open Source Softw. 5 (2020) 2120;
-docs/examples/example_05_09_01 of that project).
+Machines (Cambridge University Press, 2010), examples 5.9.1 and 5.9.2, with the frequencies and amplitudes that the ROSS project prints of them (R. Timbo et al., J. Open
+Source Softw. 5 (2020) 2120; docs/examples/example_05_09_01 and ross/tests/test_rotor_assembly of that project).
 """
 import numpy as np
 from scipy.linalg import eig
@@ -23,17 +23,36 @@ FRISWELL = {  # rotary speed [rpm]: frequencies [rad/s], backward and forward in
 }
 
 
+ANISOTROPIC = {  # unbalance of 1e-3 kg m at stations: amplitudes at station 1 [m, rad] at 150, 300 and 450 rad/s
+    (3,): {"u": [1.14259057e-06, 1.88932819e-04, 4.50376020e-05], "v": [3.02252319e-06, 1.50551126e-04, 4.98323245e-05],
+           "theta_x": [1.97842812e-05, 5.19405022e-05, 2.80824236e-05], "theta_y": [2.02593969e-05, 1.64498124e-05, 1.06100461e-05]},
+    (3, 4): {"u": [4.80337594e-06, 2.31170438e-04, 6.90062268e-05], "v": [3.15307288e-06, 1.87793923e-04, 8.08531462e-05],
+             "theta_x": [3.79692673e-05, 5.97050225e-05, 5.48105215e-05], "theta_y": [4.16812885e-05, 1.38592416e-05, 2.20209089e-05]},
+}
+
+
+def symmetric(upper):
+    """The matrix with this upper triangle, given by rows."""
+    a = np.zeros((4, 4))
+    a[np.triu_indices(4)] = upper
+    return a + np.triu(a, 1).T
+
+
 def shaft_matrices(x, inner, outer, young, density, shear=np.inf):
-    """Rayleigh elements in one plane, with the shear modulus as a softer spring (coefficient 6 (1 + nu)/(7 + 6 nu) of a solid section, nu = 0.3): K, M, G."""
+    """Elements of Timoshenko (Friswell et al., section 5.4) in one plane, of a solid section with the shear coefficient 6 (1 + nu)/(7 + 6 nu): K, M, G."""
     K, M, G = (np.zeros((2 * len(x), 2 * len(x))) for _ in range(3))
+    nu = young / (2 * shear) - 1 if np.isfinite(shear) else 0.3
     for e, l in enumerate(np.diff(x)):
         area, inertia = np.pi * (outer[e]**2 - inner[e]**2), np.pi / 4 * (outer[e]**4 - inner[e]**4)
-        phi = 12 * young * inertia / (6 * 1.3 / 8.8 * shear * area * l * l)
-        turn = density * inertia / (30 * l) * np.array([[36, 3 * l, -36, 3 * l], [3 * l, 4 * l * l, -3 * l, -l * l], [-36, -3 * l, 36, -3 * l], [3 * l, -l * l, -3 * l, 4 * l * l]])
+        p = 12 * young * inertia / (6 * (1 + nu) / (7 + 6 * nu) * shear * area * l * l)
         span = slice(2 * e, 2 * e + 4)
-        K[span, span] += young * inertia / (l**3 * (1 + phi)) * np.array([[12, 6 * l, -12, 6 * l], [6 * l, (4 + phi) * l * l, -6 * l, (2 - phi) * l * l], [-12, -6 * l, 12, -6 * l],
-                                                                          [6 * l, (2 - phi) * l * l, -6 * l, (4 + phi) * l * l]])
-        M[span, span] += turn + density * area * l / 420 * np.array([[156, 22 * l, 54, -13 * l], [22 * l, 4 * l * l, 13 * l, -3 * l * l], [54, 13 * l, 156, -22 * l], [-13 * l, -3 * l * l, -22 * l, 4 * l * l]])
+        K[span, span] += young * inertia / (l**3 * (1 + p)) * symmetric([12, 6 * l, -12, 6 * l, (4 + p) * l * l, -6 * l, (2 - p) * l * l, 12, -6 * l, (4 + p) * l * l])
+        near, far, turned = 312 + 588 * p + 280 * p * p, 108 + 252 * p + 140 * p * p, (8 + 14 * p + 7 * p * p) * l * l
+        a, b, c = (44 + 77 * p + 35 * p * p) * l, (26 + 63 * p + 35 * p * p) * l, (6 + 14 * p + 7 * p * p) * l * l
+        moved = density * area * l / (840 * (1 + p)**2) * symmetric([near, a, far, -b, turned, b, -c, near, -a, turned])
+        d, turned, other = (3 - 15 * p) * l, (4 + 5 * p + 10 * p * p) * l * l, (5 * p * p - 5 * p - 1) * l * l
+        turn = density * inertia / (30 * l * (1 + p)**2) * symmetric([36, d, -36, d, turned, -d, other, 36, -d, turned])
+        M[span, span] += moved + turn
         G[span, span] += 2 * turn
     return K, M, G
 
@@ -68,8 +87,8 @@ def friswell_matrices():
     return matrices
 
 
-def rotor_part(file, k, m, g, c=None):
-    """Both planes of a rotor as a part with the components u, v, theta_x, theta_y."""
+def rotor_part(file, k, m, g, c=None, across=None):
+    """Both planes of a rotor as a part with the components u, v, theta_x, theta_y. `across` is the stiffness of the plane of v, where it is another."""
     stations = len(k) // 2
     flip = np.diag([1.0, -1.0] * stations)
     K, M, G, C = (np.zeros((4 * stations, 4 * stations)) for _ in range(4))
@@ -77,7 +96,7 @@ def rotor_part(file, k, m, g, c=None):
     along_v = [4 * i + j for i in range(stations) for j in (1, 2)]  # v, -theta_x
     for A, a in ((K, k), (M, m), (C, np.zeros_like(k) if c is None else c)):
         A[np.ix_(along_u, along_u)] = a
-        A[np.ix_(along_v, along_v)] = flip @ a @ flip
+        A[np.ix_(along_v, along_v)] = flip @ (across if a is k and across is not None else a) @ flip
     # M r'' - i Omega G r' + K r = 0, r = u + i v: u'' has + Omega G v', v'' has - Omega G u'
     G[np.ix_(along_u, along_v)] = g @ flip
     G[np.ix_(along_v, along_u)] = -flip @ g
@@ -121,13 +140,50 @@ def friswell():
     for speed, published in FRISWELL.items():
         here = modes_at(rows, speed * RPM)
         found = 2 * np.pi * np.sort(here["frequency"])
-        # the published elements have the deflection of shear in their masses too: 3e-5 of the sixth frequency
-        close(f"friswell at {speed} rpm: {np.round(found, 3)} rad/s against the published frequencies", found / published, 1.0, 5e-5)
+        close(f"friswell at {speed} rpm: {np.round(found, 3)} rad/s against the published frequencies", found / published, 1.0, 1e-9)
         if speed:
             expect("friswell: backward and forward in turn", np.all(np.sign(here["whirl"][np.argsort(here["frequency"])]) == [-1, 1, -1, 1, -1, 1]), here["whirl"])
     bearings = np.zeros_like(k)
     bearings[0, 0] = bearings[-2, -2] = 3e3  # example 5.9.5: 3 kN s/m
     unbalance("friswell", k, m, g, bearings, 3, 4000.0, 20)
+
+
+def anisotropic():
+    """The same rotor on bearings of 1 and 0.8 MN/m, example 5.9.2: amplitudes under unbalance as ROSS prints them."""
+    k, m, g = friswell_matrices()
+    softer = k.copy()
+    for end in (0, -2):
+        softer[end, end] -= 0.2e6
+    rotor_part("anisotropic.h5", k, m, g, None, softer)
+    for stations, published in ANISOTROPIC.items():
+        masses = lists("Unbalance", "".join(lists(f"disc {n}", values(Node=n, Moment=1e-3)) for n in stations))
+        outputs = lists("Outputs", "".join(lists(name, values(Node=1, Component=name)) for name in published))
+        name = f"anisotropic_{len(stations)}"
+        run("response", deck(name, "anisotropic.h5", lists("Response", values(Highest_Speed=450.0, Points=4) + masses + outputs), GYROSCOPIC), name)
+        rows = table(name, "response")
+        for output, amplitudes in published.items():
+            found = rows[f"{output}_amplitude"][1:]
+            close(f"{name}: {output} at 150, 300, 450 rad/s {found} against the published amplitudes", found / amplitudes, 1.0, 1e-8)
+
+
+def damped():
+    """The same rotor on bearings of 1 and 2 MN/m with 1 kN s/m, 1 kg m at station 1, 50 rad/s: the major axis of the orbits of stations 1 and 2 as ROSS prints it [m]."""
+    k, m, g = friswell_matrices()
+    stiffer, bearings = k.copy(), np.zeros_like(k)
+    for end in (0, -2):
+        stiffer[end, end] += 1e6
+        bearings[end, end] = 1e3
+    rotor_part("damped.h5", k, m, g, bearings, stiffer)
+    outputs = lists("Outputs", "".join(lists(f"{name}{n}", values(Node=n, Component=name)) for n in (1, 2) for name in "uv"))
+    scene = deck("damped", "damped.h5", lists("Response", values(Highest_Speed=50.0, Points=2) + lists("Unbalance", lists("end", values(Node=1, Moment=1.0))) + outputs), GYROSCOPIC)
+    run("response", scene, "damped")
+    rows = table("damped", "response")
+    for station, published in ((1, [2.74183e-3, 4.91340990e-05]), (2, [2.52877e-3, 4.58914054e-05])):
+        u, v = (rows[f"{name}{station}_amplitude"][-1] * np.exp(1j * rows[f"{name}{station}_phase"][-1]) for name in "uv")
+        turn = -np.angle(u * u + v * v) / 2  # of the phase, to the instant of the largest distance
+        axis = np.real(np.array([u, v]) * np.exp(1j * turn))
+        # the published axis is that of a picture, which its test holds to 1e-4; the smaller component agrees in all figures
+        close(f"damped: major axis at station {station} {axis} against the published one", np.abs(axis) / published, 1.0, 1e-4)
 
 
 def unbalance(name, k, m, g, c, station, last, modes):

@@ -114,7 +114,7 @@ def failures():
     expect("a point that fails is a missing cell", done.returncode == 0 and [row["status"] for row in rows] == ["done", "failed"] * 2
            and all(row["lateral acceleration"] == "" and row["reason"] for row in rows[1::2]) and all(row["lateral acceleration"] for row in rows[::2]),
            f"({done.returncode}) {[row['status'] for row in rows]} {done.stderr[-300:]}")
-    expect("and is named with its reason", "Point 2 (" in done.stderr and "failed: " in done.stderr and summary("failed")["map"]["failed"] == 2, done.stderr[-300:])
+    expect("and is named with its reason", "Point 2 (" in done.stderr and "failed: " in done.stderr and "(1 further point likewise)" in done.stderr and summary("failed")["map"]["failed"] == 2, done.stderr[-300:])
     with h5py.File("failed/map.h5") as file:
         expect("map.h5 says what is known", file["/known/lateral acceleration"][:].ravel().tolist() == [1, 0, 1, 0])
     longer = ["--set", "Transient/End Time=0.3", *SHORT[2:]]
@@ -125,6 +125,19 @@ def failures():
     for what, arguments, sentence in [("no list", ["--without", "Map"], "has no Map list"), ("no such row", ["--row", "5", "--output", "x"], "the map has the rows 1 to 4")]:
         refused = tooljoint("map", DECK, *SHORT, *arguments) if what != "no list" else tooljoint("map", DECK, *arguments)
         expect(f"{what} is refused", refused.returncode in (1, 2) and sentence in refused.stderr, refused.stderr)
+
+
+def refusals():
+    """What a law refuses at every speed of the grid is told once, with a count."""
+    driller = {"Bit/Law": "Cutting", "Bit/Cutting/Radius": "0.1", "Bit/Cutting/Blades": "3", "Top Drive/Autodriller/Weight On Bit": "10 kN",
+               "Top Drive/Autodriller/Proportional Gain": "1e-7", "Top Drive/Autodriller/Integral Gain": "1e-8", "Supports/Top": "u v theta_z", "Rotary Speed/Law": "Constant", "Rotary Speed/Constant/Speed": "60 rpm",
+               "Map/Grid/speed/Parameter": "Rotary Speed/Constant/Speed", "Map/Grid/weight on bit/Parameter": "Top Drive/Autodriller/Weight On Bit",
+               "Map/Grid/weight on bit/Values": "{50000 MN, 90000 MN}"}
+    arguments = [word for name, value in driller.items() for word in ("--set", f"{name}={value}")]
+    done = tooljoint("map", DECK, "--output", "refused", "--without", "Loads/Weight On Bit", "--without", "Loads/Torque On Bit", *arguments)
+    lines = [line for line in done.stderr.splitlines() if "is not reached" in line]
+    expect("a weight that no speed reaches is told once, with a count", done.returncode == 2 and len(lines) == 2 and all("(3 further runs likewise)" in line for line in lines),
+           f"({done.returncode}) {done.stderr[-900:]}")
 
 
 def parts():
@@ -172,17 +185,32 @@ def pictures():
     expect("every value has its picture", done.returncode == 0 and (there or "needs python3 with" in done.stderr), done.stderr[-300:])
 
 
+def inclined():
+    """The map of an inclined kilometre, with a short motion: steps fine enough, and a reduced model whose points are those of runs."""
+    deck = str(pathlib.Path(DECK).with_name("map_inclined_1000m.xml"))
+    short = ["--set", "Transient/End Time=0.2", "--set", "Map/Grid/speed/Count=2", "--set", "Map/Grid/weight on bit/Values={20 kN, 60 kN}", "--set", "Map/Pictures=false"]
+    done = tooljoint("map", deck, "--output", "inclined", *short)
+    rows = table("inclined") if done.returncode == 0 else []
+    expect("inclined kilometre: four points", [row["status"] for row in rows] == ["done"] * 4, done.stderr[-400:])
+    expect("inclined kilometre: step errors below 5 %", all(0 < float(row["step error"]) < 0.05 for row in rows), rows)
+    run = tooljoint("run", deck, "--output", "inclined_run", *short[:2], "--set", "Rotary Speed/Exponential/Final Speed=180 rpm", "--set", "Loads/Weight On Bit=60 kN", "--without", "Map")
+    expect("inclined kilometre: the last point is a run with its overrides", run.returncode == 0 and number("inclined_run", "transient.model") == "reduced"
+           and float(rows[-1]["stick-slip index"]) == number("inclined_run", "transient.figures.stick_slip_index"), run.stderr[-300:])
+
+
 def main():
     # points known from an earlier test would not be computed
-    for folder in ("one", "np1", "np2_groups", "np2_together", "killed", "failed", "limited", "parts", "plan"):
+    for folder in ("one", "np1", "np2_groups", "np2_together", "killed", "failed", "limited", "parts", "plan", "inclined"):
         shutil.rmtree(folder, ignore_errors=True)
     against_runs()
     many_ranks()
     killed()
     failures()
+    refusals()
     parts()
     planned()
     pictures()
+    inclined()
     return finish()
 
 

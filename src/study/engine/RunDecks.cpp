@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "study/engine/RunDecks.hpp"
 
-#include <algorithm>
 #include <charconv>
 
 #include "common/Error.hpp"
@@ -10,15 +9,11 @@
 namespace tooljoint::study {
 
 void RunDecks::fault(const std::string& path, const std::string& sentence) {
-  keep(scene_.deck().error(path, sentence));
-}
-
-void RunDecks::keep(const std::string& line) {
-  if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
+  faults_.add(path + ' ' + sentence, "", scene_.deck().error(path, sentence));
 }
 
 void RunDecks::raise() const {
-  if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+  if (!faults_.empty()) throw DeckError(join(faults_.told("run"), "\n"));
 }
 
 std::unique_ptr<cases::Case> RunDecks::read(const PlannedRun& run,
@@ -45,10 +40,14 @@ void RunDecks::relocate(const PlannedRun& run, const std::string& line) {
     const auto place =
         (item.text[0] == '!' ? "--without " + item.text.substr(1) : "--set " + item.text) + ": ";
     if (line.rfind(place, 0) != 0) continue;
-    fault(item.source, "says " + inQuotes(item.text) + ": " + line.substr(place.size()));
+    const auto reason = line.substr(place.size());
+    faults_.add(item.source + ' ' + item.text, reason,
+                scene_.deck().error(item.source, "says " + inQuotes(item.text) + ": " + reason));
     return;
   }
-  fault(run.source, "makes a deck that is not valid (" + run.label + "): " + line);
+  faults_.add(run.source, line,
+              scene_.deck().error(run.source,
+                                  "makes a deck that is not valid (" + run.label + "): " + line));
 }
 
 std::size_t rowNumber(const std::string& row, std::size_t rows, const std::string& what) {

@@ -11,6 +11,7 @@
 
 #include "cases/Case.hpp"
 #include "study/Expansion.hpp"
+#include "study/Likewise.hpp"
 
 namespace tooljoint::study {
 
@@ -24,17 +25,17 @@ class RunDecks {
   /// run.
   std::unique_ptr<cases::Case> read(const PlannedRun& run, const std::vector<std::string>& common);
 
-  /// Keeps a fault of the deck at `path`; the same one once.
+  /// Keeps a fault of the deck at `path`; the same one once, and runs whose fault differs in
+  /// numbers alone are counted.
   void fault(const std::string& path, const std::string& sentence);
   /// DeckError with a line for each fault; returns when there is none.
   void raise() const;
 
  private:
-  void keep(const std::string& line);
   void relocate(const PlannedRun& run, const std::string& line);
 
   const cases::Case& scene_;
-  std::vector<std::string> faults_;
+  LikewiseList faults_;
 };
 
 /// Position of the row `row` of `what` ("study", "map"), counted from 1 on the command line.

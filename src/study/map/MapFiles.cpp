@@ -9,6 +9,7 @@
 #include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "io/SummaryUnits.hpp"
+#include "study/Likewise.hpp"
 #include "study/engine/StudyFiles.hpp"
 
 namespace tooljoint::study {
@@ -158,17 +159,19 @@ std::string describe(const MapPlan& plan, const std::vector<MapRow>& rows) {
 }
 
 std::vector<std::string> missingPoints(const MapPlan& plan, const std::vector<MapRow>& rows) {
-  std::vector<std::string> out;
+  LikewiseList out;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string point =
         "Point " + std::to_string(i + 1) + " (" + plan.points[i].plan.label + ") ";
-    if (rows[i].status == "failed") out.push_back(point + "failed: " + rows[i].reason);
-    if (rows[i].status == "pending") out.push_back(point + "is not there.");
+    if (rows[i].status == "failed")
+      out.add("failed", rows[i].reason, point + "failed: " + rows[i].reason);
+    if (rows[i].status == "pending") out.add(point, "", point + "is not there.");
     if (rows[i].status != "done") continue;
     for (const auto& value : plan.settings.values)
-      if (!rows[i].number(value.key)) out.push_back(point + "has no number " + value.key + ".");
+      if (!rows[i].number(value.key))
+        out.add(value.key, "", point + "has no number " + value.key + ".");
   }
-  return out;
+  return out.told("point");
 }
 
 void drawMap(const std::string& folder) { drawPictures("plot_map.py", "map_", folder); }

@@ -30,7 +30,8 @@ void summarise(const MapPlan& plan, const std::vector<MapRow>& rows, io::Summary
 
 /// Lines of the log: the range of every value, and the time per point.
 std::string describe(const MapPlan& plan, const std::vector<MapRow>& rows);
-/// Points that failed and why, or are not there; one sentence each.
+/// Points that failed and why, or are not there; one sentence for those that differ in numbers
+/// alone.
 std::vector<std::string> missingPoints(const MapPlan& plan, const std::vector<MapRow>& rows);
 
 /// Draws the maps of a folder with the installed script. When that is not possible, warns with the

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Sentences on many runs that differ in their numbers alone are told once, with a count.
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tooljoint::study {
+
+class LikewiseList {
+ public:
+  /// \param kind      what a sentence of the same kind begins with
+  /// \param reason    whose numbers may differ
+  /// \param sentence  told when it is the first of its kind
+  void add(const std::string& kind, const std::string& reason, const std::string& sentence) {
+    const auto key = kind + '\n' + withoutNumbers(reason);
+    const auto known = std::find_if(groups_.begin(), groups_.end(),
+                                    [&](const Group& one) { return one.key == key; });
+    if (known == groups_.end())
+      groups_.push_back({key, {sentence}});
+    else if (std::find(known->sentences.begin(), known->sentences.end(), sentence) ==
+             known->sentences.end())
+      known->sentences.push_back(sentence);
+  }
+  bool empty() const { return groups_.empty(); }
+
+  /// The first sentence of each kind, with the number of different further ones.
+  std::vector<std::string> told(const std::string& thing) const {
+    std::vector<std::string> out;
+    for (const auto& group : groups_) {
+      const auto further = group.sentences.size() - 1;
+      out.push_back(group.sentences.front());
+      if (further > 0)
+        out.back() += " (" + std::to_string(further) + " further " + thing +
+                      (further > 1 ? "s" : "") + " likewise)";
+    }
+    return out;
+  }
+
+ private:
+  struct Group {
+    std::string key;
+    std::vector<std::string> sentences;
+  };
+
+  static std::string withoutNumbers(const std::string& text) {
+    std::string out;
+    for (const char letter : text) {
+      const bool digit = std::isdigit(static_cast<unsigned char>(letter)) != 0;
+      if (!digit && letter != '.' && letter != '-' && letter != '+') out += letter;
+    }
+    return out;
+  }
+
+  std::vector<Group> groups_;
+};
+
+}  // namespace tooljoint::study
