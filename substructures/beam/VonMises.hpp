@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Stress of a pipe in tension, bending and torsion.
+/// Stress of a pipe in tension, bending, torsion and pressure.
 #pragma once
 
 #include "substructures/beam/Section.hpp"
@@ -8,10 +8,13 @@
 namespace tooljoint::beam {
 
 /// Largest von Mises stress of a section at both walls and on both sides of the bend [Pa], from the
-/// effective tension [N], the torque [N m] and the curvature of the pipe [1/m]. Equal pressure
-/// inside and outside is hydrostatic in the wall and part of the effective tension T:
+/// effective tension [N], the torque [N m], the curvature of the pipe [1/m] and the pressure p
+/// inside over that outside [Pa]. Of the stresses of a thick wall (Lame), a -+ b/R^2 radially and
+/// around, the hydrostatic part a = (p_i S_i - p_o S_o)/S is that of the effective tension T too:
 ///
-///     sigma^2 = (T/S +- E kappa R)^2 + 3 (M R/J)^2
-double vonMises(const Section& section, double tension, double torque, double curvature);
+///     sigma^2 = (T/S +- E kappa R)^2 + 3 (b/R^2)^2 + 3 (M R/J)^2,
+///     b = p R_i^2 R_o^2/(R_o^2 - R_i^2)
+double vonMises(const Section& section, double tension, double torque, double curvature,
+                double pressure = 0.0);
 
 }  // namespace tooljoint::beam

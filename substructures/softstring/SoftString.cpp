@@ -5,47 +5,14 @@
 #include <cmath>
 #include <utility>
 
-#include "common/Error.hpp"
-#include "common/Text.hpp"
 #include "substructures/softstring/Buckling.hpp"
+#include "substructures/softstring/Pieces.hpp"
 
 namespace tooljoint::softstring {
 namespace {
 
-/// Points nearer to an end of an interval than this are taken from inside it [m].
-constexpr double inside = 1e-7;
 /// Axial strain at which a string pushed from above counts as locked up: steel yields before.
 constexpr double lockedStrain = 0.01;
-
-/// A piece of the way up in which nothing jumps.
-struct Piece {
-  double top, bottom;  ///< measured depths [m]
-  int stretch;
-};
-
-/// The string below the surface in pieces, from the bit up.
-std::vector<Piece> pieces(const std::vector<Stretch>& string, const Hole& hole, double bit) {
-  std::vector<double> jumps = hole.breaks;
-  std::sort(jumps.begin(), jumps.end());
-  std::vector<Piece> found;
-  double bottom = bit;
-  for (std::size_t i = string.size(); i-- > 0 && bottom > 0.0;) {
-    double top = bottom - string[i].length;
-    if (top < inside) top = 0.0;
-    for (double low = bottom; low > top;) {
-      auto next = std::lower_bound(jumps.begin(), jumps.end(), low - inside);
-      const double high = next == jumps.begin() ? top : std::max(top, *std::prev(next));
-      found.push_back({high, low, static_cast<int>(i)});
-      low = high;
-    }
-    bottom = top;
-  }
-  if (bottom > inside)
-    throw ModelError("The string ends " + formatNumber(bottom) +
-                     " m below the surface when its bit is at " + formatNumber(bit) +
-                     " m. Give it more pipe, or a smaller depth of the bit.");
-  return found;
-}
 
 }  // namespace
 

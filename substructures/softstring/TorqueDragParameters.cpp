@@ -58,6 +58,10 @@ deck::ListSpec torqueDragParameters() {
             "Axial speed of drilling.");
   list.real("Yield Strength", "Pa", deck::Optional{}, deck::Range::positive(),
             "Yield strength of the string, e.g. 931 MPa for S-135; without it no margin to yield.");
+  list.real("Pump Pressure", "Pa", deck::Optional{}, deck::Range::nonNegative(),
+            "Pressure of the mud inside the string over that in the annulus, at the surface: part "
+            "of the margin to yield. Without it what the friction of Mud/Flow Rate takes down the "
+            "string and up the annulus, so that no pressure is left at the bit.");
   list.choice(
       "Stiff String", std::string("Deepest Bit"), {"None", "Deepest Bit", "All Depths"},
       "Depths at which the string with bending stiffness, clearance and contact (Static) is "
@@ -95,6 +99,7 @@ TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list) {
   if (list.isParameter("Rotary Speed")) settings.rotarySpeed = list.get<double>("Rotary Speed");
   if (list.isParameter("Yield Strength"))
     settings.yieldStrength = list.get<double>("Yield Strength");
+  if (list.isParameter("Pump Pressure")) settings.pumpPressure = list.get<double>("Pump Pressure");
   const auto& stiff = list.get<std::string>("Stiff String");
   settings.stiff = stiff == "None"          ? StiffDepths::None
                    : stiff == "Deepest Bit" ? StiffDepths::Deepest

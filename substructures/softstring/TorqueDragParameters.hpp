@@ -28,6 +28,7 @@ struct TorqueDragSettings {
   double penetrationRate = 0.0;         ///< of drilling [m/s]
   std::optional<double> rotarySpeed;    ///< [rad/s]; none: that of the deck
   std::optional<double> yieldStrength;  ///< [Pa]; none: no margin to yield
+  std::optional<double> pumpPressure;   ///< [Pa]; none: what the flow needs
   StiffDepths stiff = StiffDepths::Deepest;
   std::optional<std::string> measured;  ///< table of measurements to fit friction to
   double hookLoadUncertainty = 0.0, torqueUncertainty = 0.0;  ///< of a measured value [N], [N m]

@@ -77,6 +77,47 @@ def straight():
     expect("nothing is compressed off bottom", full["Rotate off bottom"]["helical_margin"] == "")
 
 
+def pressure():
+    """Margins to yield with the pressure of the mud: von Mises of a thick wall from the loads of the profile, friction losses of the flow, the pump pressure."""
+    survey = pathlib.Path("straight.csv").resolve()
+    density, flow, friction, hole = 1300.0, 0.03, 0.013, 0.108
+    mud = ["Well/Trajectory=Survey", f"Well/Survey/File={survey}", "Supports/Bit=none", f"Mud/Density={density}", f"Mud/Flow Rate={flow}", f"Mud/Friction Coefficient={friction}",
+           "Torque and Drag/Count=1", "Torque and Drag/Yield Strength=724 MPa", "Drillstring/Assembly={150*stand}"]
+
+    def loss(outer, inner):  # of both flows per length
+        inside, outside = (flow / (math.pi * area) for area in (inner * inner, hole * hole - outer * outer))
+        return friction * density / math.pi * (inside**2 / inner + outside**2 / (hole - outer))
+
+    body, joint = (0.0635, 0.0543), (0.084, 0.0413)
+    through = 150 * (9.0 * loss(*body) + 0.5 * loss(*joint))
+    for folder, pump in (("pressure_flow", None), ("pressure_pump", 3.5e7)):
+        table = run(folder, *mud, *([f"Torque and Drag/Pump Pressure={pump} Pa"] if pump is not None else []))
+        profile = [row for row in rows(folder, "torque_drag_profile.csv") if row["operation"] == "Drill rotating"]
+        surface = through if pump is None else pump
+        bit_side = surface - through
+        for row, difference in ((profile[-1], surface), (profile[0], bit_side)):
+            tension, torque, depth = (float(row[name]) for name in ("tension", "torque", "depth"))
+            candidates = []  # the point is of the body or of the joint
+            for outer, inner in (body, joint):
+                area, polar = math.pi * (outer**2 - inner**2), math.pi / 2 * (outer**4 - inner**4)
+                outside = 1.4e7  # any
+                inside = outside + difference
+                a = (inside * inner**2 - outside * outer**2) / (outer**2 - inner**2)
+                b = difference * (inner * outer)**2 / (outer**2 - inner**2)
+                axial = (tension + math.pi * (inside * inner**2 - outside * outer**2)) / area
+                stresses = [math.sqrt(0.5 * ((axial - (a - b / r**2))**2 + (2 * b / r**2)**2 + (a + b / r**2 - axial)**2) + 3 * (torque * r / polar)**2) for r in (inner, outer)]
+                candidates.append(max(stresses))
+            found = float(row["von_mises"])
+            nearest = min(candidates, key=lambda value: abs(value - found))
+            near(f"{folder}: von Mises at {depth:.0f} m of a thick wall", found, nearest, 1e-6)
+        least = min(724e6 / float(row["von_mises"]) for row in profile)
+        near(f"{folder}: margin to yield", float(next(row for row in table if row["operation"] == "Drill rotating")["yield_margin"]), least, 1e-6)
+        stiff_profile = [row for row in rows(folder, "torque_drag_stiff_profile.csv") if row["operation"] == "Trip out" and row["von_mises"]]
+        expect(f"{folder}: the stiff string bears the pressure too", all(float(row["von_mises"]) > 0 for row in stiff_profile))
+    still, pumped = ({row["operation"]: float(row["yield_margin"]) for row in rows(folder)} for folder in ("pressure_flow", "pressure_pump"))
+    expect("a pump pressure takes of the margin in every operation", all(pumped[name] < still[name] for name in still), (still, pumped))
+
+
 def beside():
     """The stiff string of a build and hold well beside the soft one, at a depth where it is cut and for a string of that length."""
     whole = {row["operation"]: row for row in run("beside", "Torque and Drag/Depths={950}", "Torque and Drag/Yield Strength=931 MPa")}
@@ -243,6 +284,7 @@ def files():
 
 
 straight()
+pressure()
 stiff("build_hold_1400m", 0.01, 0.03)
 stiff("extended_reach_5000m", 0.01, 0.05)
 # A vertical string hardly touches: what torque the bit does not ask for is small.

@@ -7,7 +7,6 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "substructures/beam/NodalDofs.hpp"
-#include "substructures/beam/VonMises.hpp"
 #include "substructures/drillstring/analyses/Hanging.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
 #include "substructures/drillstring/scene/RestProblem.hpp"
@@ -74,8 +73,6 @@ StiffLoads StiffString::under(const softstring::Operation& operation) const {
     loads.tension.push_back(state.axialForce(e));
     loads.torque.push_back(state.torque(e));
     loads.moment.push_back(moment);
-    loads.vonMises.push_back(beam::vonMises(section, state.axialForce(e), state.torque(e),
-                                            moment / bending_[at(e)].rigidity));
   }
   return loads;
 }

@@ -26,13 +26,13 @@ struct StiffLoads {
   std::vector<double> depth;                    ///< of the nodes, from the surface [m]
   std::vector<double> contactForce;             ///< of each node [N]
   std::vector<double> tension, torque, moment;  ///< of each element, at its middle [N, N m]
-  std::vector<double> vonMises;                 ///< of each element, by beam::vonMises() [Pa]
+  std::vector<double> vonMises;                 ///< of each element, by torqueDrag() [Pa]
 
   bool found() const { return failure.empty(); }
   template <class Archive>
   void serialize(Archive& archive) {
     archive(failure, hookLoad, surfaceTorque, twist, stretch, torqueDefect, iterations, depth,
-            contactForce, tension, torque, moment, vonMises);
+            contactForce, tension, torque, moment);
   }
 };
 

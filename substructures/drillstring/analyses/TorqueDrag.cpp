@@ -11,6 +11,7 @@
 #include "common/Text.hpp"
 #include "deck/Defaults.hpp"
 #include "substructures/beam/VonMises.hpp"
+#include "substructures/mud/MudModel.hpp"
 #include "substructures/softstring/Buckling.hpp"
 
 namespace tooljoint::drillstring {
@@ -139,7 +140,14 @@ void requireReach(const Scene& scene, double bit, const std::string& where) {
                     formatNumber(deepest) + " m. Give depths down to there, or a longer string.");
 }
 
-SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene)}; }
+SoftModel softModel(const Scene& scene) {
+  SoftModel model{stretches(scene), holeOf(scene), {}};
+  if (scene.list().isSublist("Mud")) {
+    const auto mud = mud::readProperties(scene.list().sublist("Mud"));
+    model.mud = {mud.density, mud.frictionCoefficient, mud.flowRate};
+  }
+  return model;
+}
 
 std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings) {
@@ -166,6 +174,8 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
   TorqueDragProfile profile;
   profile.loads = softstring::march(model.string, hole, bit, operation, settings.helix);
   const auto& loads = profile.loads;
+  const softstring::PressureDifference pressure(model.string, hole, bit, model.mud,
+                                                settings.pumpPressure);
   TorqueDragRow& row = profile.row;
   row.bit = bit;
   row.operation = operation.name;
@@ -188,8 +198,8 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
                                           hole.radius(s) - stretch.section.outerRadius());
     profile.sinusoidal.push_back(limits.sinusoidal);
     profile.helical.push_back(limits.helical);
-    profile.vonMises.push_back(
-        beam::vonMises(stretch.section, loads.tension[i], loads.torque[i], point.curvature.norm()));
+    profile.vonMises.push_back(beam::vonMises(stretch.section, loads.tension[i], loads.torque[i],
+                                              point.curvature.norm(), pressure.at(s)));
     if (settings.yieldStrength && profile.vonMises.back() > 0.0)
       keepLeast(row.yield, *settings.yieldStrength / profile.vonMises.back(), s);
     if (loads.tension[i] < 0.0) {
@@ -204,6 +214,26 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
   }
   return profile;
 }
+
+namespace {
+
+/// Stresses of the elements of the stiff string, whose lower end is that of the soft one.
+void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& settings, double bit,
+                 StiffLoads& loads) {
+  const softstring::PressureDifference pressure(model.string, model.hole, bit, model.mud,
+                                                settings.pumpPressure);
+  const std::size_t count = loads.tension.size(), above = model.string.size() - count;
+  loads.vonMises.clear();
+  for (std::size_t e = 0; e < count; ++e) {
+    const auto& section = model.string[above + e].section;
+    loads.vonMises.push_back(
+        beam::vonMises(section, loads.tension[e], loads.torque[e],
+                       loads.moment[e] / (section.youngModulus() * section.inertiaX()),
+                       pressure.at(std::min(bit, 0.5 * (loads.depth[e] + loads.depth[e + 1])))));
+  }
+}
+
+}  // namespace
 
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const StiffStore& store) {
   const auto settings = torqueDragSettings(scene);
@@ -220,8 +250,10 @@ std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const StiffStore& 
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t k = 0; k < operations.size(); ++k)
       for (auto& profile : profiles)
-        if (profile.row.bit == stiffDepths[i] && profile.row.operation == operations[k].name)
+        if (profile.row.bit == stiffDepths[i] && profile.row.operation == operations[k].name) {
           profile.stiff = rows[i][k];
+          addStresses(model, settings, stiffDepths[i], *profile.stiff);
+        }
   return profiles;
 }
 

@@ -12,6 +12,7 @@
 #include "substructures/drillstring/analyses/StiffString.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/softstring/Pressure.hpp"
 #include "substructures/softstring/SoftString.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
 
@@ -58,6 +59,7 @@ void requireReach(const Scene& scene, double bit, const std::string& where);
 struct SoftModel {
   std::vector<softstring::Stretch> string;
   softstring::Hole hole;
+  softstring::Circulation mud;
 };
 
 /// A stretch touches the wall at the largest radius of its entry of the assembly (the tool joint of
@@ -69,7 +71,7 @@ std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings);
 
 /// One march with its margins. Yield by von Mises from effective tension, bending by the curvature
-/// of the hole, and torsion, at both walls of the pipe, with mud at rest inside and outside.
+/// of the hole, torsion, and pressure inside over that outside, at both walls of the pipe.
 /// \param allLimits  critical compressions all along the string; else where it is compressed
 TorqueDragProfile torqueDragAt(const SoftModel& model,
                                const softstring::TorqueDragSettings& settings,

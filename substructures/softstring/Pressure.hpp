@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Pressure of the mud inside the string over that outside.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "substructures/softstring/SoftString.hpp"
+
+namespace tooljoint::softstring {
+
+/// Mud that goes down the string and up the annulus.
+struct Circulation {
+  double density = 0.0;              ///< rho [kg/m3]
+  double frictionCoefficient = 0.0;  ///< C_f, with the wall shear C_f rho U^2/(2 pi)
+  double flowRate = 0.0;             ///< Q [m3/s]
+};
+
+/// p_i - p_o along the string. The weight of the mud is the same inside and outside; with mean
+/// velocities U of the flow, the radii R_i and R_e of the pipe and R_w of the hole,
+///
+///     d(p_i - p_o)/ds = -C_f rho/pi (U_i^2/R_i + U_o^2/(R_w - R_e))
+///
+/// from the pump pressure at the surface down. Without a pump pressure it is zero at the bit: the
+/// pump overcomes these losses, and no nozzles.
+class PressureDifference {
+ public:
+  PressureDifference(const std::vector<Stretch>& string, const Hole& hole, double bit,
+                     const Circulation& mud, std::optional<double> pumpPressure);
+  /// At a measured depth [m] down to the bit [Pa].
+  double at(double depth) const;
+
+ private:
+  std::vector<double> depth_, loss_;  ///< losses from the surface [m, Pa]
+  double atSurface_ = 0.0;
+};
+
+}  // namespace tooljoint::softstring
