@@ -26,8 +26,8 @@ class Bit final : public Load {
   }
 
   std::vector<LoadRemark> describe(const RotarySpeed&) const override {
-    return {{weight_ != 0.0, "weight on bit", deck::printed(weight_, "N")},
-            {torque_ != 0.0, "torque on bit", deck::printed(torque_, "N m")}};
+    return {{weight_ != 0.0, "weight on bit", deck::printed(weight_, "N", 6)},
+            {torque_ != 0.0, "torque on bit", deck::printed(torque_, "N m", 6)}};
   }
 
  private:

@@ -31,8 +31,7 @@ double lossPerLength(const beam::Section& pipe, double hole, const Circulation& 
 }  // namespace
 
 PressureDifference::PressureDifference(const std::vector<Stretch>& string, const Hole& hole,
-                                       double bit, const Circulation& mud,
-                                       std::optional<double> pumpPressure) {
+                                       double bit, std::optional<double> pumpPressure) {
   auto found = pieces(string, hole, bit);
   std::reverse(found.begin(), found.end());
   depth_.push_back(0.0);
@@ -42,7 +41,7 @@ PressureDifference::PressureDifference(const std::vector<Stretch>& string, const
     const double radius = hole.radius(0.5 * (piece.top + piece.bottom));
     depth_.push_back(piece.bottom);
     loss_.push_back(loss_.back() +
-                    (piece.bottom - piece.top) * lossPerLength(section, radius, mud));
+                    (piece.bottom - piece.top) * lossPerLength(section, radius, hole.mud));
   }
   atSurface_ = pumpPressure.value_or(loss_.back());
 }

@@ -10,13 +10,6 @@
 
 namespace tooljoint::softstring {
 
-/// Mud that goes down the string and up the annulus.
-struct Circulation {
-  double density = 0.0;              ///< rho [kg/m3]
-  double frictionCoefficient = 0.0;  ///< C_f, with the wall shear C_f rho U^2/(2 pi)
-  double flowRate = 0.0;             ///< Q [m3/s]
-};
-
 /// p_i - p_o along the string. The weight of the mud is the same inside and outside; with mean
 /// velocities U of the flow, the radii R_i and R_e of the pipe and R_w of the hole,
 ///
@@ -27,7 +20,7 @@ struct Circulation {
 class PressureDifference {
  public:
   PressureDifference(const std::vector<Stretch>& string, const Hole& hole, double bit,
-                     const Circulation& mud, std::optional<double> pumpPressure);
+                     std::optional<double> pumpPressure);
   /// At a measured depth [m] down to the bit [Pa].
   double at(double depth) const;
 

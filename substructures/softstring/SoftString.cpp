@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/Constants.hpp"
 #include "substructures/softstring/Buckling.hpp"
 #include "substructures/softstring/Pieces.hpp"
 
@@ -21,6 +22,13 @@ double sideForce(const well::WellPoint& point, double tension, double weight) {
   return (tension * point.curvature + weight * across).norm();
 }
 
+double mudDrag(const beam::Section& section, double holeRadius, const Circulation& mud) {
+  const double outer = section.outerRadius(), area = holeRadius * holeRadius - outer * outer;
+  if (!mud.axialDrag || !(area > 0.0)) return 0.0;
+  const double speed = mud.flowRate / (0.5 * constants::twoPi * area);
+  return mud.frictionCoefficient * mud.density * outer * speed * std::abs(speed);
+}
+
 Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,
             const Operation& operation, bool helix, double step) {
   using State = Eigen::Vector2d;  // T, M
@@ -35,6 +43,7 @@ Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,
     const double turning = speed > 0.0 ? around / speed : 0.0;
     const double middle = 0.5 * (piece.top + piece.bottom);
     const double mu = hole.friction(middle);
+    const double drag = mudDrag(own.section, hole.radius(middle), hole.mud);
     const double clearance = hole.radius(middle) - own.section.outerRadius();
 
     const auto normal = [&](double s, double tension) {
@@ -47,7 +56,8 @@ Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,
     };
     const auto rate = [&](double s, const State& at) {
       const auto [N, down] = normal(s, at[0]);
-      return State(-own.weight * down + mu * N * along, mu * N * own.frictionRadius * turning);
+      return State(-own.weight * down + mu * N * along + drag,
+                   mu * N * own.frictionRadius * turning);
     };
 
     const double length = piece.bottom - piece.top;

@@ -5,11 +5,12 @@
 /// SPE Drilling Engineering 2, 1987), in vector form:
 ///
 ///     N = |T kappa + w (g - (g.t) t)|
-///     dT/ds = -w g.t + mu N v_a/v,   dM/ds = mu N r_f v_c/v,   v = sqrt(v_a^2 + v_c^2)
+///     dT/ds = -w g.t + mu N v_a/v + d,   dM/ds = mu N r_f v_c/v,   v = sqrt(v_a^2 + v_c^2)
 ///     T(bit) = -WOB,  M(bit) = -TOB
 ///
 /// s downwards along the hole, T effective tension, M torque, t tangent, kappa = dt/ds, g unit
-/// gravity, w buoyed weight per length, v_a axial speed (down positive), v_c = Omega r_f.
+/// gravity, w buoyed weight per length, v_a axial speed (down positive), v_c = Omega r_f, d =
+/// C_f rho R_e U_o |U_o| drag of the mud that goes up the annulus with U_o.
 #pragma once
 
 #include <functional>
@@ -29,12 +30,21 @@ struct Stretch {
   double frictionRadius = 0.0;  ///< r_f [m]
 };
 
+/// Mud that goes down the string and up the annulus.
+struct Circulation {
+  double density = 0.0;              ///< rho [kg/m3]
+  double frictionCoefficient = 0.0;  ///< C_f, with the wall shear C_f rho U^2/(2 pi)
+  double flowRate = 0.0;             ///< Q [m3/s]
+  bool axialDrag = false;            ///< it drags the string
+};
+
 /// The hole, by measured depth [m].
 struct Hole {
   std::function<well::WellPoint(double)> at;
   std::function<double(double)> radius;    ///< [m]
   std::function<double(double)> friction;  ///< mu
   std::vector<double> breaks;  ///< depths where curvature, radius or friction jump, in any order
+  Circulation mud = {};
 };
 
 /// What is done with the string.
@@ -60,6 +70,9 @@ struct Loads {
   /// the bit [m]; negative where it does not.
   double lockUpDepth = -1.0;
 };
+
+/// d, upwards [N/m]; zero where the body fills the hole.
+double mudDrag(const beam::Section& section, double holeRadius, const Circulation& mud);
 
 /// Loads of a string whose lower end is at the depth `bit`; what of it stands above the surface is
 /// left out. `string` from the surface down, at least as long as `bit`. Fourth-order Runge-Kutta in

@@ -88,11 +88,19 @@ def pressure():
         inside, outside = (flow / (math.pi * area) for area in (inner * inner, hole * hole - outer * outer))
         return friction * density / math.pi * (inside**2 / inner + outside**2 / (hole - outer))
 
+    def drag(outer, inner):  # of the mud in the annulus, per length
+        return friction * density * outer * (flow / (math.pi * (hole * hole - outer * outer)))**2
+
     body, joint = (0.0635, 0.0543), (0.084, 0.0413)
+    section = {pipe: math.pi * (pipe[0]**2 - pipe[1]**2) for pipe in (body, joint)}
+    hanging = 150 * sum(part * ((7850 - density) * 9.81 * math.cos(math.radians(50)) * section[pipe] - drag(*pipe)) for part, pipe in ((9.0, body), (0.5, joint)))
     through = 150 * (9.0 * loss(*body) + 0.5 * loss(*joint))
     for folder, pump in (("pressure_flow", None), ("pressure_pump", 3.5e7)):
         table = run(folder, *mud, *([f"Torque and Drag/Pump Pressure={pump} Pa"] if pump is not None else []))
         profile = [row for row in rows(folder, "torque_drag_profile.csv") if row["operation"] == "Drill rotating"]
+        off_bottom = next(row for row in table if row["operation"] == "Rotate off bottom")
+        near(f"{folder}: hook load, buoyed weight less the drag of the mud", float(off_bottom["hook_load"]), hanging, 1e-6)
+        near(f"{folder}: the same of the stiff string", float(off_bottom["stiff_hook_load"]), hanging, 1e-5)
         surface = through if pump is None else pump
         bit_side = surface - through
         for row, difference in ((profile[-1], surface), (profile[0], bit_side)):

@@ -10,6 +10,7 @@
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "deck/Defaults.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "substructures/beam/VonMises.hpp"
 #include "substructures/mud/MudModel.hpp"
 #include "substructures/softstring/Buckling.hpp"
@@ -98,6 +99,10 @@ softstring::Hole holeOf(const Scene& scene) {
   hole.at = [well](double s) { return well->at(s); };
   hole.radius = [well](double s) { return well->boreRadius(s); };
   hole.friction = [contact](double s) { return contact->pointAt(s, 1, 0.0, 0.0).muDynamic; };
+  if (scene.list().isSublist("Mud")) {
+    const auto mud = mud::readProperties(scene.list().sublist("Mud"));
+    hole.mud = {mud.density, mud.frictionCoefficient, mud.flowRate, mud.axialDrag};
+  }
   hole.breaks = scene.well.trajectory().breaks();
   for (const auto& interval : scene.well.intervals()) {
     hole.breaks.push_back(interval.from);
@@ -136,18 +141,12 @@ softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
 void requireReach(const Scene& scene, double bit, const std::string& where) {
   const double deepest = scene.string.length();
   if (bit > deepest * (1.0 + 1e-12))
-    throw DeckError(where + " " + formatNumber(bit) + " m, but the string of the deck ends at " +
-                    formatNumber(deepest) + " m. Give depths down to there, or a longer string.");
+    throw DeckError(where + " " + deck::printed(bit, "m", 8) +
+                    ", but the string of the deck ends at " + deck::printed(deepest, "m", 8) +
+                    ". Give depths down to there, or a longer string.");
 }
 
-SoftModel softModel(const Scene& scene) {
-  SoftModel model{stretches(scene), holeOf(scene), {}};
-  if (scene.list().isSublist("Mud")) {
-    const auto mud = mud::readProperties(scene.list().sublist("Mud"));
-    model.mud = {mud.density, mud.frictionCoefficient, mud.flowRate};
-  }
-  return model;
-}
+SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene)}; }
 
 std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings) {
@@ -174,8 +173,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
   TorqueDragProfile profile;
   profile.loads = softstring::march(model.string, hole, bit, operation, settings.helix);
   const auto& loads = profile.loads;
-  const softstring::PressureDifference pressure(model.string, hole, bit, model.mud,
-                                                settings.pumpPressure);
+  const softstring::PressureDifference pressure(model.string, hole, bit, settings.pumpPressure);
   TorqueDragRow& row = profile.row;
   row.bit = bit;
   row.operation = operation.name;
@@ -220,7 +218,7 @@ namespace {
 /// Stresses of the elements of the stiff string, whose lower end is that of the soft one.
 void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& settings, double bit,
                  StiffLoads& loads) {
-  const softstring::PressureDifference pressure(model.string, model.hole, bit, model.mud,
+  const softstring::PressureDifference pressure(model.string, model.hole, bit,
                                                 settings.pumpPressure);
   const std::size_t count = loads.tension.size(), above = model.string.size() - count;
   loads.vonMises.clear();

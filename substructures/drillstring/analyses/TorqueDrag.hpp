@@ -59,7 +59,6 @@ void requireReach(const Scene& scene, double bit, const std::string& where);
 struct SoftModel {
   std::vector<softstring::Stretch> string;
   softstring::Hole hole;
-  softstring::Circulation mud;
 };
 
 /// A stretch touches the wall at the largest radius of its entry of the assembly (the tool joint of

@@ -13,6 +13,7 @@
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "deck/Defaults.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "substructures/drillstring/DrillstringReader.hpp"
 #include "substructures/drillstring/analyses/bottom_hole/BottomHoleState.hpp"
@@ -126,8 +127,8 @@ void requireWithin(const Scene& scene, const std::string& name, std::optional<do
                    double whole) {
   if (length && *length > whole)
     refuse(scene, here + "/" + name,
-           "is " + formatNumber(*length) + " m above the bit, but the string is " +
-               formatNumber(whole) + " m long. Give a distance on the string.");
+           "is " + deck::printed(*length, "m", 8) + " above the bit, but the string is " +
+               deck::printed(whole, "m", 8) + " long. Give a distance on the string.");
 }
 
 void check(const Scene& scene, const BottomHoleSettings& settings, double whole) {
