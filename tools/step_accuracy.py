@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sets the step error of runs beside their vibration error, and writes docs/step-error.md with its figure.
+"""Sets what runs say of their steps beside their vibration error, and writes docs/step-error.md with its figure.
 
     tools/step_accuracy.py --program build/release/tooljoint [--work results/step_error] [--short] [--seconds S]
 
@@ -29,7 +29,9 @@ WAYS = {"usual": {}, "r 0.2": {"Spectral Radius": "0.2"}, "r 1": {"Spectral Radi
         "uncorrected": {"Phase Correction": "false"}}
 REFERENCE = ("1.25e-4", {"Tolerance": "1e-8"})
 BANDS = ((0.0, 0.02), (0.02, 0.2), (0.2, 0.5), (0.5, float("inf")))
-SIGN = re.compile(r"The time step \(\S+ s\) is (coarse|too large)")
+SAID = re.compile(r"The time step \(\S+ s\) is (coarse|too large)|The scheme damps vibration")
+STEP_ERROR = re.compile(r"step error\s+(\S+) %")
+DIFFERENCE = re.compile(r"differs\s+by\s+(\S+)\s+%")
 
 
 class Case:
@@ -56,18 +58,25 @@ class Run:
         log = self.folder.parent / (self.name + ".log")
         if not log.exists():
             settings = {"Transient/End Time": 2, "Transient/Step": step, "Transient/Sampling Interval": 0.02, "Transient/Progress": "false",
-                        "Transient/Step Error Limit": 1e9, "Transient/Energy Residual Limit": 1e9, "Output/XDMF": "false",
+                        "Transient/Energy Residual Limit": 1e9, "Output/XDMF": "false",
                         **{f"Transient/Generalized-alpha/{key}": value for key, value in own.items()}, **case.settings}
             done = subprocess.run([options.program, "run", str(PROJECT / f"xml/{case.deck}.xml"), "--output", str(self.folder), *MODELS[model],
                                    *[f"--set={key}={value}" for key, value in settings.items()]],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
             self.folder.parent.mkdir(parents=True, exist_ok=True)
             log.write_text(done.stdout)
-        summary = self.folder / "summary.json"
-        self.finished = summary.exists() and json.loads(summary.read_text())["status"] == "finished"
+        said, summary = log.read_text(), json.loads((self.folder / "summary.json").read_text())
+        self.refused = "is too large: step error" in said
+        self.warned = not self.refused and SAID.search(said) is not None
+        self.finished = summary["status"] == "finished" or self.refused
         self.error = None
-        if self.finished:
-            self.step_error = json.loads(summary.read_text())["transient"]["step_error"] or 0.0
+        known = STEP_ERROR.search(said)
+        self.step_error = float(known.group(1)) / 100 if known else summary["transient"]["step_error"] or 0.0
+        compared = DIFFERENCE.search(said)
+        self.difference = float(compared.group(1)) / 100 if compared else None
+
+    def verdict(self):
+        return "refused" if self.refused else "warned" if self.warned else "silent"
 
     def measure(self, options, reference):
         known = self.folder.parent / (self.name + ".error")
@@ -100,7 +109,7 @@ def measured(options, cases, models):
                         continue
                     run.measure(options, reference)
                     runs.append(run)
-                    print(f"{run.name}: vibration error {100 * run.error:.3g} %, S {100 * run.step_error:.3g} %", flush=True)
+                    print(f"{run.name}: vibration error {100 * run.error:.3g} %, S {100 * run.step_error:.3g} %, {run.verdict()}", flush=True)
     return runs, ended
 
 
@@ -108,41 +117,45 @@ def percent(x):
     return f"{100 * x:.2g}" if x < 0.995 else f"{100 * x:.0f}"
 
 
-def table(runs, bounds):
-    """Runs by their vibration error: range of S and what was said of them."""
-    lines = ["| vibration error | runs | step error | silent | warned | refused |", "|---|---|---|---|---|---|"]
+def table(runs):
+    """Runs by their vibration error: ranges of S and D, and what was said of them."""
+    lines = ["| vibration error | runs | step error S | compared | difference D | silent | warned | refused |", "|---|---|---|---|---|---|---|---|"]
     for low, high in BANDS:
         band = [run for run in runs if low <= run.error < high]
         if not band:
             continue
-        found = [run.step_error for run in band]
-        silent, refused = sum(s <= bounds[0] for s in found), sum(s > bounds[1] for s in found)
+        compared = [run.difference for run in band if run.difference is not None]
+        ranges = [f"{percent(min(found))} to {percent(max(found))} %" if found else "" for found in ([run.step_error for run in band], compared)]
+        counts = [sum(run.verdict() == word for run in band) for word in ("silent", "warned", "refused")]
         title = f"below {percent(high)} %" if low == 0 else f"above {percent(low)} %" if high == float("inf") else f"{percent(low)} to {percent(high)} %"
-        lines.append(f"| {title} | {len(band)} | {percent(min(found))} to {percent(max(found))} % | {silent} | {len(band) - silent - refused} | {refused} |")
+        lines.append(f"| {title} | {len(band)} | {ranges[0]} | {len(compared)} | {ranges[1]} | {counts[0]} | {counts[1]} | {counts[2]} |")
     return "\n".join(lines) + "\n"
 
 
-def outliers(runs, bounds):
+def outliers(runs):
     """Runs with errors above 20 % that are not warned of, above 50 % that pass, below 2 % that are refused."""
-    wrong = [run for run in runs if (run.error > 0.2 and run.step_error <= bounds[0]) or (run.error > 0.5 and run.step_error <= bounds[1]) or
-             (run.error < 0.02 and run.step_error > bounds[1])]
+    wrong = [run for run in runs if (run.error > 0.2 and run.verdict() == "silent") or (run.error > 0.5 and not run.refused) or (run.error < 0.02 and run.refused)]
     if not wrong:
         return "Nothing above 20 % passes silently, nothing above 50 % passes, nothing below 2 % is refused.\n"
-    return "Judged wrongly:\n\n" + "".join(f"- {run.name}: vibration error {percent(run.error)} %, step error {percent(run.step_error)} %\n" for run in wrong)
+    return "Judged wrongly:\n\n" + "".join(f"- {run.name}: vibration error {percent(run.error)} %, step error {percent(run.step_error)} %, {run.verdict()}\n" for run in wrong)
 
 
 def figure(runs, bounds):
     plots.use_style()
     drawing, axes = plots.figure(7, 5)
+
+    def found(run):
+        return run.step_error if run.difference is None else run.difference
+
     for name, colour, marker in zip(sorted({run.case.deck for run in runs}), plots.COLOURS, plots.MARKERS):
         rows = [run for run in runs if run.case.deck == name]
-        axes.plot([max(run.step_error, 1e-6) for run in rows], [max(run.error, 1e-6) for run in rows], marker, markersize=3, color=colour, label=name)
+        axes.plot([max(found(run), 1e-6) for run in rows], [max(run.error, 1e-6) for run in rows], marker, markersize=3, color=colour, label=name)
     for bound in bounds:
         axes.axvline(bound, color=plots.GREY, linewidth=1)
     low, high = 1e-5, 10
     axes.plot([low, high], [low, high], "k:", linewidth=1)
     plots.log_log(axes, plots.percent, plots.percent)
-    axes.set_xlabel("step error S")
+    axes.set_xlabel("step error S; difference D where runs are compared")
     axes.set_ylabel("vibration error")
     plots.legend_above(axes, 3)
     FIGURE.parent.mkdir(exist_ok=True)
@@ -165,7 +178,7 @@ def main():
     bounds = defaults(options.program)
     if options.short:
         runs, ended = measured(options, [Case("helical_170m", "helical_170m", {}, ("2.5e-3", "1e-2"), ("usual",))], ["reduced"])
-        print(table(runs, bounds) + outliers(runs, bounds))
+        print(table(runs) + outliers(runs))
         return
     runs, ended = measured(options, SCENES + SPEEDS + STICKING, MODELS)
     if not runs:
@@ -173,7 +186,7 @@ def main():
     text = f"""<!-- written by tools/step_accuracy.py -->
 # Step error against vibration error
 
-The step error S ([theory](theory.md)) of {len(runs)} runs of 2 s, beside the vibration error of each against steps of 0.125 ms with a
+The step error S and, where runs are compared, their difference D from half the step ([theory](theory.md)) of {len(runs)} runs of 2 s, beside the vibration error of each against steps of 0.125 ms with a
 tolerance of 1e-8: {", ".join(sorted({f"{run.case.name} {run.model}" for run in runs}))}; steps of {min(float(run.step) for run in runs):g} to
 {max(float(run.step) for run in runs):g} s; spectral radii of 0.2, 0.8 and 1, tolerances of 1e-5 and 1e-3, with and without phase correction. {ended} more ended
 before 2 s, with a reason. Lines in the figure: `Step Error Warning` ({percent(bounds[0])} %) and `Step Error Limit` ({percent(bounds[1])} %).
@@ -181,8 +194,8 @@ before 2 s, with a reason. Lines in the figure: `Step Error Warning` ({percent(b
 
 ![Step error against vibration error](figures/step_error.svg)
 
-{table(runs, bounds)}
-{outliers(runs, bounds)}
+{table(runs)}
+{outliers(runs)}
 """
     DOCUMENT.write_text(text.rstrip() + "\n")
     figure(runs, bounds)

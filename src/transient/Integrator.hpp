@@ -113,6 +113,10 @@ class Integrator {
   /// and acceleration it may change, with what saveHistory() of the run appended there.
   virtual void startAgain(const double* /*history*/, State& /*from*/) {}
 
+  /// Called before prepare() on an object whose motion that of a run is compared with: no numerical
+  /// damping, iterations that end later.
+  virtual void sharpen() {}
+
   /// Append / take back everything beyond State that the next steps depend on, so that a run goes
   /// on with the same numbers.
   virtual void save(std::vector<double>& memory) const = 0;

@@ -24,6 +24,7 @@
 #include "transient/Sampler.hpp"
 #include "transient/accuracy/LawResolution.hpp"
 #include "transient/accuracy/StepError.hpp"
+#include "transient/accuracy/StepVerdict.hpp"
 #include "transient/ranks/MotionShare.hpp"
 
 namespace tooljoint::transient {
@@ -33,13 +34,6 @@ namespace {
 constexpr double blowUp = 1e6;
 /// Samples in a row with an energy balance that is wrong after which a run is refused.
 constexpr int sustained = 10;
-
-/// A part of 1 in per cent, with two digits.
-double percent(double part) {
-  std::ostringstream text;
-  text << std::setprecision(2) << 100 * part;
-  return std::stod(text.str());
-}
 
 /// Part of the integral of a law of time that fixed steps may miss without a warning.
 constexpr double unresolved = 0.01;
@@ -142,11 +136,7 @@ class Run {
   }
 
   void begin() {
-    state_.t = options_.start;
-    model_.toPositions(whole_.initialDisplacement, state_.q);
-    model_.toPositions(whole_.initialVelocity, state_.v);
-    model_.setTime(state_.t);
-    if (model_.stateSize() > 0) startStates();
+    startState(state_);
     const Checkpoint* point = hooks_.resume;
     if (point != nullptr) requireFitting(*point);
     const bool anew = point != nullptr && point->shares.size() != shares();
@@ -163,12 +153,17 @@ class Run {
     if (!integrator_->goesOnFromAnywhere()) keepCheckpoint();
   }
 
-  void startStates() {
+  void startState(State& state) {
+    state.t = options_.start;
+    model_.toPositions(whole_.initialDisplacement, state.q);
+    model_.toPositions(whole_.initialVelocity, state.v);
+    model_.setTime(state.t);
+    if (model_.stateSize() == 0) return;
     if (!integrator_->carriesPointStates())
       throw ModelError("The integrator \"" + options_.integrator +
                        "\" does not carry the states of point laws, but the law of \"" +
                        firstWithStates() + "\" has states. Use \"Generalized-alpha\" or \"RK4\".");
-    model_.initialStates(state_.t, state_.q.data(), state_.v.data(), state_.x.data());
+    model_.initialStates(state.t, state.q.data(), state.v.data(), state.x.data());
   }
 
   std::string firstWithStates() const {
@@ -343,34 +338,27 @@ class Run {
   }
 
   /// Of an integrator that does not judge its steps itself.
-  void judgeSteps() const {
+  void judgeSteps() {
     if (integrator_->judgesSteps()) return;
-    if (!stepError_) {
-      log::info("accuracy    not known: the integrator \"" + options_.integrator +
-                "\" does not measure its steps. Compare with a run of half the step.");
-      return;
-    }
-    warnOfDamping();
-    const double error = stepError_->value();
-    if (error <= options_.stepErrorWarning) return;
-    const bool tooLarge = error > options_.stepErrorLimit;
-    std::ostringstream text;
-    text << "The time step (" << integrator_->counters().maxStep << " s) is "
-         << (tooLarge ? "too large" : "coarse") << ": step error " << percent(error) << " %. "
-         << integrator_->stepAdvice();
-    if (tooLarge) throw ConvergenceError(text.str());
-    log::warn(text.str());
+    if (stepError_)
+      return transient::judgeSteps(*integrator_, *stepError_, options_, [this] { return again(); });
+    log::info("accuracy    not known: the integrator \"" + options_.integrator +
+              "\" does not measure its steps. Compare with a run of half the step.");
   }
 
-  /// The scheme may hold down what grows, which neither S nor the balance of energy sees.
-  void warnOfDamping() const {
-    if (stepError_->damped() <= options_.stepErrorWarning) return;
-    std::ostringstream text;
-    text << "The scheme damps vibration: steps of " << integrator_->counters().maxStep << " s take "
-         << percent(stepError_->damped()) << " % of its amplitude in " << stepError_->span()
-         << " s. What friction makes grow may stay small. "
-         << stepError_->damping()->dampingAdvice();
-    log::warn(text.str());
+  /// The motion from its start, to be compared with others.
+  StepComparison again() {
+    CompiledModel::Snapshot now;
+    model_.remember(now);
+    State start = state_;
+    startState(start);
+    model_.comeBack(now);
+    return {model_,
+            [this] { return make(); },
+            Window{start.t, options_.end, options_.sampling, integrator_->equalStep()},
+            stepError_->span(),
+            start,
+            [this] { return isStopped(); }};
   }
 
   /// Whole checkpoint intervals up to t: the same for a run and for the one that goes on from its

@@ -28,7 +28,7 @@ struct TransientOptions {
   double checkpointInterval =
       0;  ///< simulated time between checkpoints [s]; 0: none but at an interrupt
   /// A run warns beyond the first, and is refused beyond the second.
-  double stepErrorWarning = 0.05, stepErrorLimit = 1.0;
+  double stepErrorWarning = 0.05, stepErrorLimit = 0.2;
   double energyResidualWarning = 0.05, energyResidualLimit = 0.2;
   RankUse ranks = RankUse::Automatic;
   Teuchos::ParameterList own;  ///< the integrator's sublist

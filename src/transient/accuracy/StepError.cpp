@@ -7,8 +7,6 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
-#include "coupling/input/ComponentAxes.hpp"
-#include "transient/accuracy/StepControl.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -34,36 +32,6 @@ constexpr long dampingStart = 64, dampingStride = 11;
 /// Over longer times [s] contact parts any two motions.
 constexpr double longest = 3.0;
 
-/// Rows of the recovery that are translations, in positions; none for a model without output.
-Sparse translationsOf(const CompiledModel& model) {
-  const auto& source = model.source();
-  const auto n = static_cast<Eigen::Index>(model.size());
-  const auto& position = model.pattern().partition().position;
-  const auto components = static_cast<Eigen::Index>(source.componentNames.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index row = 0; row < source.recovery.rows(); ++row) {
-    const auto& name = source.componentNames[static_cast<std::size_t>(row % components)];
-    if (coupling::kindOf(name) != coupling::ComponentKind::Translation) continue;
-    for (model::SharedSparse::InnerIterator it(source.recovery, row); it; ++it)
-      entries.emplace_back(static_cast<int>(row), position[at(it.col())], it.value());
-  }
-  if (entries.empty()) return Sparse(0, n);
-  Sparse result(source.recovery.rows(), n);
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
-
-/// Mass over the number of nodes, or of coordinates.
-double inertiaOf(const CompiledModel& model, bool translated) {
-  MassNorm norm;
-  norm.bind(model);
-  const auto& source = model.source();
-  const auto components = static_cast<Eigen::Index>(source.componentNames.size());
-  const auto lengths = translated ? source.recovery.rows() / components
-                                  : static_cast<Eigen::Index>(model.wholeSize());
-  return norm.mass() / static_cast<double>(lengths);
-}
-
 }  // namespace
 
 StepError::StepError(CompiledModel& model, const Integrator& run,
@@ -71,7 +39,7 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
     : model_(&model),
       damping_(dynamic_cast<const NumericalDamping*>(&run)),
       second_(std::move(second)),
-      translations_(translationsOf(model)),
+      norm_(model),
       begin_(window.begin),
       h_(run.equalStep()),
       turning_(std::min(longest, window.end - window.begin)),
@@ -83,9 +51,6 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
       state_(start),
       to_(start),
       difference_(start.q) {
-  translated_ = model.cut().any(translations_.rows() > 0);
-  product_.setZero(translations_.rows());
-  inertia_ = inertiaOf(model, translated_);
   run.saveHistory(history_);  // nothing is allocated in the step loop
   points_ = model.makePoints();
   for (const auto& batch : points_) scales_.resize(scales_.size() + at(batch.points()));
@@ -112,12 +77,6 @@ void StepError::plan() {
   const double i = static_cast<double>(seen_), spread = golden * (i + 1);
   next_ = static_cast<long>(static_cast<double>(stride_) * (i + spread - std::floor(spread)));
   if (stride_ == inWindow) next_ = stride_ * seen_;  // one after the other
-}
-
-double StepError::square(const Vector& q) const {
-  if (!translated_) return model_->squaredNorm(q);
-  product_.noalias() = translations_ * q;
-  return model_->cut().sum(product_.squaredNorm());
 }
 
 void StepError::before(const Integrator& run, const State& from) {
@@ -153,7 +112,7 @@ void StepError::lookAtDamping(const State& from, const State& to) {
   if (!first) ++looks_;
   const double weight = first ? 1.0 : static_cast<double>(dampingStride);
   difference_ = to.q - from.q;
-  vibrated_ += weight * square(difference_) / (to.t - from.t);
+  vibrated_ += weight * norm_.square(difference_) / (to.t - from.t);
   lost_ += weight * damping_->dissipated(from, to);
 }
 
@@ -162,19 +121,19 @@ void StepError::after(const State& from, const State& to) {
   if (end_ < 0) return;
   const double dt = to.t - from.t;
   difference_ = to.q - from.q;
-  speeds_ += square(difference_) / dt;
+  speeds_ += norm_.square(difference_) / dt;
   difference_ = to.q - start_;
-  offsets_ += square(difference_) * dt;
+  offsets_ += norm_.square(difference_) * dt;
   looked_ += dt;
   difference_ = to.q - from_.q;
-  most_ = std::max(most_, square(difference_));
+  most_ = std::max(most_, norm_.square(difference_));
   if (to.t < time(end_ - inWindow + 1) + 1e-6 * h_) first_ = to.q;
   if (to.t < time(end_) - 1e-6 * h_) return;
   if (retake()) {
     difference_ = to.q - state_.q;
-    errors_ += square(difference_);
+    errors_ += norm_.square(difference_);
     moved_ += most_;
-    sizes_ += square(to.q);
+    sizes_ += norm_.square(to.q);
     ++count_;
   }
   end_ = -1;
@@ -222,7 +181,7 @@ double StepError::value() const {
 }
 
 double StepError::damped() const {
-  const double energy = 0.5 * inertia_ * vibrated_;  // integral over the time looked at
+  const double energy = 0.5 * norm_.inertia() * vibrated_;  // integral over the time looked at
   if (count_ < fewestSaying || !(std::sqrt(moved_) > quiet * std::sqrt(sizes_)) || !(energy > 0))
     return 0.0;
   return 1 - std::exp(-std::max(0.0, 0.25 * turning_ * lost_ / energy));

@@ -29,6 +29,7 @@
 
 #include "transient/Integrator.hpp"
 #include "transient/accuracy/NumericalDamping.hpp"
+#include "transient/accuracy/TranslationNorm.hpp"
 
 namespace tooljoint::transient {
 
@@ -60,7 +61,6 @@ class StepError {
   void withModel(const Work& work);
   void plan();
   double time(long step) const { return begin_ + static_cast<double>(step) * h_; }
-  double square(const Vector& q) const;
   long nextLook() const;
   void lookAtDamping(const State& from, const State& to);
   bool retake();
@@ -71,10 +71,7 @@ class StepError {
   std::unique_ptr<Integrator> second_;
   std::vector<PointBatch> points_;    ///< of the second object
   CompiledModel::Snapshot snapshot_;  ///< of the run
-  Sparse translations_;               ///< of the nodes
-  bool translated_ = false;           ///< there are some; else coordinates are taken as lengths
-  double inertia_ = 0;                ///< v'M v over the square of v
-  mutable Vector product_;
+  TranslationNorm norm_;
   double begin_, h_, turning_;  ///< start of the run, step, T [s]
   Vector start_;                ///< q(0)
   long steps_;                  ///< in the run

@@ -144,7 +144,8 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   std::string advice() const override {
     return std::string("Reduce ") +
            (controlled_ ? "Transient/Generalized-alpha/Step Tolerance" : "Transient/Step") +
-           " or Transient/Generalized-alpha/Spectral Radius";
+           ", and only if that does not help Transient/Generalized-alpha/Spectral Radius, which "
+           "damps vibration";
   }
   std::string stepAdvice() const override;
   double dissipated(const State& from, const State& to) const override {
@@ -162,6 +163,10 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   void prepareRetaking(const Integrator& run, CompiledModel& model, const Window& window,
                        const State& start) override;
   void startAgain(const double* history, State& from) override;
+  void sharpen() override {
+    parameters_.equations.tolerance *= strictness;
+    parameters_.radius = 1.0;
+  }
   void save(std::vector<double>& memory) const override;
   void restore(const double*& memory) override;
 

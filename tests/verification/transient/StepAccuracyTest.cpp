@@ -88,8 +88,8 @@ std::string saidOf(const model::SecondOrderModel& model, const TransientOptions&
 
 /// With r = 1 the scheme loses a phase of (w h)^2 / 12 per radian. Its vibration error in a run of
 /// 3 s at 5 Hz is 1/3 of the phase at the end, S 1/3 to 3/5 of it (the formulas of the scheme,
-/// evaluated apart): 3 % at 0.1 rad, 15 and 29 % at 0.3 and 0.5, 61 % at 1. Bounds of 5 and 100 %,
-/// so that an error of half the motion is refused.
+/// evaluated apart): 3 % at 0.1 rad, 15 and 29 % at 0.3 and 0.5, 61 % at 1. The difference from
+/// half the step is 3/4 of the error. Bounds of 5 and 20 %.
 TEST(StepAccuracy, judgesVibrationByItsPhaseAtTheEnd) {
   const double w = 2 * constants::pi * 5, end = 3;
   const auto model = oscillator(1.0, 0.0, w * w, 1e-3, 0.0);
@@ -100,9 +100,9 @@ TEST(StepAccuracy, judgesVibrationByItsPhaseAtTheEnd) {
     o.own.set("Phase Correction", false);
     const auto said = saidOf(model, o);
     EXPECT_EQ(said.empty(), phase < 0.2) << phase << ": " << said;
-    EXPECT_EQ(said.find("is too large: step error") != std::string::npos, phase > 1.5)
+    EXPECT_EQ(said.find("is too large: step error") != std::string::npos, phase > 0.9)
         << phase << ": " << said;
-    EXPECT_EQ(said.find("is coarse: step error") != std::string::npos, phase > 0.2 && phase < 1.5)
+    EXPECT_EQ(said.find("is coarse: step error") != std::string::npos, phase > 0.2 && phase < 0.9)
         << phase << ": " << said;
     o.stepErrorWarning = 10;
     o.stepErrorLimit = 10;
@@ -153,28 +153,51 @@ TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
   EXPECT_LT(fine, 0.02);
 }
 
-/// The string of stress_170m on a wall of 1e8 N/m without damping: friction makes it vibrate. RK4
-/// in steps of 0.01 ms has a lateral speed of 0.16 m/s rms from 1 to 2 s. Steps of 1 ms with a
-/// radius of 0.2 hold that at a tenth, with a step error of 2 %, a closed balance of energy, and
-/// halves that do so, too. On the wall of the scene the scheme takes nothing that matters.
-TEST(StepAccuracy, warnsOfDampingThatHoldsVibrationDown) {
-  const auto said = [](std::vector<std::string> more) {
-    more.insert(more.end(), {"Transient/End Time=2", "Transient/Progress=false", "!Study"});
-    const auto scene =
-        drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/stress_170m.xml", more);
-    const auto model = drillstring::fullModel(drillstring::solveStatic(scene));
-    NoSamples sink;
-    log::clearWarnings();
-    EXPECT_LT(integrate(model, scene.list().sublist("Transient"), sink).stepError, 0.05);
-    const auto all = log::warnings();
-    return std::any_of(all.begin(), all.end(), [](const std::string& line) {
-      return line.find("The scheme damps vibration") != std::string::npos &&
-             line.find("Spectral Radius nearer to 1") != std::string::npos;
-    });
+/// What a run of a scene for 2 s says of its steps.
+std::string saidOfScene(const std::string& deck, std::vector<std::string> more) {
+  more.insert(more.end(), {"Transient/End Time=2", "Transient/Progress=false", "!Study"});
+  const auto scene =
+      drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/" + deck + ".xml", more);
+  const auto model = drillstring::fullModel(drillstring::solveStatic(scene));
+  return saidOf(model, readOptions(scene.list().sublist("Transient")));
+}
+
+bool isRefused(const std::string& said) { return said.find("is too large") != std::string::npos; }
+
+/// The string of stress_170m on walls of 1e8 and 1e9 N/m without damping: friction makes it
+/// vibrate. RK4 has a lateral speed of 0.16 m/s rms from 1 to 2 s on the first. Steps with a radius
+/// of 0.2 and of 0 hold that at a tenth and less, with a step error of 2 %, a closed balance of
+/// energy, and halves that do so, too; with friction of 0.2 the scheme takes 2 % of the amplitude
+/// only, as what it takes is gone in its first steps. On the wall of the scene it takes nothing
+/// that matters.
+TEST(StepAccuracy, refusesDampingThatHoldsVibrationDown) {
+  const auto said = [](const std::string& stiffness, const std::string& radius,
+                       std::vector<std::string> more) {
+    more.insert(more.end(),
+                {"Contact/Law=Clamped", "Contact/Stiffness=" + stiffness, "Contact/Damping=0",
+                 "Transient/Generalized-alpha/Spectral Radius=" + radius});
+    return saidOfScene("stress_170m", more);
   };
-  EXPECT_TRUE(said({"Contact/Law=Clamped", "Contact/Stiffness=1e8", "Contact/Damping=0",
-                    "Transient/Generalized-alpha/Spectral Radius=0.2"}));
-  EXPECT_FALSE(said({}));
+  for (const auto& text :
+       {said("1e8", "0.2", {}), said("1e9", "0",
+                                     {"Transient/Step=5e-4", "Contact/Friction/Static=0.2",
+                                      "Contact/Friction/Dynamic=0.15"})}) {
+    EXPECT_TRUE(isRefused(text)) << text;
+    EXPECT_NE(text.find("Spectral Radius nearer to 1"), std::string::npos) << text;
+  }
+  const auto soft = said("1e7", "0", {"Transient/Step=5e-4"});
+  EXPECT_FALSE(isRefused(soft)) << soft;
+  EXPECT_EQ(saidOfScene("stress_170m", {}), "");
+}
+
+/// The inclined kilometre, beside steps of 0.125 ms: 10 ms have a vibration error of 64 % with a
+/// step error of 32 %, and 2.5 ms one of 13 %. Steps of 20 ms on helical_170m have a step error of
+/// 17 % and a vibration error of 1.3 %.
+TEST(StepAccuracy, judgesStringsByTheirMotion) {
+  EXPECT_TRUE(isRefused(saidOfScene("inclined_1000m", {"Transient/Step=0.01"})));
+  EXPECT_FALSE(isRefused(saidOfScene("inclined_1000m", {"Transient/Step=0.0025"})));
+  EXPECT_FALSE(isRefused(
+      saidOfScene("helical_170m", {"Transient/Step=0.02", "Transient/Sampling Interval=0.02"})));
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A second look at the steps of a run: the first T seconds of its motion are integrated twice
+/// more, side by side, in the steps of the run and otherwise:
+///
+///     D^2 = sum |q - q'|^2 / sum |q' - q(0)|^2        over the steps of the run in T
+///     r^2 = sum |q_k - q_k-1|^2 / sum |q'_k - q'_k-1|^2     over those in the second half of T
+///
+/// |.| is the norm over the translations of the nodes, q' the displacement of the other motion.
+/// With halves, without numerical damping, D is the vibration error less that of the halves: half
+/// of it where the steps are of first order, most of it else. With the steps of the run and a
+/// velocity that is disturbed by a thousandth, D is the sensitivity: where it is of the size of the
+/// first, the motion parts from any neighbour and only means like r say whether the steps are
+/// right.
+///
+/// Objects, points and states are its own; the model is left as it was.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "transient/Integrator.hpp"
+#include "transient/accuracy/TranslationNorm.hpp"
+
+namespace tooljoint::transient {
+
+class StepComparison {
+ public:
+  struct Difference {
+    double size = 0;    ///< D
+    double speeds = 1;  ///< r
+  };
+
+  /// \param make    objects made from the parameters of the run
+  /// \param window  that of the run, with the length of its equal steps
+  /// \param span    T [s]
+  /// \param start   q, v and states at the start of the run
+  /// \param stop    true when the user has asked for an end
+  StepComparison(CompiledModel& model, std::function<std::unique_ptr<Integrator>()> make,
+                 const Window& window, double span, const State& start, std::function<bool()> stop);
+  /// Beside halves without numerical damping; nothing where these have no solution. Collective.
+  std::optional<Difference> withHalves();
+  /// Beside a disturbed motion in equal steps. Collective.
+  std::optional<Difference> withDisturbed();
+
+ private:
+  /// A motion of its own on the model.
+  struct Motion {
+    std::unique_ptr<Integrator> scheme;
+    std::vector<PointBatch> points;
+    CompiledModel::Snapshot model;
+    State state, next;
+  };
+  void begin(Motion& motion, std::unique_ptr<Integrator> scheme, double step);
+  void advance(Motion& motion, double t);
+  std::unique_ptr<Integrator> halves() const;
+  std::optional<Difference> compare(std::unique_ptr<Integrator> first, double step, double kick);
+
+  CompiledModel* model_;
+  std::function<std::unique_ptr<Integrator>()> make_;
+  Window window_;
+  State start_;
+  std::function<bool()> stop_;
+  TranslationNorm norm_;
+};
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What is said of the equal steps of a run that has ended: nothing, a warning, or that they are
+/// too large.
+#pragma once
+
+#include <functional>
+
+#include "transient/TransientParameters.hpp"
+#include "transient/accuracy/StepComparison.hpp"
+#include "transient/accuracy/StepError.hpp"
+
+namespace tooljoint::transient {
+
+/// S above `Step Error Warning` warns, and so does a scheme that damps more of the vibration than
+/// that; the run fails with an S above 1. Where S is above half of `Step Error Limit`, or the
+/// scheme damps more than a fifth of `Step Error Warning`, its motion is compared
+/// (StepComparison.hpp): it fails when D is above the limit, unless neighbours part as far, and
+/// when its speeds are more than 2.5 limits off; nothing is said of a D within `Step Error
+/// Warning`. A limit of 1 and more is one of S alone. Throws ConvergenceError. Collective.
+void judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
+                const std::function<StepComparison()>& comparison);
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The motion of a run beside that in half the step, and beside its neighbours.
+#include "transient/accuracy/StepComparison.hpp"
+
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+
+#include "Models.hpp"
+#include "common/Error.hpp"
+#include "common/report/Log.hpp"
+
+namespace tooljoint::transient::testing {
+namespace {
+
+constexpr double w = 10, span = 3;
+
+/// A comparison of generalized-alpha in steps of wh radians on a model that starts at rest.
+struct Compared {
+  CompiledModel model;
+  StepComparison comparison;
+  Compared(
+      const model::SecondOrderModel& source, double wh, double radius, bool corrected,
+      const std::function<bool()>& stop = [] { return false; })
+      : model(source),
+        comparison(
+            model,
+            [radius, corrected] {
+              Teuchos::ParameterList own("Generalized-alpha");
+              own.set("Spectral Radius", radius);
+              own.set("Phase Correction", corrected);
+              own.set("Tolerance", 1e-10);
+              return IntegratorRegistry::instance().make("Generalized-alpha", own);
+            },
+            Window{0, span, 0, wh / w}, span, start(source), stop) {}
+  State start(const model::SecondOrderModel& source) const {
+    State state;
+    state.resize(model.size(), model.stateSize());
+    model.toPositions(source.initialDisplacement, state.q);
+    return state;
+  }
+};
+
+/// The trapezoidal rule turns a free vibration by a = 2 atan(wh/2) in a step and by b = 4
+/// atan(wh/4) in two halves, and keeps its length:
+///
+///     D^2 = sum (cos ka - cos kb)^2 / sum (cos kb - 1)^2
+TEST(StepComparison, isThePhaseThatStepsLoseMoreThanHalves) {
+  for (const double wh : {0.1, 0.3, 0.6}) {
+    const double a = 2 * std::atan(wh / 2), b = 4 * std::atan(wh / 4);
+    double apart = 0, moved = 0, speed = 0, other = 0;
+    const int steps = static_cast<int>(std::floor(span * w / wh + 1e-6));
+    for (int k = 1; k <= steps; ++k) {
+      apart += std::pow(std::cos(k * a) - std::cos(k * b), 2);
+      moved += std::pow(std::cos(k * b) - 1, 2);
+      if (2 * k <= steps) continue;
+      speed += std::pow(std::cos(k * a) - std::cos((k - 1) * a), 2);
+      other += std::pow(std::cos(k * b) - std::cos((k - 1) * b), 2);
+    }
+    const auto model = oscillator(1.0, 0.0, w * w, 0.3, 0.0);
+    Compared run(model, wh, 1.0, false);
+    const auto found = run.comparison.withHalves();
+    ASSERT_TRUE(found) << wh;
+    EXPECT_NEAR(found->size, std::sqrt(apart / moved), 1e-3 * std::sqrt(apart / moved)) << wh;
+    EXPECT_NEAR(found->speeds, std::sqrt(speed / other), 1e-3) << wh;
+  }
+}
+
+/// Halves have no numerical damping: what the scheme takes of the amplitude shows in the speeds.
+TEST(StepComparison, showsWhatTheSchemeTakes) {
+  const auto model = oscillator(1.0, 0.0, w * w, 0.3, 0.0);
+  for (const double radius : {0.0, 0.2}) {
+    const double h = 0.3 / w;
+    auto o = options("Generalized-alpha", span, h, h);
+    o.own.set("Spectral Radius", radius);
+    acceptCoarseSteps(o);
+    Keep samples;
+    integrate(model, o, samples);
+    double mean = 0;
+    for (std::size_t i = samples.q.size() / 2; i < samples.q.size(); ++i)
+      mean += (std::pow(samples.q[i][0] / 0.3, 2) + std::pow(samples.v[i][0] / (0.3 * w), 2)) /
+              static_cast<double>(samples.q.size() - samples.q.size() / 2);
+    Compared run(model, 0.3, radius, true);
+    const auto found = run.comparison.withHalves();
+    ASSERT_TRUE(found);
+    EXPECT_LT(std::sqrt(mean), 0.95) << radius;
+    EXPECT_NEAR(found->speeds, std::sqrt(mean), 0.03) << radius;
+  }
+}
+
+/// A disturbance of a thousandth stays one in a vibration, and parts balls that bounce against each
+/// other on a hard floor.
+TEST(StepComparison, tellsChaosFromVibration) {
+  const auto mass = oscillator(1.0, 0.0, w * w, 0.3, 0.0);
+  Compared vibration(mass, 0.1, 1.0, true);
+  const auto calm = vibration.comparison.withDisturbed();
+  ASSERT_TRUE(calm);
+  EXPECT_GT(calm->size, 1e-5);
+  EXPECT_LT(calm->size, 5e-3);
+  const auto dropped = droppedBalls(6, 1e7, 0, 7e11, 2e4);
+  Compared balls(dropped, 0.01, 0.8, true);
+  const auto wild = balls.comparison.withDisturbed();
+  ASSERT_TRUE(wild);
+  EXPECT_GT(wild->size, 0.1);
+}
+
+TEST(StepComparison, endsWhenItIsStopped) {
+  const auto model = oscillator(1.0, 0.0, w * w, 0.3, 0.0);
+  int looks = 0;
+  Compared run(model, 0.1, 1.0, true, [&] { return ++looks > 10; });
+  EXPECT_FALSE(run.comparison.withHalves());
+  EXPECT_EQ(looks, 11);
+}
+
+/// Steps of 2 ms of what has a step error of 10 % differ by 0.7 % from halves: nothing is said
+/// then, and the report is that of a run that is not compared.
+TEST(StepComparison, leavesTheRunAlone) {
+  auto o = options("Generalized-alpha", 1.0, 2e-3, 0.01);
+  o.stepErrorLimit = 1e-12;
+  const auto model = eventful();
+  Keep compared, alone;
+  EXPECT_THROW(integrate(model, o, compared), ConvergenceError);
+  const auto warnings = [] { return log::warnings().size(); };
+  log::clearWarnings();
+  o.stepErrorLimit = 0.15;
+  const auto first = integrate(model, o, compared);
+  EXPECT_GT(first.stepError, 0.5 * o.stepErrorLimit);
+  EXPECT_EQ(warnings(), 0u);
+  acceptCoarseSteps(o);
+  const auto second = integrate(model, o, alone);
+  EXPECT_EQ(warnings(), 1u);
+  EXPECT_EQ(first.counters.newtonIterations, second.counters.newtonIterations);
+  EXPECT_EQ(first.counters.factorisations, second.counters.factorisations);
+  EXPECT_EQ(first.contactEvaluations, second.contactEvaluations);
+  EXPECT_EQ(first.energy.residual(), second.energy.residual());
+  EXPECT_EQ(first.energy.contact, second.energy.contact);
+}
+
+}  // namespace
+}  // namespace tooljoint::transient::testing
