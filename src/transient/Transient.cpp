@@ -112,7 +112,7 @@ class Run {
         long& uses = report.counters.strategies[i];
         uses = std::lround(model_.cut().sum(static_cast<double>(uses)));
       }
-    if (stepError_) report.stepError = stepError_->value();
+    if (stepError_) report.stepError = judged_ ? *judged_ : stepError_->value();
     report.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     report.samples = sampler_.count();
     report.hasEnergy = options_.ledger;
@@ -340,8 +340,11 @@ class Run {
   /// Of an integrator that does not judge its steps itself.
   void judgeSteps() {
     if (integrator_->judgesSteps()) return;
-    if (stepError_)
-      return transient::judgeSteps(*integrator_, *stepError_, options_, [this] { return again(); });
+    if (stepError_) {
+      judged_ =
+          transient::judgeSteps(*integrator_, *stepError_, options_, [this] { return again(); });
+      return;
+    }
     log::info("accuracy    not known: the integrator \"" + options_.integrator +
               "\" does not measure its steps. Compare with a run of half the step.");
   }
@@ -440,6 +443,7 @@ class Run {
   Sampler sampler_;
   EnergyLedger ledger_;
   std::optional<StepError> stepError_;  ///< of equal steps
+  std::optional<double> judged_;        ///< what it comes to at the end
   State state_, next_;
   long evaluationsBefore_ = 0;
   int runawaySamples_ = 0;

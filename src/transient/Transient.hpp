@@ -47,7 +47,7 @@ struct TransientReport {
   double wall = 0;            ///< [s]
   double cpu = 0;             ///< [s]
   double realTimeFactor = 0;  ///< simulated seconds per second of wall time
-  double stepError = 0;       ///< S of equal steps (StepError.hpp), 0 where it is not known
+  double stepError = 0;       ///< of equal steps (StepVerdict.hpp), 0 where it is not known
   bool hasEnergy = false;
   EnergyAccount energy;
 };

@@ -20,7 +20,7 @@ constexpr double compared = 0.5, damps = 0.2;
 /// Step error as large as the motion, which no comparison saves.
 constexpr double all = 1;
 /// Part of D from which the sensitivity explains it.
-constexpr double explains = 1.0 / 3;
+constexpr double explains = 0.25;
 /// Times `Step Error Limit` by which speeds may be larger or smaller: by half at its default.
 constexpr double ofSpeeds = 2.5;
 
@@ -45,6 +45,7 @@ struct Findings {
   bool isFast(double limit) const { return halves && halves->speeds > 1 + ofSpeeds * limit; }
   /// Neighbours part as far as steps and halves do.
   bool isChaos() const { return neighbour && neighbour->size > explains * halves->size; }
+  double reported() const { return halves ? halves->size : error; }
   bool isRight(double warning) const {
     return halves && halves->size <= warning && std::abs(halves->speeds - 1) <= warning;
   }
@@ -73,8 +74,8 @@ void warnOfDamping(const Findings& found, const StepError& error, double step) {
 
 }  // namespace
 
-void judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
-                const std::function<StepComparison()>& comparison) {
+double judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
+                  const std::function<StepComparison()>& comparison) {
   const double limit = options.stepErrorLimit, warning = options.stepErrorWarning;
   Findings found;
   found.error = error.value();
@@ -90,11 +91,11 @@ void judgeSteps(const Integrator& run, const StepError& error, const TransientOp
   const bool slow = found.isSlow(limit);
   const bool apart = found.neighbour && !found.isChaos();
   const bool tooLarge = lost || apart || slow || found.isFast(limit);
-  if (!tooLarge && found.isRight(warning)) return;
+  if (!tooLarge && found.isRight(warning)) return found.reported();
   const double step = run.counters().maxStep;
   if (found.damped > warning) warnOfDamping(found, error, step);
   const bool wide = found.error > warning || (found.halves && found.halves->size > warning);
-  if (!tooLarge && !wide) return;
+  if (!tooLarge && !wide) return found.reported();
   std::ostringstream text;
   text << "The time step (" << step << " s) is " << (tooLarge ? "too large" : "coarse") << ": "
        << describe(found, error.span()) << ". "
@@ -102,6 +103,7 @@ void judgeSteps(const Integrator& run, const StepError& error, const TransientOp
                                               : run.stepAdvice());
   if (tooLarge) throw ConvergenceError(text.str());
   log::warn(text.str());
+  return found.reported();
 }
 
 }  // namespace tooljoint::transient

@@ -18,7 +18,7 @@ namespace tooljoint::transient {
 /// (StepComparison.hpp): it fails when D is above the limit, unless neighbours part as far, and
 /// when its speeds are more than 2.5 limits off; nothing is said of a D within `Step Error
 /// Warning`. A limit of 1 and more is one of S alone. Throws ConvergenceError. Collective.
-void judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
-                const std::function<StepComparison()>& comparison);
+double judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
+                  const std::function<StepComparison()>& comparison);
 
 }  // namespace tooljoint::transient
