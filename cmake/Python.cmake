@@ -38,6 +38,7 @@ target_link_libraries(tooljoint_python PRIVATE ${libraries} tooljoint_warnings)
 target_link_options(tooljoint_python PRIVATE LINKER:--push-state,--no-as-needed,${files},--pop-state)
 target_compile_options(tooljoint_python PRIVATE -Wno-attributes)  # pybind11 hides its own symbols, our classes hold its objects
 tooljoint_use_headers(tooljoint_headers tooljoint_python)
+tooljoint_unity_build(tooljoint_python)
 
 # python/tooljoint/ as it stands, in the build tree and in the install tree.
 file(GLOB modules RELATIVE ${PROJECT_SOURCE_DIR}/python/tooljoint CONFIGURE_DEPENDS python/tooljoint/*.py python/tooljoint/*.pyi python/tooljoint/py.typed)

@@ -19,7 +19,7 @@
 #include "io/OutputFolder.hpp"
 #include "io/OutputParameters.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "parts/file/PartFile.hpp"
 
 namespace tooljoint::cases {

@@ -10,7 +10,7 @@
 
 #include "cases/CaseLists.hpp"
 #include "cases/ReducedCase.hpp"
-#include "cases/run/RecordedNodes.hpp"
+#include "cases/recording/RecordedNodes.hpp"
 #include "cases/run/Run.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"

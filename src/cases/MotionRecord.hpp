@@ -12,7 +12,7 @@
 #include "io/Csv.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "io/Xdmf.hpp"
 
 namespace tooljoint::cases {

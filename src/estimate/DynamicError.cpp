@@ -5,6 +5,7 @@
 
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "estimate/ComplexProduct.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "model/DofNames.hpp"
 #include "reduction/part/Partition.hpp"
@@ -16,13 +17,6 @@ namespace {
 using Complex = std::complex<double>;
 using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
-
-ComplexMatrix times(const Sparse& A, const ComplexMatrix& x) {
-  ComplexMatrix y(A.rows(), x.cols());
-  y.real() = A * Matrix(x.real());
-  y.imag() = A * Matrix(x.imag());
-  return y;
-}
 
 ComplexMatrix rows(const ComplexMatrix& x, const std::vector<int>& positions) {
   ComplexMatrix part(static_cast<Eigen::Index>(positions.size()), x.cols());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <complex>
 
+#include "estimate/ComplexProduct.hpp"
 #include "linalg/DenseDecompositions.hpp"
 
 namespace tooljoint::estimate {
@@ -17,13 +18,6 @@ using ComplexVector = Eigen::VectorXcd;
 /// Of a unit vector, what is left beside the others below this is rounding: shapes of a Jordan
 /// chain agree.
 constexpr double dependent = 1e-6;
-
-ComplexMatrix times(const Sparse& M, const ComplexMatrix& x) {
-  ComplexMatrix y(x.rows(), x.cols());
-  y.real() = M * Matrix(x.real());
-  y.imag() = M * Matrix(x.imag());
-  return y;
-}
 
 double length(const ComplexVector& x, const ComplexVector& Mx) {
   return std::sqrt(std::max(0.0, x.dot(Mx).real()));

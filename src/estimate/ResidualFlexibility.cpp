@@ -7,7 +7,7 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
-#include "linalg/MumpsFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::estimate {

@@ -16,7 +16,7 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "io/TextFile.hpp"
 
 namespace tooljoint::io {

@@ -33,7 +33,7 @@ std::vector<std::size_t> extents(hid_t dataset) {
 }
 
 /// Product of the extents, infinite where it is too large for an integer.
-double product(const std::vector<std::size_t>& shape) {
+double valuesOf(const std::vector<std::size_t>& shape) {
   double count = 1.0;
   for (std::size_t extent : shape) count *= static_cast<double>(extent);
   return count;
@@ -94,7 +94,7 @@ std::size_t ResultsReader::count(const std::string& path, std::int64_t dataset) 
   if (isElsewhere(dataset))
     throw FileError("The results file " + path_ + " has the values of " + path +
                     " in other files; they must stand in itself.");
-  const double values = product(extents(dataset));
+  const double values = valuesOf(extents(dataset));
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const double bytes = values * static_cast<double>(H5Tget_size(type.get()));
   const double stored =

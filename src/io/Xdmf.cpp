@@ -192,14 +192,14 @@ void XdmfRecorder::append(const XdmfFrame& frame) {
   times_.push_back(frame.time);
 }
 
-std::string XdmfRecorder::text(const std::string& resultsName) const {
+std::string XdmfRecorder::text(const std::string& results) const {
   const std::size_t nodes = frames_.size();
   const std::string count = number(nodes);
   const std::string chain =
       "        <Topology TopologyType=\"Polyline\" NumberOfElements=\"1\" NodesPerElement=\"" +
-      count + "\">" + dataItem(resultsName, "/xdmf/line", "1 " + count, integerType) +
+      count + "\">" + dataItem(results, "/xdmf/line", "1 " + count, integerType) +
       "</Topology>\n        <Geometry GeometryType=\"XYZ\">" +
-      dataItem(resultsName, "/xdmf/position", count + " 3", realType) + "</Geometry>\n";
+      dataItem(results, "/xdmf/position", count + " 3", realType) + "</Geometry>\n";
   std::string out =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf "
       "Version=\"2.0\">\n  <Domain>\n"
@@ -209,16 +209,16 @@ std::string XdmfRecorder::text(const std::string& resultsName) const {
            formatNumber(times_[i]) + "\"/>\n" + chain;
     const auto add = [&](const char* name, const TimeSeries* series, bool vector) {
       if (series == nullptr) return;
-      out += attribute(
-          name, vector,
-          slice(resultsName, std::string("/xdmf/") + name, i, times_.size(), nodes, vector));
+      out +=
+          attribute(name, vector,
+                    slice(results, std::string("/xdmf/") + name, i, times_.size(), nodes, vector));
     };
     add("displacement", displacement_, true);
     add("speed", speed_, false);
     add("spin", spin_, false);
     add("normal_force", normalForce_, false);
     if (hasRadius_)
-      out += attribute("radius", false, dataItem(resultsName, "/xdmf/radius", count, realType));
+      out += attribute("radius", false, dataItem(results, "/xdmf/radius", count, realType));
     out += "      </Grid>\n";
   }
   out += "    </Grid>\n";
@@ -227,9 +227,9 @@ std::string XdmfRecorder::text(const std::string& resultsName) const {
         "    <Grid Name=\"wall\" GridType=\"Uniform\">\n      <Topology "
         "TopologyType=\"Quadrilateral\" NumberOfElements=\"" +
         number(wallFacets_) + "\">" +
-        dataItem(resultsName, "/xdmf/wall_facets", number(wallFacets_) + " 4", integerType) +
+        dataItem(results, "/xdmf/wall_facets", number(wallFacets_) + " 4", integerType) +
         "</Topology>\n      <Geometry GeometryType=\"XYZ\">" +
-        dataItem(resultsName, "/xdmf/wall_position", number(wallPoints_) + " 3", realType) +
+        dataItem(results, "/xdmf/wall_position", number(wallPoints_) + " 3", realType) +
         "</Geometry>\n    </Grid>\n";
   }
   return out + "  </Domain>\n</Xdmf>\n";

@@ -52,7 +52,7 @@ bool comesFirst(const std::complex<double>& a, const std::complex<double>& b, do
 /// Of an eigenvalue, max |Q(s) phi| / (|s|^2 |M| + |s| |C| + |K|), Q(s) = s^2 M + s C + K, may be
 /// this much; refinements of one that has more.
 constexpr double mostResidual = 1e-8;
-constexpr int mostRefinements = 3;
+constexpr int mostIterations = 3;
 
 struct QuadraticPencil {
   const Matrix &M, &C, &K;
@@ -127,7 +127,7 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
     Eigen::Index largest = 0;
     phi.cwiseAbs().maxCoeff(&largest);
     phi /= phi[largest];
-    for (int i = 0; i < mostRefinements && pencil.residual(s, phi) > mostResidual; ++i)
+    for (int i = 0; i < mostIterations && pencil.residual(s, phi) > mostResidual; ++i)
       pencil.refine(s, phi);
     modes.values[j] = s;
     modes.vectors.col(j) = phi;

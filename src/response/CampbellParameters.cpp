@@ -137,7 +137,7 @@ std::string describe(const cases::Case& one) {
          " (tooljoint campbell)";
 }
 
-const bool registered = cases::AnalysisLists::instance().add(
+const bool campbellParametersRegistered = cases::AnalysisLists::instance().add(
     {"Campbell", campbellParameters, [](const Teuchos::ParameterList& list) { readCampbell(list); },
      describe});
 

@@ -117,7 +117,7 @@ std::string describe(const cases::Case& one) {
          " (tooljoint response)";
 }
 
-const bool registered = cases::AnalysisLists::instance().add(
+const bool responseParametersRegistered = cases::AnalysisLists::instance().add(
     {"Response", responseParameters, [](const ParameterList& list) { readResponse(list); },
      describe});
 

@@ -5,7 +5,7 @@
 
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "response/Columns.hpp"
 #include "response/Response.hpp"
 

@@ -15,7 +15,7 @@ Vector12 Timoshenko::distributedLoad(const Vector3& q) const {
 
 namespace {
 
-const bool registered = addElement<Timoshenko>(
+const bool timoshenkoRegistered = addElement<Timoshenko>(
     "Timoshenko",
     "two-node beam with cubic shape functions and shear deformation; without it for sections "
     "that do not deform in shear (Nguyen et al. 2020, section 2.1).");

@@ -66,7 +66,7 @@ class ClampedKernel {
   std::vector<Constants> constants_;
 };
 
-const bool registered = LawRegistry::instance().add(
+const bool clampedRegistered = LawRegistry::instance().add(
     "Clamped",
     {"Regularised spring and damper that only push: no force without penetration, none that pulls.",
      deck::ListSpec(), [](const Teuchos::ParameterList&) {

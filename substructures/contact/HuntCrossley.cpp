@@ -34,7 +34,7 @@ class HuntCrossleyKernel {
   std::vector<double> k_;
 };
 
-const bool registered = LawRegistry::instance().add(
+const bool huntCrossleyRegistered = LawRegistry::instance().add(
     "Hunt-Crossley",
     {"Power-law spring whose damping grows with the penetration (Hunt and Crossley 1975); Damping "
      "and the "

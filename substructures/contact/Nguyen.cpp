@@ -77,7 +77,7 @@ class NguyenKernel {
   std::vector<Constants> constants_;
 };
 
-const bool registered = LawRegistry::instance().add(
+const bool nguyenRegistered = LawRegistry::instance().add(
     "Nguyen", {"The regularised law as printed in Nguyen et al. 2020, eqs. (6), (7): it pulls on "
                "rebound and has a tail in the open.",
                deck::ListSpec(), [](const Teuchos::ParameterList&) {

@@ -40,7 +40,7 @@ class Cutting final : public BitLaw {
   model::CuttingParameters p_;
 };
 
-const bool registered = addBitLaw<Cutting>(
+const bool cuttingBitRegistered = addBitLaw<Cutting>(
     turningBitParameters(
         "Cutting",
         "Weight and torque by the depth of cut, measured from what the blade before has "

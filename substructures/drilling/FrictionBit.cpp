@@ -45,7 +45,7 @@ class Stribeck final : public BitLaw {
   double static_, dynamic_, radius_, decay_, viscous_, sticking_;
 };
 
-const bool registered = addBitLaw<Stribeck>(
+const bool frictionBitRegistered = addBitLaw<Stribeck>(
     turningBitParameters(
         "Stribeck",
         "Torque by friction under the Weight On Bit of Loads that weakens with the "

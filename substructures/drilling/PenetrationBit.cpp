@@ -66,7 +66,7 @@ class TuckerWang final : public BitLaw {
   Penetration law_;
 };
 
-const bool registered = addBitLaw<TuckerWang>(
+const bool penetrationBitRegistered = addBitLaw<TuckerWang>(
     deck::ListSpec("Tucker-Wang",
                    "Weight and torque by the rate of penetration v, with Z = "
                    "omega/sqrt(omega^2 + e^2): W = v/(a_2 Z^2) - a_3 omega/(a_2 Z) + a_1/a_2, T = "

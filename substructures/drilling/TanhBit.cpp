@@ -56,7 +56,7 @@ class Tanh final : public BitLaw {
   TanhTorque curve_;
 };
 
-const bool registered = addBitLaw<Tanh>(
+const bool tanhBitRegistered = addBitLaw<Tanh>(
     deck::ListSpec("Tanh",
                    "Torque T = W b_0 [tanh(b_1 omega) + b_2 omega/(1 + b_3 omega^2)] under the "
                    "Weight On Bit W of Loads; without sticking: at standstill it creeps. Defaults "

@@ -35,7 +35,7 @@ class Bit final : public Load {
   double torque_;  ///< [N m]
 };
 
-const bool registered = addLoad<Bit>(
+const bool bitRegistered = addLoad<Bit>(
     "Bit", "weight and torque on bit.",
     deck::ListSpec("Loads", "")
         .real("Weight On Bit", "N", 0.0, deck::Range::nonNegative(),

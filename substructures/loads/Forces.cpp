@@ -117,7 +117,7 @@ class Forces final : public Load {
   std::vector<NodalForce> forces_;
 };
 
-const bool registered =
+const bool forcesRegistered =
     addLoad<Forces>("Forces", "forces and torques at nodes.", forceParameters());
 
 }  // namespace

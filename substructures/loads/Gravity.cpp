@@ -27,7 +27,7 @@ class Gravity final : public Load {
   double gravity_;  ///< [m/s2]
 };
 
-const bool registered =
+const bool gravityRegistered =
     addLoad<Gravity>("Gravity", "weight of the string, buoyancy in the mud.",
                      deck::ListSpec("Loads", "")
                          .real("Gravity", "m/s2", 9.81, deck::Range::nonNegative(),

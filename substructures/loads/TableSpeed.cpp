@@ -132,7 +132,7 @@ class Table : public SpeedLaw {
   double lastAngle_ = 0.0;
 };
 
-[[maybe_unused]] const bool registered = SpeedLaws::instance().add(
+[[maybe_unused]] const bool tableSpeedRegistered = SpeedLaws::instance().add(
     "Table",
     {"Speeds at given times, joined by straight lines or by cubics that do not overshoot.",
      deck::ListSpec("Table",

@@ -103,7 +103,7 @@ class Unbalance final : public Load {
   std::vector<OffAxisMass> masses_;
 };
 
-const bool registered = addLoad<Unbalance>(
+const bool unbalanceRegistered = addLoad<Unbalance>(
     "Unbalance", "mass unbalances that turn with the rotary speed.", unbalanceParameters());
 
 }  // namespace

@@ -42,7 +42,7 @@ void addTerm(std::vector<MatrixTerm>& terms, const char* name, const char* law, 
   if (factor != 0.0) terms.push_back({name, law, factor * matrix});
 }
 
-const bool registered = addMudModel<AnnularFlow>(
+const bool annularFlowRegistered = addMudModel<AnnularFlow>(
     "Annular flow",
     "flow down the string and up the annulus: added mass, damping, Coriolis and centrifugal "
     "forces, axial drag and buoyancy (Ritto, Soize and Sampaio 2009; Chen 1981; Fritz 1970).");

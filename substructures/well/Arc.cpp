@@ -10,7 +10,7 @@ namespace {
 
 using constants::pi;
 
-std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list, const std::string&) {
+std::unique_ptr<Trajectory> arcFrom(const Teuchos::ParameterList& list, const std::string&) {
   ArcShape shape;
   const bool radius = list.isParameter("Radius");
   if (radius == list.isParameter("Build Rate"))
@@ -29,7 +29,7 @@ std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list, const s
   }
 }
 
-const bool registered = TrajectoryRegistry::instance().add(
+const bool arcRegistered = TrajectoryRegistry::instance().add(
     "Arc",
     {"Planar arc between two inclinations with straight parts above and below it.",
      deck::ListSpec(
@@ -49,7 +49,7 @@ const bool registered = TrajectoryRegistry::instance().add(
                "Direction of the plane, from X (north) towards Y (east).")
          .real("Tangent Length", "m", 0.0, deck::Range::nonNegative(),
                "Length of the straight part below the arc."),
-     fromList});
+     arcFrom});
 
 }  // namespace
 

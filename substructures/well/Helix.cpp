@@ -53,7 +53,7 @@ class Helix : public Trajectory {
   double rate_;  // dp/ds
 };
 
-const bool registered = TrajectoryRegistry::instance().add(
+const bool helixRegistered = TrajectoryRegistry::instance().add(
     "Helix",
     {"Helix about a vertical axis with constant curvature and torsion (Nguyen et al. 2020, eq. "
      "44).",

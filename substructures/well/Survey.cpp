@@ -26,8 +26,8 @@ std::unique_ptr<ArcChain> chainOf(const std::vector<Station>& stations) {
   return chain;
 }
 
-std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list,
-                                     const std::string& folder) {
+std::unique_ptr<Trajectory> surveyFrom(const Teuchos::ParameterList& list,
+                                       const std::string& folder) {
   const auto &depthUnit = list.get<std::string>("Depth Unit"),
              &angleUnit = list.get<std::string>("Angle Unit");
   const bool inDeck = list.isParameter("Stations");
@@ -51,7 +51,7 @@ std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list,
   return chain;
 }
 
-const bool registered = TrajectoryRegistry::instance().add(
+const bool surveyRegistered = TrajectoryRegistry::instance().add(
     "Survey",
     {"Survey stations joined by circular arcs (minimum curvature method).",
      deck::ListSpec("Survey", "Survey stations, joined by minimum curvature.")
@@ -65,7 +65,7 @@ const bool registered = TrajectoryRegistry::instance().add(
                  "Unit of the measured depth where no header gives one.")
          .choice("Angle Unit", std::string("deg"), {"deg", "rad"},
                  "Unit of inclination and azimuth where no header gives one."),
-     fromList});
+     surveyFrom});
 
 }  // namespace
 

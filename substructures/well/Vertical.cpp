@@ -9,7 +9,7 @@ namespace {
 
 using constants::pi;
 
-const bool registered = TrajectoryRegistry::instance().add(
+const bool verticalRegistered = TrajectoryRegistry::instance().add(
     "Vertical",
     {"Straight well, vertical or with a constant inclination.",
      deck::ListSpec("Vertical", "Straight well, vertical unless an inclination is given.")

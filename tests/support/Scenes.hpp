@@ -12,13 +12,13 @@
 #include "reduction/Reduce.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
+#include "tests/support/SourceFolder.hpp"
 #include "transient/Transient.hpp"
 
 namespace tooljoint::testing_ {
 
 inline drillstring::Scene reference(const std::vector<std::string>& overrides = {}) {
-  return drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/helical_170m.xml",
-                                overrides);
+  return drillstring::readScene(testing_::sourceFolder() + "/xml/helical_170m.xml", overrides);
 }
 
 inline model::SecondOrderModel reduced(const drillstring::Scene& scene,

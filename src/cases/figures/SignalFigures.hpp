@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/Types.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 
 namespace tooljoint::cases {
 

@@ -153,7 +153,7 @@ class RestingParts : public RestingCase {
   std::shared_ptr<const JoinedParts> joined_;
 };
 
-const bool registered =
+const bool importedCaseRegistered =
     CaseKinds::instance().add({{"Parts"}, 0, importedSpec, [](const deck::Deck& deck) {
                                  return std::make_unique<ImportedCase>(ImportedDeck(deck));
                                }});

@@ -10,7 +10,7 @@
 
 #include "cases/Case.hpp"
 #include "cases/imported/ImportedDeck.hpp"
-#include "cases/run/RecordedNodes.hpp"
+#include "cases/recording/RecordedNodes.hpp"
 
 namespace tooljoint::cases {
 

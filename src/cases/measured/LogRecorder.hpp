@@ -10,7 +10,7 @@
 #include "cases/measured/MeasuredLog.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 
 namespace tooljoint::cases {
 

@@ -109,7 +109,7 @@ std::string columnList(const MeasuredLogSettings& settings) {
   return join(texts, ", ");
 }
 
-const bool registered = AnalysisLists::instance().add(
+const bool measuredLogRegistered = AnalysisLists::instance().add(
     {measuredLogName, measuredLogParameters,
      [](const ParameterList& list) { readMeasuredLog(list); },
      [](const Case& one) { return describe(loadMeasuredLog(one)) + " (tooljoint run)"; }});

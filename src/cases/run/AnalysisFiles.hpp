@@ -12,7 +12,7 @@
 #include "common/report/Stopwatch.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 
 namespace tooljoint::cases {
 

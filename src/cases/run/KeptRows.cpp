@@ -14,7 +14,7 @@
 namespace tooljoint::cases {
 namespace {
 
-constexpr const char* row = "row";
+constexpr const char* rowKey = "row";
 
 /// Size and time of a file, for "has this been built anew?".
 std::string fileStamp(const std::string& path) {
@@ -64,15 +64,15 @@ KeptRows::KeptRows(const std::string& folder)
 
 void KeptRows::clear() const {
   if (!active_) return;
-  for (const auto& path : filesOf(folder_, {row, "reference"})) std::filesystem::remove(path);
+  for (const auto& path : filesOf(folder_, {rowKey, "reference"})) std::filesystem::remove(path);
 }
 
 int KeptRows::count() const {
-  return active_ ? static_cast<int>(filesOf(folder_, {row}).size()) : 0;
+  return active_ ? static_cast<int>(filesOf(folder_, {rowKey}).size()) : 0;
 }
 
 std::optional<std::string> KeptRows::restoreText(const std::string& key) const {
-  const auto path = file(row, key, ".json");
+  const auto path = file(rowKey, key, ".json");
   if (!active_ || !std::filesystem::exists(path)) return std::nullopt;
   try {
     return io::readText(path);
@@ -82,7 +82,7 @@ std::optional<std::string> KeptRows::restoreText(const std::string& key) const {
 }
 
 void KeptRows::keepText(const std::string& key, const std::string& text) const {
-  if (active_) io::writeText(file(row, key, ".json"), text);
+  if (active_) io::writeText(file(rowKey, key, ".json"), text);
 }
 
 }  // namespace tooljoint::cases

@@ -50,8 +50,8 @@ void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts,
 
 namespace {
 
-void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const std::string& basis,
-               int reducedDofs, double wall, io::Summary& summary) {
+void summariseParts(const std::vector<reduction::ReducedSubstructure>& parts,
+                    const std::string& basis, int reducedDofs, double wall, io::Summary& summary) {
   summary.set("reduction.start_misfit", startMisfit(parts));
   summary.set("reduction.basis", basis);
   for (const auto& part : parts)
@@ -66,7 +66,7 @@ void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const s
   summary.set("reduction.wall_s", wall);
 }
 
-void summarise(const coupling::Coupling& coupled, io::Summary& summary) {
+void summariseCoupling(const coupling::Coupling& coupled, io::Summary& summary) {
   summary.set("reduction.coupling.assembly",
               std::string(coupled.multipliers.empty() ? "Primal" : "Dual"));
   summary.set("reduction.coupling.joined_dofs", coupled.joinedDofs);
@@ -75,8 +75,8 @@ void summarise(const coupling::Coupling& coupled, io::Summary& summary) {
     summary.set("reduction.coupling.interface_modes", coupled.interfaceModes);
 }
 
-void summarise(const estimate::Outcome& outcome, const std::vector<model::Substructure>& parts,
-               io::Summary& summary) {
+void summariseEstimate(const estimate::Outcome& outcome,
+                       const std::vector<model::Substructure>& parts, io::Summary& summary) {
   if (!outcome.rounds.empty())
     summary.set("reduction.estimate.rounds", static_cast<long>(outcome.rounds.size()));
   if (!outcome.rounds.empty() || !outcome.frequencies.empty())
@@ -98,9 +98,9 @@ void summarise(const estimate::Outcome& outcome, const std::vector<model::Substr
 
 void summarise(const ReducedCase& reduced, const std::string& basis, double wall,
                io::Summary& summary) {
-  summarise(reduced.parts(), basis, reduced.model().size(), wall, summary);
-  summarise(reduced.coupled(), summary);
-  summarise(reduced.outcome, reduced.unreduced.parts, summary);
+  summariseParts(reduced.parts(), basis, reduced.model().size(), wall, summary);
+  summariseCoupling(reduced.coupled(), summary);
+  summariseEstimate(reduced.outcome, reduced.unreduced.parts, summary);
 }
 
 void summarise(const estimate::MotionEstimate& error, io::Summary& summary) {

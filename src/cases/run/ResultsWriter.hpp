@@ -12,7 +12,7 @@
 #include "estimate/AdaptiveReduction.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "reduction/ReducedSubstructure.hpp"
 #include "transient/Transient.hpp"
 

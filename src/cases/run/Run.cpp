@@ -10,7 +10,7 @@
 #include "cases/ReducedCase.hpp"
 #include "cases/measured/LogReport.hpp"
 #include "cases/measured/MeasuredLog.hpp"
-#include "cases/run/RecordedNodes.hpp"
+#include "cases/recording/RecordedNodes.hpp"
 #include "cases/run/Report.hpp"
 #include "cases/run/ResultsWriter.hpp"
 #include "common/Error.hpp"

@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 #include <vector>
 
-#include "cases/run/RecordedNodes.hpp"
+#include "cases/recording/RecordedNodes.hpp"
 #include "cases/run/ResultsWriter.hpp"
 #include "cases/run/RunIdentity.hpp"
 #include "common/Parallel.hpp"

@@ -10,12 +10,12 @@
 #include <string>
 
 #include "cases/Case.hpp"
-#include "cases/run/Recorder.hpp"
+#include "cases/recording/Recorder.hpp"
 #include "common/Error.hpp"
 #include "common/report/Stopwatch.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "transient/Transient.hpp"
 
 namespace tooljoint::cases {

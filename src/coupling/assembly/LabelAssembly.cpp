@@ -19,7 +19,7 @@ using model::DofLabel;
 using model::SecondOrderModel;
 
 /// States and recovery rows of shared dofs may differ by this, relative to the largest value.
-constexpr double agreement = 1e-9;
+constexpr double agreementOfValues = 1e-9;
 
 class Labeller {
  public:
@@ -194,7 +194,7 @@ class Labeller {
         if (first < 0) {
           first = p;
           all[joint] = values[i];
-        } else if (std::abs(all[joint] - values[i]) > agreement * largest) {
+        } else if (std::abs(all[joint] - values[i]) > agreementOfValues * largest) {
           throw ModelError("The " + what + " of " + describe(part(p).dofs[at(i)]) + " is " +
                            formatNumber(all[joint]) + " in part \"" + name(first) + "\" and " +
                            formatNumber(values[i]) + " in part \"" + name(p) + "\". " + advice);
@@ -288,8 +288,8 @@ class Labeller {
       const double offsetScale = std::max({std::abs(leftOffset), std::abs(rightOffset),
                                            part(a.part).recoveryOffset.cwiseAbs().maxCoeff()});
       const Eigen::SparseVector<double> difference = left - right;
-      if (difference.norm() > agreement * scale ||
-          std::abs(leftOffset - rightOffset) > agreement * offsetScale)
+      if (difference.norm() > agreementOfValues * scale ||
+          std::abs(leftOffset - rightOffset) > agreementOfValues * offsetScale)
         throw ModelError("The motion of " + describe(DofLabel::physical(node, c)) +
                          " is recovered differently by part \"" + name(a.part) + "\" and part \"" +
                          name(b.part) +

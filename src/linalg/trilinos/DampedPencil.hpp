@@ -18,6 +18,17 @@ namespace tooljoint::linalg {
 using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
 
+/// Relative error of s - sigma, sigma the shift, that is accepted beside the rounding of K: the
+/// last of the eight digits that are printed. Values of a Krylov space that has converged are
+/// better by some orders; what is above this bound is not rounding but a space that is too small.
+inline constexpr double acceptedError = 1e-8;
+/// Columns of a start block: as many as a free body in space has rigid-body motions, and two more.
+inline constexpr int startColumns = 8;
+/// Block steps after a second start, which finds what the first one missed.
+inline constexpr int controlSteps = 5;
+/// Up to this size the inverse is formed whole.
+inline constexpr int denseBelow = 80;
+
 /// M, C and K with rows and columns scaled by powers of two near 1 / sqrt(M_ii): translations,
 /// rotations and modal amplitudes become comparable, and no entry is rounded.
 struct ScaledPencil {

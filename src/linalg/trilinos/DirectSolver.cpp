@@ -11,7 +11,7 @@
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "linalg/Deterministic.hpp"
-#include "linalg/MumpsFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/SparseProducts.hpp"
 #include "linalg/blocks/ChainFactor.hpp"

@@ -9,11 +9,12 @@
 #include <string>
 #include <utility>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/Deterministic.hpp"
-#include "linalg/MumpsFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/SparseProducts.hpp"
 
@@ -21,7 +22,7 @@ namespace tooljoint::linalg {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using constants::epsilon;
 
 using ColumnSparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Ldlt = Eigen::SimplicialLDLT<ColumnSparse, Eigen::Lower, Eigen::AMDOrdering<int>>;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <utility>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/StageTimes.hpp"
@@ -25,7 +26,7 @@ namespace tooljoint::linalg {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using constants::epsilon;
 /// Residual of the iteration as a part of the accuracy asked for. Rounding of long strings, eps
 /// times the largest over the lowest eigenvalue, does not allow much less.
 constexpr double iterationShare = 1e-4;
@@ -277,7 +278,7 @@ class ShiftedFactors {
 
 /// One attempt, complete with all checks; ConvergenceError says which of them failed. `extra` modes
 /// beyond `count` show where the last cluster ends, and grow when they do not.
-EigenPairs checkedModes(const Pencil& pencil, ShiftedFactors& factors, int count, int& extra,
+EigenPairs checkedPairs(const Pencil& pencil, ShiftedFactors& factors, int count, int& extra,
                         int attempt, const EigenOptions& options) {
   const double floor = 1e-14 * pencil.scale;
   const Stage stage("Krylov-Schur iteration");
@@ -314,7 +315,7 @@ EigenPairs modesAbove(ShiftedFactors factors, const Pencil& pencil, int count,
   constexpr int attempts = 4;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     try {
-      return checkedModes(pencil, factors, count, extra, attempt, options);
+      return checkedPairs(pencil, factors, count, extra, attempt, options);
     } catch (const ConvergenceError& failure) {
       reason = failure.what();
     }

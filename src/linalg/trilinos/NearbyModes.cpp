@@ -18,16 +18,10 @@ namespace {
 
 using ComplexMatrix = Eigen::MatrixXcd;
 
-/// Relative error of s - tau that is accepted beside the rounding of K, as in lowestDampedModes.
-constexpr double acceptedError = 1e-8;
 /// Residual of a Ritz pair that has converged: Newton's method does the rest.
-constexpr double converged = 1e-10;
+constexpr double convergedNearby = 1e-10;
 /// Vectors of a space at most: room for some 150 modes.
-constexpr int largestSpace = 400;
-/// Columns of a start block, and block steps after a second start: as in lowestDampedModes.
-constexpr int block = 8, controlSteps = 5;
-/// Up to this size the inverse is formed whole.
-constexpr int denseBelow = 80;
+constexpr int largestNearbySpace = 400;
 /// Of |tau|: what a shift that is an eigenvalue moves by.
 constexpr double besideEigenvalue = 1e-3;
 
@@ -103,7 +97,7 @@ class Nearby {
   }
 
   /// All wanted pairs have converged, and there are others farther away.
-  bool settled() const { return enough_ && passed_ && worst_ <= converged; }
+  bool settled() const { return enough_ && passed_ && worst_ <= convergedNearby; }
   /// Positions for s() and column(), nearest first.
   const std::vector<std::size_t>& wanted() const { return wanted_; }
   Complex s(std::size_t j) const { return s_[j]; }
@@ -117,8 +111,8 @@ class Nearby {
   bool enough_ = false, passed_ = false;
 };
 
-DampedModes checkedModes(const ScaledPencil& pencil, const ComplexInverse& inverse,
-                         const Nearby& nearby, const RitzPairs& ritz) {
+DampedModes checkedNearby(const ScaledPencil& pencil, const ComplexInverse& inverse,
+                          const Nearby& nearby, const RitzPairs& ritz) {
   DampedModes out;
   for (const auto j : nearby.wanted()) {
     Complex s = nearby.s(j);
@@ -150,14 +144,14 @@ QuadraticModes dampedModesNear(const Sparse& M, const Sparse& C, const Sparse& K
   const Stage stage("damped modes");
   const ScaledPencil pencil(M, C, K, rounding);
   const auto inverse = inverseNear(pencil, target.centre);
-  const int all = 2 * static_cast<int>(pencil.size()), limit = std::min(all, largestSpace);
+  const int all = 2 * static_cast<int>(pencil.size()), limit = std::min(all, largestNearbySpace);
   GrowingKrylov<Complex> space([&](const ComplexMatrix& z) { return (*inverse)(z); }, all);
   const bool whole = all <= 2 * denseBelow;
   if (whole)
     space.startWhole();
   else
-    space.start(block, 23);
-  int columns = whole ? all : std::min(limit, 3 * target.count + 4 * block);
+    space.start(startColumns, 23);
+  int columns = whole ? all : std::min(limit, 3 * target.count + 4 * startColumns);
   std::size_t confirmed = std::numeric_limits<std::size_t>::max();
   for (;;) {
     space.grow(columns);
@@ -165,22 +159,22 @@ QuadraticModes dampedModesNear(const Sparse& M, const Sparse& C, const Sparse& K
     const Nearby nearby(ritz, inverse->shift(), target);
     const bool known = nearby.settled() || space.invariant();
     if (whole || (known && nearby.wanted().size() == confirmed)) {
-      const auto found = checkedModes(pencil, *inverse, nearby, ritz);
+      const auto found = checkedNearby(pencil, *inverse, nearby, ritz);
       return presented(pencil, found, static_cast<int>(found.values.size()));
     }
     if (known) {
       // A block finds no more than so many copies of a repeated value: a start beside all that has
       // been found shows whether there are others.
       confirmed = nearby.wanted().size();
-      space.startBeside(block, 37 + static_cast<std::uint64_t>(columns));
-      columns = std::min(all, columns + controlSteps * block);
+      space.startBeside(startColumns, 37 + static_cast<std::uint64_t>(columns));
+      columns = std::min(all, columns + controlSteps * startColumns);
     } else {
       if (columns >= limit)
         throw ConvergenceError("More damped modes lie near " + scientific(std::abs(target.centre)) +
                                " rad/s than a Krylov space of " + std::to_string(limit) +
                                " vectors shows. Ask for fewer modes, or for a narrower window of "
                                "frequencies.");
-      columns = std::min(limit, columns + std::max(2 * block, columns / 2));
+      columns = std::min(limit, columns + std::max(2 * startColumns, columns / 2));
     }
   }
 }

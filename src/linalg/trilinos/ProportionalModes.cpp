@@ -6,11 +6,13 @@
 #include <limits>
 #include <vector>
 
+#include "common/Constants.hpp"
+
 namespace tooljoint::linalg {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using constants::epsilon;
 
 /// a_ij - a_ji is rounding of the entries.
 bool isSymmetric(const Sparse& A) {

@@ -15,10 +15,6 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Relative error of s - sigma that is accepted beside the rounding of K: the last of the eight
-/// digits that are printed. Values of a Krylov space that has converged are better by some orders;
-/// what is above this bound is not rounding but a space that is too small.
-constexpr double acceptedError = 1e-8;
 /// The largest residual of the wanted Ritz pairs is at rounding when it is below the first of
 /// these, or below the second and no better than half of what it was in a space four fifths the
 /// size.
@@ -26,18 +22,12 @@ constexpr double converged = 1e-13, stagnant = 1e-7;
 /// Vectors of a space at most, or twelve times the number of modes: all there are of a model of 750
 /// dofs.
 constexpr int largestSpace = 1500;
-/// Columns of a start block: as many as a free body in space has rigid-body motions, and two more.
-constexpr int block = 8;
-/// Block steps after a second start, which finds what the first one missed.
-constexpr int controlSteps = 5;
 /// Values s -> infinity, nu = 1 / (s - sigma) -> 0, stand in Jordan chains where neither mass nor
 /// damping acts: rounding leaves their nu at the root of rounding, and an answer to the residual
 /// that has nothing of the vector. Below this part of the largest nu that is what they are.
 constexpr double noFiniteValue = 1e-6, noDigits = 0.5;
 /// Others have a nu of rounding.
 constexpr double noDigitsOfNu = 1e-13;
-/// Up to this size the inverse is formed whole.
-constexpr int denseBelow = 80;
 
 /// (L - sigma)^-1 for the linearisation s z = L z of the pencil, z = (x, s x / sigma), sigma > 0.
 class ShiftedInverse {
@@ -157,8 +147,8 @@ double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer&
   for (int round = 0; round < rounds; ++round) {
     const auto inverse = inverseNear(pencil, shift, name);
     GrowingKrylov<double> space([&](const Matrix& z) { return (*inverse)(z); }, 2 * pencil.size());
-    space.start(block, 11);
-    space.grow(static_cast<int>(wanted) + 4 * block);
+    space.start(startColumns, 11);
+    space.grow(static_cast<int>(wanted) + 4 * startColumns);
     const RitzPairs ritz = space.ritz();
     const Upper found(ritz, inverse->shift(),
                       pencil.singularMass ? infiniteNu(ritz, inverse->shift()) : 0.0);
@@ -264,9 +254,9 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
   if (all <= 2 * denseBelow)
     space.startWhole();
   else
-    space.start(block, 23);
+    space.start(startColumns, 23);
   const int limit = std::min(all, std::max(largestSpace, 12 * static_cast<int>(wanted)));
-  int columns = std::min(limit, 3 * static_cast<int>(wanted) + 4 * block);
+  int columns = std::min(limit, 3 * static_cast<int>(wanted) + 4 * startColumns);
   std::size_t confirmed = 0;  // values below `bound` after the last control
   double bound = -1;
   double before = std::numeric_limits<double>::infinity();  // largest residual in the smaller space
@@ -285,7 +275,7 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
                                std::to_string(pencil.size()) +
                                " dofs were not found in a Krylov space of " +
                                std::to_string(limit) + " vectors. Ask for fewer or more of them.");
-      columns = std::min(limit, columns + std::max(2 * block, columns / 4));
+      columns = std::min(limit, columns + std::max(2 * startColumns, columns / 4));
       continue;
     }
     // A block finds no more than so many copies of a repeated value: a start beside all that has
@@ -293,8 +283,8 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
     if (!whole && (bound < 0 || found.below(bound) != confirmed)) {
       bound = std::abs(found.s[wanted - 1]) * (1 + 1e-6);
       confirmed = found.below(bound);
-      space.startBeside(block, 37 + static_cast<std::uint64_t>(columns));
-      columns = std::min(all, columns + controlSteps * block);
+      space.startBeside(startColumns, 37 + static_cast<std::uint64_t>(columns));
+      columns = std::min(all, columns + controlSteps * startColumns);
       before = worst;
       continue;
     }

@@ -12,7 +12,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "linalg/DenseDecompositions.hpp"
-#include "linalg/MumpsFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 
 namespace tooljoint::linalg {

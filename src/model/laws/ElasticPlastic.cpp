@@ -35,7 +35,7 @@ struct ElasticPlastic : Formula<1, 0, 1> {
   }
 };
 
-const bool registered = registerFormula<ElasticPlastic>(
+const bool elasticPlasticRegistered = registerFormula<ElasticPlastic>(
     deck::ListSpec("Elastic-Plastic",
                    "Spring that yields at a force: dry friction with elastic sticking (Prandtl, "
                    "Jenkin), relaxed at the start.")

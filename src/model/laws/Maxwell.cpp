@@ -27,7 +27,7 @@ struct Maxwell : Formula<1, 1> {
   }
 };
 
-const bool registered = registerFormula<Maxwell>(
+const bool maxwellRegistered = registerFormula<Maxwell>(
     deck::ListSpec("Maxwell", "Spring and dashpot in series, relaxed at the start.")
         .real("Stiffness", "N/m", deck::Required{}, deck::Range::positive(),
               "Stiffness k of the spring.")

@@ -48,13 +48,14 @@ class Frictions final : public PerPoint<FrictionParameters, Frictions> {
   double force(int p, const double* v) const { return sliding(p, v).force(0, at(p).force); }
 };
 
-std::unique_ptr<PointLaw> make(const Teuchos::ParameterList& own, const PointLawPlace& place) {
+std::unique_ptr<PointLaw> makeSlider(const Teuchos::ParameterList& own,
+                                     const PointLawPlace& place) {
   const FrictionParameters friction{own.get<double>("Force"), own.get<double>("Slip Velocity")};
   return frictions(
       std::vector<FrictionParameters>(static_cast<std::size_t>(place.points), friction));
 }
 
-const bool registered = PointLawRegistry::instance().add(
+const bool sliderRegistered = PointLawRegistry::instance().add(
     "Slider",
     {"Coulomb friction of constant size.",
      deck::ListSpec("Slider", "Coulomb friction of constant size.")
@@ -62,7 +63,7 @@ const bool registered = PointLawRegistry::instance().add(
                "Sliding force, or moment about a rotation.")
          .real("Slip Velocity", "m/s", 1e-3, deck::Range::positive(), "Regularisation velocity.")
          .expert(),
-     make});
+     makeSlider});
 
 }  // namespace
 

@@ -56,7 +56,7 @@ struct SpeedControl : Formula<1, 1, 2> {
   }
 };
 
-const bool registered = registerFormula<SpeedControl>(
+const bool speedControlRegistered = registerFormula<SpeedControl>(
     deck::ListSpec("Speed Control",
                    "Motor with a PI speed controller and a limit of its force; without gains a "
                    "constant force. Its inertia belongs to the part.")

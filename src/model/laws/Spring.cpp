@@ -56,7 +56,8 @@ class Springs final : public PerPoint<SpringParameters, Springs> {
   }
 };
 
-std::unique_ptr<PointLaw> make(const Teuchos::ParameterList& own, const PointLawPlace& place) {
+std::unique_ptr<PointLaw> makeSpring(const Teuchos::ParameterList& own,
+                                     const PointLawPlace& place) {
   SpringParameters spring;
   spring.stiffness = own.get<double>("Stiffness");
   spring.cubicStiffness = own.get<double>("Cubic Stiffness");
@@ -67,7 +68,7 @@ std::unique_ptr<PointLaw> make(const Teuchos::ParameterList& own, const PointLaw
   return springs(std::vector<SpringParameters>(static_cast<std::size_t>(place.points), spring));
 }
 
-const bool registered = PointLawRegistry::instance().add(
+const bool springRegistered = PointLawRegistry::instance().add(
     "Spring", {"A spring with a dashpot beside it.",
                deck::ListSpec("Spring", "A spring with a dashpot beside it.")
                    .real("Stiffness", "N/m", 0.0, deck::Range::nonNegative(),
@@ -76,7 +77,7 @@ const bool registered = PointLawRegistry::instance().add(
                          "Factor of the cube of the separation.")
                    .real("Damping", "N s/m", 0.0, deck::Range::nonNegative(),
                          "Damping, along a translation or about a rotation."),
-               make});
+               makeSpring});
 
 }  // namespace
 

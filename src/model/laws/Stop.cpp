@@ -126,7 +126,7 @@ class Stops final : public PerPoint<StopParameters, Stops>, public Frictional {
   int tangents_;
 };
 
-std::unique_ptr<PointLaw> make(const Teuchos::ParameterList& own, const PointLawPlace& place) {
+std::unique_ptr<PointLaw> makeStop(const Teuchos::ParameterList& own, const PointLawPlace& place) {
   StopParameters stop;
   stop.gap = own.get<double>("Gap");
   stop.stiffness = own.get<double>("Stiffness");
@@ -142,7 +142,7 @@ std::unique_ptr<PointLaw> make(const Teuchos::ParameterList& own, const PointLaw
   return slidingStops(points, place.coordinates - 1);
 }
 
-const bool registered = PointLawRegistry::instance().add(
+const bool stopRegistered = PointLawRegistry::instance().add(
     "Stop",
     {"A one-sided contact (Hunt and Crossley 1975) with Coulomb friction across it.",
      deck::ListSpec("Stop", "A stop that is met when the separation falls to minus the gap.")
@@ -160,7 +160,7 @@ const bool registered = PointLawRegistry::instance().add(
          .real("Slip Velocity", "m/s", 1e-3, deck::Range::positive(),
                "Regularisation velocity of the friction.")
          .expert(),
-     make});
+     makeStop});
 
 }  // namespace
 

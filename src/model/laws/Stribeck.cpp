@@ -42,7 +42,7 @@ struct Stribeck : Formula<1> {
   }
 };
 
-const bool registered = registerFormula<Stribeck>(
+const bool stribeckRegistered = registerFormula<Stribeck>(
     deck::ListSpec("Stribeck",
                    "Dry friction that weakens exponentially with speed, and viscous friction "
                    "(E. M. Navarro-Lopez and D. Cortes, J. Sound Vib. 307 (2007) 152-171, for the "

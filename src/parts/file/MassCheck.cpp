@@ -5,7 +5,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "linalg/MumpsFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 #include "parts/file/PartFile.hpp"
 
 namespace tooljoint::parts {

@@ -264,7 +264,7 @@ class AbaqusMatrices : public PartFormat {
   }
 };
 
-const bool registered = PartFormats::instance().add(
+const bool abaqusMatricesRegistered = PartFormats::instance().add(
     "Abaqus matrices", {"Files of *MATRIX OUTPUT, FORMAT=MATRIX INPUT.", {}, [] {
                           return std::make_unique<AbaqusMatrices>();
                         }});

@@ -5,6 +5,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "parts/foreign/Dmig.hpp"
 #include "parts/foreign/ForeignWriters.hpp"
 #include "parts/foreign/PartFormat.hpp"
 #include "reduction/part/Partition.hpp"
@@ -13,7 +14,7 @@ namespace tooljoint::parts {
 
 namespace {
 
-constexpr int square = 1, symmetric = 6, columnsByNumber = 9;
+using namespace dmig;
 /// Differences of transposed entries below this, relative to the diagonal, are rounding.
 constexpr double rounding = 1e-10;
 constexpr std::size_t fieldWidth = 16;
@@ -36,9 +37,9 @@ std::string largeNumber(double value) {
   }
 }
 
-class Writer {
+class DmigWriter {
  public:
-  explicit Writer(const PartContent& content)
+  explicit DmigWriter(const PartContent& content)
       : content_(content), matrices_(constantMatrices(content, "Nastran DMIG")) {}
 
   std::string text() {
@@ -162,6 +163,6 @@ class Writer {
 
 }  // namespace
 
-std::string dmigText(const PartContent& content) { return Writer(content).text(); }
+std::string dmigText(const PartContent& content) { return DmigWriter(content).text(); }
 
 }  // namespace tooljoint::parts

@@ -15,9 +15,9 @@ constexpr int interfaceDofs = 6;
 constexpr std::size_t longestLineRead = 4096;  // character(4096) :: Line in ReadReducedFile
 constexpr double mostSteps = 1e7;
 
-class Writer {
+class ExtPtfmWriter {
  public:
-  Writer(const PartContent& content, const LoadTimes& times)
+  ExtPtfmWriter(const PartContent& content, const LoadTimes& times)
       : content_(content), times_(times), matrices_(constantMatrices(content, "ExtPtfm")) {}
 
   std::string text() {
@@ -126,7 +126,7 @@ class Writer {
 }  // namespace
 
 std::string extPtfmText(const PartContent& content, const LoadTimes& times) {
-  return Writer(content, times).text();
+  return ExtPtfmWriter(content, times).text();
 }
 
 }  // namespace tooljoint::parts

@@ -334,7 +334,7 @@ class HarwellBoeing : public PartFormat {
   }
 };
 
-const bool registered = PartFormats::instance().add(
+const bool harwellBoeingRegistered = PartFormats::instance().add(
     "Harwell-Boeing", {"Assembled matrices of HBMAT with their mapping.", {}, [] {
                          return std::make_unique<HarwellBoeing>();
                        }});

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "common/Text.hpp"
+#include "parts/foreign/Dmig.hpp"
 #include "parts/foreign/NastranBulkData.hpp"
 #include "parts/foreign/PartFormat.hpp"
 
@@ -19,9 +20,7 @@ namespace {
 /// the digits of a large field of 16 columns, and of a small one of 8.
 constexpr double sameInDouble = 1e-9, sameInSingle = 1e-3;
 
-/// Forms (IFO) and types (TIN) of the header entry.
-constexpr int square = 1, rectangular = 2, symmetric = 6, columnsByNumber = 9;
-constexpr int singleReal = 1, doubleReal = 2;
+using namespace dmig;
 
 /// Entries beside DMIG that say nothing about the matrices.
 const std::set<std::string> skipped{"SPOINT", "ASET",  "ASET1", "QSET",   "QSET1",
@@ -256,7 +255,7 @@ class NastranDmig : public PartFormat {
   }
 };
 
-const bool registered = PartFormats::instance().add(
+const bool nastranDmigRegistered = PartFormats::instance().add(
     "Nastran DMIG", {"DMIG entries of a punch file or bulk data.", {}, [] {
                        return std::make_unique<NastranDmig>();
                      }});

@@ -219,7 +219,7 @@ class ComplexCraigBampton : public ReductionMethod {
   double time_;  ///< of the laws of damping and stiffness [s]
 };
 
-deck::ListSpec ownParameters() {
+deck::ListSpec complexCraigBamptonParameters() {
   using deck::Range;
   deck::ListSpec list(
       "Complex Craig-Bampton",
@@ -230,11 +230,11 @@ deck::ListSpec ownParameters() {
   return list;
 }
 
-const bool registered = addMethod<ComplexCraigBampton>(
+const bool complexCraigBamptonRegistered = addMethod<ComplexCraigBampton>(
     "Complex Craig-Bampton",
     "Constraint modes and the real and imaginary parts of complex fixed-interface modes, for "
     "damped and gyroscopic parts (Hasselman and Kaplan 1974; Craig and Ni 1989).",
-    ownParameters());
+    complexCraigBamptonParameters());
 
 }  // namespace
 

@@ -19,7 +19,7 @@ class CraigBampton : public ReductionMethod {
   }
 };
 
-const bool registered = addMethod<CraigBampton>(
+const bool craigBamptonRegistered = addMethod<CraigBampton>(
     "Craig-Bampton",
     "Constraint modes and fixed-interface modes (Bampton and Craig 1968); with 0 modes, static "
     "condensation (Guyan 1965).");

@@ -24,7 +24,7 @@ class CraigChang : public ReductionMethod {
   }
 };
 
-const bool registered = addMethod<CraigChang>(
+const bool craigChangRegistered = addMethod<CraigChang>(
     "Craig-Chang",
     "Free-interface modes and residual attachment modes (Craig and Chang 1976, 1977): the space of "
     "\"Rubin\", with the amplitudes of the free-interface modes as coordinates beside the "

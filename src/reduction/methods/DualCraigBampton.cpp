@@ -86,7 +86,7 @@ class DualCraigBampton : public ReductionMethod {
   bool residualMass_;
 };
 
-deck::ListSpec parameters() {
+deck::ListSpec dualCraigBamptonParameters() {
   deck::ListSpec list("Dual Craig-Bampton", "Mass and damping of the interface forces.");
   list.boolean(
           "Residual Mass", false,
@@ -98,13 +98,13 @@ deck::ListSpec parameters() {
   return list;
 }
 
-const bool registered = addMethod<DualCraigBampton>(
+const bool dualCraigBamptonRegistered = addMethod<DualCraigBampton>(
     "Dual Craig-Bampton",
     "Free-interface modes, rigid-body ones always among them, and residual flexibility with the "
     "forces between substructures as coordinates (Rixen 2004): interfaces match weakly, "
     "frequencies may lie below the exact ones, and the mass is singular, for implicit integrators "
     "only.",
-    parameters());
+    dualCraigBamptonParameters());
 
 }  // namespace
 

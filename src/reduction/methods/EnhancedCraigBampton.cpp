@@ -21,7 +21,7 @@ namespace {
 
 const std::string freeKind = "residual";
 /// Smallest fraction of a residual vector (mass norm) that is independent of the other vectors.
-constexpr double independent = 1e-6;
+constexpr double independentResidual = 1e-6;
 
 class EnhancedCraigBampton : public ReductionMethod {
  public:
@@ -43,8 +43,8 @@ class EnhancedCraigBampton : public ReductionMethod {
       if (contains(bases[p].modeKind, kind_) ||
           bases[p].modes() >= sizeOf(bases[p].partition.interior))
         continue;
-      changed = appendVectors(parts[p], residualVectors(parts[p], bases[p]), kind_, independent,
-                              false, bases[p]) > 0 ||
+      changed = appendVectors(parts[p], residualVectors(parts[p], bases[p]), kind_,
+                              independentResidual, false, bases[p]) > 0 ||
                 changed;
     }
     return changed;
@@ -148,7 +148,7 @@ class EnhancedCraigBampton : public ReductionMethod {
   std::string kind_;
 };
 
-deck::ListSpec ownParameters() {
+deck::ListSpec enhancedCraigBamptonParameters() {
   deck::ListSpec list("Enhanced Craig-Bampton",
                       "Residual flexibility of the modes left out, as far as the inertia of the "
                       "constraint modes excites it.");
@@ -160,10 +160,10 @@ deck::ListSpec ownParameters() {
   return list;
 }
 
-const bool registered = addMethod<EnhancedCraigBampton>(
+const bool enhancedCraigBamptonRegistered = addMethod<EnhancedCraigBampton>(
     "Enhanced Craig-Bampton",
     "Craig-Bampton with the residual flexibility of the dropped modes (Kim and Lee 2015).",
-    ownParameters());
+    enhancedCraigBamptonParameters());
 
 }  // namespace
 

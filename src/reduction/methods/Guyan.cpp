@@ -68,7 +68,7 @@ class Guyan : public ReductionMethod {
   bool automatic_;
 };
 
-deck::ListSpec parameters() {
+deck::ListSpec guyanParameters() {
   deck::ListSpec list(
       "Guyan",
       "Static condensation has no modes; the mode selection can set the number of master dofs.");
@@ -81,9 +81,9 @@ deck::ListSpec parameters() {
   return list;
 }
 
-const bool registered = addMethod<Guyan>(
+const bool guyanRegistered = addMethod<Guyan>(
     "Guyan", "Static condensation on interface, retained and master dofs (Guyan 1965; Irons 1965).",
-    parameters());
+    guyanParameters());
 
 }  // namespace
 

@@ -71,7 +71,7 @@ class Herting : public ReductionMethod {
   bool inertiaRelief_;
 };
 
-deck::ListSpec parameters() {
+deck::ListSpec hertingParameters() {
   deck::ListSpec list("Herting", "Modes beside the constraint modes.");
   list.choice("Mode Supports", std::string("Free"), {"Free", "Fixed"},
               "Support of interface and retained dofs while the modes are computed: with \"Free\" "
@@ -87,10 +87,10 @@ deck::ListSpec parameters() {
   return list;
 }
 
-const bool registered = addMethod<Herting>(
+const bool hertingRegistered = addMethod<Herting>(
     "Herting",
     "Constraint modes, inertia-relief modes and free- or fixed-interface modes (Herting 1985).",
-    parameters());
+    hertingParameters());
 
 }  // namespace
 

@@ -24,7 +24,7 @@ class Krylov : public ReductionMethod {
   KrylovOptions options_;
 };
 
-deck::ListSpec ownParameters() {
+deck::ListSpec krylovParameters() {
   using deck::Range;
   deck::ListSpec list("Krylov",
                       "Vectors that match moments of the response of the interior to motions of "
@@ -44,11 +44,11 @@ deck::ListSpec ownParameters() {
   return list;
 }
 
-const bool registered = addMethod<Krylov>(
+const bool krylovRegistered = addMethod<Krylov>(
     "Krylov",
     "Constraint modes and Krylov vectors that match moments of the interior at one frequency "
     "(Shyu, Ma and Hulbert 1997; Bai and Su 2005).",
-    ownParameters());
+    krylovParameters());
 
 }  // namespace
 

@@ -29,7 +29,7 @@ class MacNeal : public ReductionMethod {
   }
 };
 
-const bool registered = addMethod<MacNeal>(
+const bool macNealRegistered = addMethod<MacNeal>(
     "MacNeal",
     "Free-interface modes with the residual flexibility of all others, but not their mass and "
     "damping (MacNeal 1971). The mass is singular, so only implicit integrators can run it.");

@@ -168,7 +168,7 @@ class Multilevel : public CollectiveMethod {
   TreeModesOptions options_;
 };
 
-deck::ListSpec parameters() {
+deck::ListSpec multilevelParameters() {
   using deck::Range;
   deck::ListSpec list("Multilevel", "How a part is cut into substructures, and their modes.");
   list.integer("Parts", 0, Range::atLeast(0),
@@ -186,12 +186,12 @@ deck::ListSpec parameters() {
   return list;
 }
 
-const bool registered = addMethod<Multilevel>(
+const bool multilevelRegistered = addMethod<Multilevel>(
     "Multilevel",
     "Craig-Bampton of one large part, cut into substructures by nested dissection (Scotch): "
     "constraint modes and fixed-interface modes from the modes of substructures and separators "
     "(Bennighof and Lehoucq 2004), with error estimates. All ranks work on each part.",
-    parameters());
+    multilevelParameters());
 
 }  // namespace
 

@@ -19,7 +19,7 @@ class Rubin : public ReductionMethod {
   }
 };
 
-const bool registered = addMethod<Rubin>(
+const bool rubinRegistered = addMethod<Rubin>(
     "Rubin",
     "Free-interface modes, rigid-body ones always among them, with the residual flexibility and "
     "residual mass of all others (Rubin 1975); interface dofs stay coordinates (Martinez et al. "

@@ -148,7 +148,7 @@ class UserVectors : public ReductionMethod {
                            OrthonormalSet& set) const {
     const Partition& p = part.partition();
     const Sparse& psi = part.constraintModes().vectors;
-    std::vector<int> dependent;
+    std::vector<int> dropped;
     for (int j = 0; j < given.cols(); ++j) {
       const Vector vector = given.col(j), rest = vector - psi * Vector(vector(p.boundary));
       // A vector that is constraint modes alone leaves rounding.
@@ -161,9 +161,9 @@ class UserVectors : public ReductionMethod {
                         "modes of part \"" +
                         part.part().name +
                         "\". Remove it, or set \"Dependent Vectors\" to \"Drop\".");
-      dependent.push_back(j);
+      dropped.push_back(j);
     }
-    return dependent;
+    return dropped;
   }
 
   bool drop_;  ///< dependent vectors, instead of refusing them
@@ -172,7 +172,7 @@ class UserVectors : public ReductionMethod {
   std::vector<std::string> parts_;  ///< empty: all
 };
 
-deck::ListSpec ownParameters() {
+deck::ListSpec userVectorsParameters() {
   deck::ListSpec list(
       "User Vectors",
       "Source of the vectors. The mode selection uses the first columns of each file.");
@@ -192,11 +192,11 @@ deck::ListSpec ownParameters() {
   return list;
 }
 
-const bool registered = addMethod<UserVectors>(
+const bool userVectorsRegistered = addMethod<UserVectors>(
     "User Vectors",
     "Constraint modes and the Ritz vectors of the user's vectors from files (Wilson, Yuan and "
     "Dickens 1982).",
-    ownParameters());
+    userVectorsParameters());
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/Parallel.hpp"
-#include "linalg/NestedDissection.hpp"
+#include "linalg/factor/NestedDissection.hpp"
 #include "reduction/project/Distribution.hpp"
 
 namespace tooljoint::reduction {

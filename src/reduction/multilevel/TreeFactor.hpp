@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linalg/DenseKernels.hpp"
-#include "linalg/PartialFactor.hpp"
+#include "linalg/factor/PartialFactor.hpp"
 #include "reduction/multilevel/SubstructureTree.hpp"
 
 namespace tooljoint::reduction {

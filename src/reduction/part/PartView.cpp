@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
-#include "linalg/MumpsFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 #include "model/DofNames.hpp"
 #include "reduction/part/InteriorStatics.hpp"
 

@@ -11,7 +11,7 @@
 #include "common/Text.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/DenseDecompositions.hpp"
-#include "linalg/MumpsFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 #include "linalg/SparseProducts.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"

@@ -11,8 +11,6 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Share of entries from which dense columns are no longer than sparse ones.
-constexpr double fullFrom = 0.1;
 constexpr Eigen::Index manyRows = 2000, rowsAtATime = 512;
 
 /// to += factor times a row of Phi, or the absolute values of it.

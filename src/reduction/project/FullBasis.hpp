@@ -8,6 +8,9 @@
 
 namespace tooljoint::reduction {
 
+/// Share of entries from which dense columns are no longer than sparse ones.
+inline constexpr double fullFrom = 0.1;
+
 /// So many rows and so many entries that the functions below are the better ones.
 bool isLargeAndFull(const Sparse& Phi);
 

@@ -18,8 +18,6 @@ namespace {
 constexpr double enforceBelow = 1e-10;
 /// Entries below this times |Phi|' |A| |Phi| are rounding of the projection itself.
 constexpr double roundingLevel = 1e-14;
-/// Share of entries from which a basis is multiplied as a dense matrix.
-constexpr double fullFrom = 0.1;
 
 double norm(const Sparse& A) { return A.norm(); }
 double product(const Sparse& A, const Sparse& B) { return A.cwiseProduct(B).sum(); }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/OutputFolder.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "study/Row.hpp"
 #include "study/engine/StudyPlan.hpp"
 

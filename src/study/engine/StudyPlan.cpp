@@ -217,7 +217,7 @@ class Planner {
   RunDecks decks_;
 };
 
-const bool registered = cases::AnalysisLists::instance().add(
+const bool studyPlanRegistered = cases::AnalysisLists::instance().add(
     {"Study", [] { return parameters(); },
      [](const Teuchos::ParameterList& list) { readStudy(list); },
      [](const cases::Case& scene) { return describe(planStudy(scene)); }});

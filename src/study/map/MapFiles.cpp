@@ -8,7 +8,7 @@
 #include "common/Text.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
-#include "io/SummaryUnits.hpp"
+#include "io/summary/SummaryUnits.hpp"
 #include "study/Likewise.hpp"
 #include "study/engine/StudyFiles.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "study/map/MapPlan.hpp"
 #include "study/map/MapRows.hpp"
 

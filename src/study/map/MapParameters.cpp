@@ -9,7 +9,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 
 namespace tooljoint::study {
 namespace {

@@ -28,7 +28,7 @@ void requireMotion(const cases::Case& scene, const MapSettings& settings, RunDec
                       " of a motion, and the scene has no Transient list. Add one.");
 }
 
-const bool registered = cases::AnalysisLists::instance().add(
+const bool mapPlanRegistered = cases::AnalysisLists::instance().add(
     {"Map", mapParameters, [](const Teuchos::ParameterList& list) { readMap(list); },
      [](const cases::Case& scene) { return describe(planMap(scene)); }});
 

@@ -5,13 +5,13 @@
 
 #include "cases/ListText.hpp"
 #include "cases/run/ResultsWriter.hpp"
-#include "cases/run/SampleRecovery.hpp"
+#include "cases/recording/SampleRecovery.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"
 #include "common/Text.hpp"
 #include "common/report/Stopwatch.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "study/engine/StudyPlan.hpp"
 
 namespace tooljoint::study {

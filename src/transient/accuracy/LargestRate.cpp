@@ -23,7 +23,7 @@ constexpr int mostLooks = 200;
 /// A clearance below this [m] is contact.
 constexpr double touching = 1e-9;
 /// A vector of this length, beside those before, has no direction of its own.
-constexpr double negligible = 1e-12;
+constexpr double negligibleResidual = 1e-12;
 
 }  // namespace
 
@@ -170,7 +170,7 @@ double LargestRate::norm(const Product& times) const {
     model_.addMass(x.data(), y.data());
     const double length = std::sqrt(std::max(0.0, model_.dot(x, y)));
     if (k > 0) H(k, k - 1) = length;
-    if (k == steps || !(length > negligible * std::max(1.0, H.norm()))) break;
+    if (k == steps || !(length > negligibleResidual * std::max(1.0, H.norm()))) break;
     V.col(k) = x / length;
     MV.col(k) = y / length;
     times(V.col(k), x);

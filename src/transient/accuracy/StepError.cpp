@@ -22,7 +22,7 @@ constexpr long fewestSaying = 2;
 constexpr int corrections = 2;
 /// Motion in windows that is less than this part of the displacement since the start is rest: what
 /// iterations leave is a part of the displacement, too, of the order of their tolerance.
-constexpr double negligible = 1e-3;
+constexpr double negligibleMotion = 1e-3;
 /// Motion that is less than this part of the displacement has no damping that means anything.
 constexpr double quiet = 1e-6;
 constexpr double golden = 0.6180339887498949;
@@ -175,7 +175,7 @@ double StepError::value() const {
   const double noise = 1e-12 * std::sqrt(static_cast<double>(count_)) + 1e-9 * std::sqrt(sizes_);
   if (std::sqrt(errors_) <= noise) return 0.0;
   const double offset = looked_ > 0 ? offsets_ / looked_ : 0.0;
-  const double least = negligible * negligible * offset * static_cast<double>(count_);
+  const double least = negligibleMotion * negligibleMotion * offset * static_cast<double>(count_);
   const double turns = offsets_ > 0 ? turning_ * std::sqrt(speeds_ / offsets_) : 1.0;
   return std::max(1.0, turns) * std::sqrt(errors_ / std::max(moved_, least));
 }

@@ -11,12 +11,6 @@
 #include "transient/compiled/PointWidth.hpp"
 
 namespace tooljoint::transient {
-namespace {
-
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-}  // namespace
-
 PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern,
                        const std::vector<int>* own)
     : name_(set.name),
@@ -45,7 +39,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
     index_.assign(at(rows), -1);
     for (int r = 0; r < rows; ++r)
       if (rowBegin_[at(r + 1)] > rowBegin_[at(r)]) index_[at(r)] = column_[at(rowBegin_[at(r)])];
-    entryAddress_.assign(at(rows) * at(width_), none);
+    entryAddress_.assign(at(rows) * at(width_), noEntry);
     for (int p = 0; p < points_; ++p)
       for (int i = 0; i < width_; ++i)
         for (int j = 0; j < width_; ++j) {

@@ -21,6 +21,9 @@
 
 namespace tooljoint::transient {
 
+/// Address of an entry that the matrix does not have.
+inline constexpr std::size_t noEntry = std::numeric_limits<std::size_t>::max();
+
 class PointBatch {
  public:
   /// \param own  points to evaluate, increasing; null for all

@@ -11,8 +11,6 @@
 namespace tooljoint::transient {
 namespace {
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
 /// Coordinates of a point up to which its tangent is taken apart: those of a node.
 constexpr int widestPush = 6;
 using Square =
@@ -38,7 +36,7 @@ void PointBatch::project(int point, const double* values, double* block) const {
   if (single_) {
     for (int i = 0; i < w * w; ++i) {
       const std::size_t address = entryAddress_[at(point * w * w + i)];
-      block[i] = address == none ? 0.0 : values[address];
+      block[i] = address == noEntry ? 0.0 : values[address];
     }
     return;
   }
@@ -105,7 +103,7 @@ void PointBatch::subtract(const std::vector<double>& frozen, double* values) con
   if (single_) {
     for (int p : frozen_)
       for (int i = p * entries; i < (p + 1) * entries; ++i)
-        if (entryAddress_[at(i)] != none) values[entryAddress_[at(i)]] -= frozen[at(i)];
+        if (entryAddress_[at(i)] != noEntry) values[entryAddress_[at(i)]] -= frozen[at(i)];
     return;
   }
   for (int p : frozen_) {

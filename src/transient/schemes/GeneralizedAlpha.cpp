@@ -76,7 +76,7 @@ StrategySet leftOut(const Teuchos::ParameterList& own) {
   return set;
 }
 
-deck::ListSpec specification() {
+deck::ListSpec generalizedAlphaParameters() {
   return deck::ListSpec("Generalized-alpha", "Parameters of the generalized-alpha integrator.")
       .real("Spectral Radius", "", defaultRadius, deck::Range::between(0.0, 1.0),
             "Spectral radius at infinite frequency: 1 keeps all frequencies, 0 removes those above "
@@ -124,7 +124,7 @@ constexpr double strictness = 0.1;
 class GeneralizedAlpha final : public Integrator, public NumericalDamping {
  public:
   explicit GeneralizedAlpha(const Teuchos::ParameterList& given) {
-    const auto own = withDefaults(given, specification());
+    const auto own = withDefaults(given, generalizedAlphaParameters());
     tolerance_ = own.get<double>("Tolerance");
     parameters_ = {own.get<double>("Spectral Radius"),
                    own.get<bool>("Phase Correction"),
@@ -374,11 +374,11 @@ void GeneralizedAlpha::restore(const double*& memory) {
   control_.restore(memory);
 }
 
-const bool registered = IntegratorRegistry::instance().add(
+const bool generalizedAlphaRegistered = IntegratorRegistry::instance().add(
     "Generalized-alpha", {"Implicit, second order, with numerical damping of high frequencies only "
                           "(Chung and Hulbert 1993, Arnold and Bruels 2007); "
                           "contact is balanced at the end of each step.",
-                          specification(), [](const Teuchos::ParameterList& own) {
+                          generalizedAlphaParameters(), [](const Teuchos::ParameterList& own) {
                             return std::make_unique<GeneralizedAlpha>(own);
                           }});
 

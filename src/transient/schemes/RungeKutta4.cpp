@@ -16,7 +16,7 @@ constexpr double stabilityLimit = 2.78;
 /// The same for the rate of an impact, which so lasts six steps and keeps its rebound within 1 %.
 constexpr double impactLimit = 0.5;
 
-deck::ListSpec specification() {
+deck::ListSpec rungeKutta4Parameters() {
   return deck::ListSpec("RK4", "Parameters of the fixed-step Runge-Kutta integrator.")
       .real("Safety", "", 0.9, deck::Range{0.0, 1.0, true, false},
             "Fraction of the limit taken as the step when Step is not given: of stability, 2.78 / "
@@ -68,10 +68,10 @@ class RungeKutta4 final : public FixedStepIntegrator {
   RungeKuttaStep stage_;
 };
 
-const bool registered = IntegratorRegistry::instance().add(
+const bool rungeKutta4Registered = IntegratorRegistry::instance().add(
     "RK4", {"Classical fourth-order Runge-Kutta method with a fixed step (Nguyen et al. 2020, "
             "appendix B).",
-            specification(),
+            rungeKutta4Parameters(),
             [](const Teuchos::ParameterList& own) { return std::make_unique<RungeKutta4>(own); }});
 
 }  // namespace

@@ -19,7 +19,7 @@
 namespace tooljoint::transient {
 namespace {
 
-deck::ListSpec specification() {
+deck::ListSpec rungeKutta4AdaptiveParameters() {
   return deck::ListSpec("RK4 adaptive", "Parameters of the adaptive Runge-Kutta integrator.")
       .real("Tolerance", "", 1e-2, deck::Range::positive(),
             "Threshold e0 of the error of a step, a sum of norms in m, rad, m/s and rad/s.")
@@ -39,7 +39,7 @@ deck::ListSpec specification() {
 class RungeKutta4Adaptive final : public Integrator {
  public:
   explicit RungeKutta4Adaptive(const Teuchos::ParameterList& given) {
-    const auto own = withDefaults(given, specification());
+    const auto own = withDefaults(given, rungeKutta4AdaptiveParameters());
     tolerance_ = own.get<double>("Tolerance");
     step_ = own.get<double>("First Step");
     growth_ = own.get<double>("Growth");
@@ -136,11 +136,11 @@ class RungeKutta4Adaptive final : public Integrator {
   Vector difference_;
 };
 
-const bool registered = IntegratorRegistry::instance().add(
+const bool rungeKutta4AdaptiveRegistered = IntegratorRegistry::instance().add(
     "RK4 adaptive", {"Runge-Kutta of fourth order, its step controlled by comparing one step with "
                      "two half steps (Nguyen et al. 2020, appendix "
                      "B).",
-                     specification(), [](const Teuchos::ParameterList& own) {
+                     rungeKutta4AdaptiveParameters(), [](const Teuchos::ParameterList& own) {
                        return std::make_unique<RungeKutta4Adaptive>(own);
                      }});
 

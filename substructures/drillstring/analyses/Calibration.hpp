@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/OutputFolder.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "substructures/drillstring/analyses/Measurements.hpp"
 #include "substructures/drillstring/analyses/TorqueDrag.hpp"
 

@@ -17,13 +17,13 @@ namespace {
 
 constexpr std::uint64_t largestFile = 1U << 26U;  // bytes
 
-struct Column {
+struct MeasuredColumn {
   const char* name;
   const char* si;  ///< "": a text
   std::vector<std::string> headings;
 };
 enum Kind : std::size_t { Depth, Operation, HookLoad, Torque, kinds };
-const std::array<Column, kinds> columns = {
+const std::array<MeasuredColumn, kinds> measuredColumns = {
     {{"bit depth", "m", {"bit depth", "depth", "md"}},
      {"operation", "", {"operation"}},
      {"hook load", "N", {"hook load", "hookload"}},
@@ -55,11 +55,12 @@ class Reader {
       const auto heading = deck::splitHeading(row.cells[i]);
       std::string name = lower(heading.name);
       std::replace(name.begin(), name.end(), '_', ' ');
-      const auto kind = std::find_if(columns.begin(), columns.end(), [&](const Column& column) {
-        return std::count(column.headings.begin(), column.headings.end(), name) > 0;
-      });
-      if (kind == columns.end()) continue;
-      const auto k = static_cast<std::size_t>(kind - columns.begin());
+      const auto kind = std::find_if(
+          measuredColumns.begin(), measuredColumns.end(), [&](const MeasuredColumn& column) {
+            return std::count(column.headings.begin(), column.headings.end(), name) > 0;
+          });
+      if (kind == measuredColumns.end()) continue;
+      const auto k = static_cast<std::size_t>(kind - measuredColumns.begin());
       if (position_[k] >= 0)
         fault(row.line, "the column " + std::string(kind->name) + " stands twice in the header.");
       position_[k] = static_cast<int>(i);
@@ -75,7 +76,7 @@ class Reader {
     }
     for (const Kind k : {Depth, Operation})
       if (position_[k] < 0)
-        fault(row.line, "the header has no column " + inQuotes(columns[k].name) + ".");
+        fault(row.line, "the header has no column " + inQuotes(measuredColumns[k].name) + ".");
     if (position_[HookLoad] < 0 && position_[Torque] < 0)
       fault(row.line,
             "the header has neither \"hook load\" nor \"surface torque\": nothing was measured.");
@@ -113,7 +114,7 @@ class Reader {
     const auto read = deck::cellNumber(text);
     if (!read) {
       fault(row.line,
-            "the " + std::string(columns[k].name) + " " + inQuotes(text) +
+            "the " + std::string(measuredColumns[k].name) + " " + inQuotes(text) +
                 " is not a finite number. Leave the cell empty where nothing was measured.");
       return std::nullopt;
     }

@@ -16,7 +16,7 @@ namespace {
 using Profiles = std::vector<TorqueDragProfile>;
 using Settings = softstring::TorqueDragSettings;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// A quantity of all rows of a table; NaN and infinity where there is nothing to say: a margin of a
 /// string that nothing loads, the loads at the surface of one that locks up.
@@ -46,7 +46,7 @@ void addMargin(std::vector<Column>& columns, const Profiles& profiles, const std
   columns.push_back(
       column(profiles, name + "_depth", "m", "Measured depth of it", [&](const auto& one) {
         const Margin margin = value(one);
-        return std::isfinite(margin.factor) ? margin.depth : none;
+        return std::isfinite(margin.factor) ? margin.depth : nothing;
       }));
 }
 
@@ -75,7 +75,7 @@ std::vector<Column> softColumns(const Profiles& profiles) {
             [](const TorqueDragProfile& one) { return one.row.helical; });
   columns.push_back(column(profiles, "lock_up_depth", "m", "Measured depth where it locks up",
                            [](const TorqueDragProfile& one) {
-                             return one.row.lockUpDepth >= 0.0 ? one.row.lockUpDepth : none;
+                             return one.row.lockUpDepth >= 0.0 ? one.row.lockUpDepth : nothing;
                            }));
   return columns;
 }
@@ -86,7 +86,7 @@ std::vector<Column> stiffColumns(const Profiles& profiles, const Settings& setti
   const auto add = [&](const char* name, const char* unit, const char* longName,
                        const auto& value) {
     columns.push_back(column(profiles, name, unit, longName, [&](const TorqueDragProfile& one) {
-      return hasStiff(one) ? value(*one.stiff) : none;
+      return hasStiff(one) ? value(*one.stiff) : nothing;
     }));
   };
   add("stiff_hook_load", "N", "Stiff string: effective tension at the surface and block weight",
@@ -104,7 +104,7 @@ std::vector<Column> stiffColumns(const Profiles& profiles, const Settings& setti
   addMargin(columns, profiles, "stiff_yield_margin",
             "Stiff string: yield strength over von Mises stress, least",
             [&](const TorqueDragProfile& one) {
-              return hasStiff(one) ? stiffYield(*one.stiff, settings) : Margin{none, 0.0};
+              return hasStiff(one) ? stiffYield(*one.stiff, settings) : Margin{nothing, 0.0};
             });
   return columns;
 }

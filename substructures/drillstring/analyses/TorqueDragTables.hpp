@@ -7,7 +7,7 @@
 
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "substructures/drillstring/analyses/TorqueDrag.hpp"
 
 namespace tooljoint::drillstring {

@@ -29,7 +29,7 @@ namespace nodal = beam::nodal;
 
 namespace {
 
-const std::string here = "Buckling";
+const std::string listName = "Buckling";
 
 /// Jumps after which a path is given up.
 constexpr int mostJumps = 100;
@@ -352,7 +352,7 @@ BucklingSettings bucklingSettings(const Scene& scene) {
   if (!settings.lastWeight && scene.weightOnBit() > 0.0) settings.lastWeight = scene.weightOnBit();
   if (!settings.lastWeight)
     throw DeckError(scene.deck.file() + ": nothing says how far the weight on bit grows. Give " +
-                    here + "/Last Weight On Bit or Loads/Weight On Bit.");
+                    listName + "/Last Weight On Bit or Loads/Weight On Bit.");
   return settings;
 }
 

@@ -100,7 +100,7 @@ class RestingString : public cases::RestingCase {
   const StaticStage& stage_;
 };
 
-const bool registered = cases::CaseKinds::instance().add(
+const bool drillstringCaseRegistered = cases::CaseKinds::instance().add(
     {{"Drillstring", "Well"}, 1, sceneSpec, [](const deck::Deck& deck) {
        return std::make_unique<DrillstringCase>(readScene(deck));
      }});

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cases/Case.hpp"
-#include "cases/run/RecordedNodes.hpp"
+#include "cases/recording/RecordedNodes.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 

@@ -10,7 +10,7 @@
 #include "cases/Case.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cases/figures/SignalFigures.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 
 namespace tooljoint::drillstring {
 

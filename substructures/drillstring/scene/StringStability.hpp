@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {

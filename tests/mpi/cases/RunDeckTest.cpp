@@ -12,12 +12,13 @@
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"
 #include "run.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace RunDeckTest {
 
 using namespace tooljoint;
 
-const std::string source = TOOLJOINT_SOURCE_DIR;
+const std::string source = testing_::sourceFolder();
 const std::string pipes = source + "/examples/01_vertical_string/deck.xml";
 const std::string frame = source + "/xml/frame.xml";
 /// A short motion, and the full model of the frame.
@@ -142,4 +143,4 @@ TEST_F(RunDeck, valuesThatAreNotThereAreTold) {
             "The value of \"status\" in summary.json is \"finished\", which is no number.");
 }
 
-}  // namespace
+}  // namespace RunDeckTest

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Samples of a motion that ranks divide: rank 0 has what one rank would have recovered.
-#include "cases/run/SampleRecovery.hpp"
+#include "cases/recording/SampleRecovery.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "tests/unit/transient/Models.hpp"
 
 namespace tooljoint::cases {
-namespace {
+namespace SampleRecoveryTest {
 
 /// Every node between two masses, at a third of the way.
 model::SecondOrderModel betweenMasses() {
@@ -107,5 +107,5 @@ TEST(SampleRecovery, AnErrorOfRankZeroIsThrownOnAll) {
   EXPECT_EQ(sentence, "No space is left after 0.004200 s.");
 }
 
-}  // namespace
+}  // namespace SampleRecoveryTest
 }  // namespace tooljoint::cases

@@ -12,7 +12,7 @@
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 
-namespace {
+namespace RankGroupsTest {
 
 using namespace tooljoint;
 
@@ -68,4 +68,4 @@ TEST(RankGroups, GroupsAreWhole) {
   EXPECT_THROW(parallel::RankGroups(parallel::size() + 1), UsageError);
 }
 
-}  // namespace
+}  // namespace RankGroupsTest

@@ -11,7 +11,7 @@
 #include "coupling/interface/InterfaceReduction.hpp"
 #include "tests/support/SpaceFrame.hpp"
 
-namespace {
+namespace DistributedCouplingTest {
 
 using namespace tooljoint;
 using namespace tooljoint::coupling;
@@ -88,4 +88,4 @@ TEST(DistributedCoupling, FrequenciesDoNotDependOnTheRanks) {
   }
 }
 
-}  // namespace
+}  // namespace DistributedCouplingTest

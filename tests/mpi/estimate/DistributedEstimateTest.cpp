@@ -13,8 +13,9 @@
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 #include "tests/support/SampleParts.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace DistributedEstimateTest {
 
 using namespace tooljoint;
 
@@ -74,8 +75,7 @@ TEST(DistributedEstimate, AFrameHasTheSameFrequenciesOnAnyNumberOfRanks) {
 }
 
 TEST(DistributedEstimate, TheReferenceSceneHasTheSameFrequenciesOnAnyNumberOfRanks) {
-  const auto scene =
-      drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/helical_170m.xml", {});
+  const auto scene = drillstring::readScene(testing_::sourceFolder() + "/xml/helical_170m.xml", {});
   expectSame(drillstring::cut(scene, drillstring::solveStatic(scene)), 1e-4);
 }
 
@@ -95,4 +95,4 @@ TEST(DistributedEstimate, CriteriaOfTheInterfaceChooseTheSameOnEveryRank) {
   }
 }
 
-}  // namespace
+}  // namespace DistributedEstimateTest

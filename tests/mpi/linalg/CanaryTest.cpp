@@ -17,7 +17,7 @@
 #include "statics/NewtonSolver.hpp"
 
 namespace tooljoint::linalg {
-namespace {
+namespace CanaryTest {
 
 using testing::beam;
 using testing::springChain;
@@ -104,5 +104,5 @@ TEST(Canary, NewtonIsTheSameOnEveryRank) {
   }
 }
 
-}  // namespace
+}  // namespace CanaryTest
 }  // namespace tooljoint::linalg

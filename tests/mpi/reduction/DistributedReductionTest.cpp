@@ -12,7 +12,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace DistributedReductionTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -125,4 +125,4 @@ TEST(DistributedReduction, RanksWithoutAPartIdleWithOneWarning) {
   EXPECT_EQ(spread(reduced[0].basis->eigenvalues), 0.0);
 }
 
-}  // namespace
+}  // namespace DistributedReductionTest

@@ -11,7 +11,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SolidBlock.hpp"
 
-namespace {
+namespace MultilevelRanksTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -59,4 +59,4 @@ TEST(MultilevelRanks, EveryRankHasTheError) {
   EXPECT_THROW(reduced(parts, ModeRule::Kind::PerPart), ModelError);
 }
 
-}  // namespace
+}  // namespace MultilevelRanksTest

@@ -12,7 +12,7 @@
 #include "transient/ranks/RankShare.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace DividedMotionTest {
 
 using Edges = std::vector<std::pair<int, int>>;
 
@@ -324,5 +324,5 @@ TEST(DividedMotion, IsComputedByAllAlikeWhereItCannotBeDivided) {
   EXPECT_EQ(integrate(states, divided(), samples).ranks, 1);
 }
 
-}  // namespace
+}  // namespace DividedMotionTest
 }  // namespace tooljoint::transient::testing

@@ -8,16 +8,16 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "tests/support/Scenes.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace StiffWallsTest {
 
 using namespace tooljoint;
 
 equilibrium::StaticState settled(const std::string& deck,
                                  const std::vector<std::string>& overrides) {
   return drillstring::solveStatic(
-             drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/" + deck + ".xml",
-                                    overrides))
+             drillstring::readScene(testing_::sourceFolder() + "/xml/" + deck + ".xml", overrides))
       .state;
 }
 
@@ -85,4 +85,4 @@ TEST(StiffWalls, AHangingStringThatIsPulledAndTurnedIsReported) {
   }
 }
 
-}  // namespace
+}  // namespace StiffWallsTest

@@ -12,8 +12,9 @@
 #include "substructures/beam/Section.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
 #include "tests/support/Scenes.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace UnstableStateTest {
 
 using namespace tooljoint;
 using constants::pi;
@@ -41,7 +42,7 @@ double growthRate(double load) {
 drillstring::Scene column(double loads, std::vector<std::string> overrides = {}) {
   overrides.push_back("Loads/Weight On Bit=" + std::to_string(loads * bucklingLoad()));
   return drillstring::readScene(
-      std::string(TOOLJOINT_SOURCE_DIR) + "/tests/stability/equilibrium/column.xml", overrides);
+      testing_::sourceFolder() + "/tests/stability/equilibrium/column.xml", overrides);
 }
 
 TEST(UnstableState, IsNotReportedBelowTheBucklingLoad) {
@@ -163,4 +164,4 @@ TEST(UnstableState, WithoutAWallCannotBeLeft) {
   EXPECT_THROW(drillstring::findEquilibrium(scene), ConvergenceError);
 }
 
-}  // namespace
+}  // namespace UnstableStateTest

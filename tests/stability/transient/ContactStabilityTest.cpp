@@ -11,7 +11,7 @@
 #include "substructures/contact/ContactLaw.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace ContactStabilityTest {
 
 struct Bores {
   int nodes = 20;
@@ -281,5 +281,5 @@ TEST(ContactStability, plainNewtonFailsWhereTheLineSearchDoesNot) {
   EXPECT_EQ(report.counters.unconvergedSteps, 0);
 }
 
-}  // namespace
+}  // namespace ContactStabilityTest
 }  // namespace tooljoint::transient::testing

@@ -11,7 +11,7 @@
 #include "substructures/beam/Section.hpp"
 
 namespace tooljoint::beam {
-namespace {
+namespace CorotationalTest {
 
 Vector3 randomVector(std::mt19937& generator, double size) {
   std::uniform_real_distribution<double> uniform(-size, size);
@@ -172,5 +172,5 @@ TEST(Corotational, CoincidentNodesAreRefused) {
   EXPECT_THROW(element.evaluate(pose, false), ModelError);
 }
 
-}  // namespace
+}  // namespace CorotationalTest
 }  // namespace tooljoint::beam

@@ -11,7 +11,7 @@
 #include "tests/support/PolynomialMotion.hpp"
 
 namespace tooljoint::beam {
-namespace {
+namespace ElementFormsTest {
 
 using testing_::firstMotion;
 using testing_::integral;
@@ -173,5 +173,5 @@ TEST(ElementForms, TorqueBendsAStraightShaftIntoAHelixOfItsOwnHand) {
   EXPECT_GT(residual(-1.0), 1e-2);
 }
 
-}  // namespace
+}  // namespace ElementFormsTest
 }  // namespace tooljoint::beam

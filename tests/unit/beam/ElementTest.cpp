@@ -10,7 +10,7 @@
 #include "substructures/beam/Rotation.hpp"
 
 namespace tooljoint::beam {
-namespace {
+namespace ElementTest {
 
 Section pipe() { return Section::hollow(0.0635, 0.054, Material{7900.0, 2.03e11, 0.3}); }
 
@@ -187,5 +187,5 @@ TEST(Element, TriadHasItsZOnTheChord) {
   EXPECT_THROW(elementTriad(chord, chord, q1, q2), ModelError);
 }
 
-}  // namespace
+}  // namespace ElementTest
 }  // namespace tooljoint::beam

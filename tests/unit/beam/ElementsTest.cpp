@@ -8,7 +8,7 @@
 #include "substructures/beam/Timoshenko.hpp"
 
 namespace tooljoint::beam {
-namespace {
+namespace ElementsTest {
 
 const Section pipe = Section::hollow(0.06, 0.05, Material{});
 
@@ -53,5 +53,5 @@ TEST(Elements, NodesHaveTheDofsOfTheElementsTheyJoin) {
   EXPECT_EQ(nodalDofs({shaft})[1], torsion);
 }
 
-}  // namespace
+}  // namespace ElementsTest
 }  // namespace tooljoint::beam

@@ -7,7 +7,7 @@
 
 using namespace tooljoint::beam;
 
-namespace {
+namespace VonMisesTest {
 
 TEST(VonMises, IsTheAxialStressTheBendingStressOrTheShearOfAPipe) {
   const Section pipe = Section::hollow(0.0635, 0.0543, Material{});
@@ -64,4 +64,4 @@ TEST(VonMises, LeavesTheInsideOfABarWithoutPressure) {
   EXPECT_DOUBLE_EQ(vonMises(Section::hollow(0.05, 0.0, Material{}), 0.0, 0.0, 0.0, 3e7), 0.0);
 }
 
-}  // namespace
+}  // namespace VonMisesTest

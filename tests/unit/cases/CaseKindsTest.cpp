@@ -14,12 +14,13 @@
 #include "io/TextFile.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 #include "tests/support/ErrorText.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace CaseKindsTest {
 
 using namespace tooljoint;
 
-const std::string source = TOOLJOINT_SOURCE_DIR;
+const std::string source = testing_::sourceFolder();
 const std::string ofString = source + "/tests/effects/scene.xml";
 const std::string ofParts = source + "/xml/frame.xml";
 
@@ -128,4 +129,4 @@ TEST(CaseKinds, RecorderMeasuresTranslationsOfParts) {
   EXPECT_EQ(string.vibration(), (std::vector<int>{0, 1}));
 }
 
-}  // namespace
+}  // namespace CaseKindsTest

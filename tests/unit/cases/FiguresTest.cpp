@@ -14,7 +14,7 @@
 #include "substructures/drillstring/figures/BitFigures.hpp"
 
 namespace tooljoint::cases {
-namespace {
+namespace FiguresTest {
 
 using constants::pi;
 
@@ -164,11 +164,11 @@ TEST(OrbitFigures, SlowRockingIsNoWhirl) {
   EXPECT_EQ(orbit.forwardShare()[0], 0.0);
 }
 
-}  // namespace
+}  // namespace FiguresTest
 }  // namespace tooljoint::cases
 
 namespace tooljoint::drillstring {
-namespace {
+namespace FiguresTest {
 
 using constants::pi;
 
@@ -266,5 +266,5 @@ TEST(BendingFigures, GoOnFromACheckpoint) {
   EXPECT_EQ(second.counts().front().cycles, whole.counts().front().cycles);
 }
 
-}  // namespace
+}  // namespace FiguresTest
 }  // namespace tooljoint::drillstring

@@ -13,13 +13,14 @@
 #include "cases/imported/ImportedDeck.hpp"
 #include "io/TextFile.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
+#include "tests/support/SourceFolder.hpp"
 #include "tests/unit/io/Scratch.hpp"
 
-namespace {
+namespace RunIdentityTest {
 
 using namespace tooljoint;
 
-const std::string source = TOOLJOINT_SOURCE_DIR;
+const std::string source = testing_::sourceFolder();
 
 std::string ofString(const std::vector<std::string>& overrides) {
   return cases::runIdentity(
@@ -148,4 +149,4 @@ TEST(RunIdentity, hasWhatAFormatReadsBesideItsFile) {
   EXPECT_FALSE(changes("part.json", "other/M.mapping"));
 }
 
-}  // namespace
+}  // namespace RunIdentityTest

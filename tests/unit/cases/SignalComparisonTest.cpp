@@ -12,7 +12,7 @@
 using namespace tooljoint;
 using namespace tooljoint::cases;
 
-namespace {
+namespace SignalComparisonTest {
 
 constexpr double interval = 0.01;
 
@@ -131,4 +131,4 @@ TEST(SignalComparison, SpectraAreOfTheLongestStretchWithoutGaps) {
   EXPECT_NEAR(found.measured.peaks[0].frequency, 12.5, 0.1);
 }
 
-}  // namespace
+}  // namespace SignalComparisonTest

@@ -11,7 +11,7 @@
 #include "common/Error.hpp"
 
 namespace tooljoint {
-namespace {
+namespace InputFileTest {
 
 namespace fs = std::filesystem;
 
@@ -87,5 +87,5 @@ TEST_F(InputFiles, OnlyRegularFilesAreOpened) {
   EXPECT_EQ(whyUnreadable(write("good", "x")), "");
 }
 
-}  // namespace
+}  // namespace InputFileTest
 }  // namespace tooljoint

@@ -7,7 +7,7 @@
 
 #include "common/Parallel.hpp"
 
-namespace {
+namespace LogTest {
 
 using namespace tooljoint;
 
@@ -52,4 +52,4 @@ TEST(Log, AWordThatIsLongerThanALineStaysWhole) {
   EXPECT_EQ(printed(path), path + "\n");
 }
 
-}  // namespace
+}  // namespace LogTest

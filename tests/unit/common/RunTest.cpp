@@ -16,13 +16,11 @@
 
 using namespace tooljoint;
 
-namespace {
+namespace RunTest {
 
 std::size_t linesOf(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
-
-}  // namespace
 
 TEST(Log, WarningsAreCollectedOnceEach) {
   log::clearWarnings();
@@ -150,3 +148,5 @@ TEST(Version, NamesEverythingARunStandsOn) {
     EXPECT_NE(text.find(version), std::string::npos);
   }
 }
+
+}  // namespace RunTest

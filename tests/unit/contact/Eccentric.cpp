@@ -10,7 +10,7 @@ using namespace tooljoint;
 using namespace tooljoint::contact;
 using namespace tooljoint::contact::testing;
 
-namespace {
+namespace EccentricTest {
 
 const Offsets offsets{{0.0, 0.0}, {0.004, -0.003}};
 
@@ -114,4 +114,4 @@ TEST(Eccentric, RecordsTheGapOfTheCentreOfContact) {
   EXPECT_LT(gap[1], 0.0);
 }
 
-}  // namespace
+}  // namespace EccentricTest

@@ -6,13 +6,11 @@
 using namespace tooljoint::contact;
 using namespace tooljoint::contact::testing;
 
-namespace {
+namespace EnergyTest {
 
 double turning(double) { return 7.0; }
 
 class Energy : public ::testing::TestWithParam<const char*> {};
-
-}  // namespace
 
 // d(stored)/dt + damping + friction - drive = -(force . velocity) at every state
 TEST_P(Energy, PowersBalance) {
@@ -80,3 +78,5 @@ TEST_P(Energy, StoredEnergyIsTheIntegralOfTheElasticForce) {
     }
   }
 }
+
+}  // namespace EnergyTest

@@ -12,7 +12,7 @@ using namespace tooljoint;
 using namespace tooljoint::contact;
 using namespace tooljoint::contact::testing;
 
-namespace {
+namespace LawsTest {
 
 using constants::pi;
 double still(double) { return 0.0; }
@@ -26,8 +26,6 @@ double normal(const std::string& name, const ContactPoint& point, double G, doub
   contact->record(0.0, d.data(), v.data(), out.data());
   return out[0];
 }
-
-}  // namespace
 
 TEST(NguyenLaw, IsThePrintedOne) {
   const ContactPoint p = steelOnRock();
@@ -358,3 +356,5 @@ TEST(Registry, UnknownLawNamesTheKnownOnes) {
         << error.what();
   }
 }
+
+}  // namespace LawsTest

@@ -7,7 +7,7 @@
 using namespace tooljoint;
 using namespace tooljoint::contact;
 
-namespace {
+namespace ParametersTest {
 
 ContactSettings fromDeck(const std::string& inside) {
   deck::ListSpec scene("scene", "A scene.");
@@ -37,8 +37,6 @@ std::string text(const std::string& name, const std::string& value) {
 std::string list(const std::string& name, const std::string& inside) {
   return "<ParameterList name=\"" + name + "\">" + inside + "</ParameterList>";
 }
-
-}  // namespace
 
 TEST(ContactParameters, DefaultsAreClampedAndFrictionless) {
   const ContactSettings settings = fromDeck(real("Stiffness", "1e7"));
@@ -124,3 +122,5 @@ TEST(ContactParameters, HuntCrossleyTakesItsOwnList) {
   contact->evaluate(0.0, {0}, d.data(), v.data(), f.data());
   EXPECT_NEAR(f[0], -1e6 * 1e-6 * 1.6, 1e-6);
 }
+
+}  // namespace ParametersTest

@@ -13,7 +13,7 @@
 #include "model/laws/PointLawRegistry.hpp"
 #include "substructures/contact/ContactParameters.hpp"
 
-namespace {
+namespace PointLawContactTest {
 
 using namespace tooljoint;
 using namespace tooljoint::contact;
@@ -186,4 +186,4 @@ TEST(PointLawContact, IsChosenByNameInTheDeck) {
   EXPECT_THROW(readContact(list), DeckError);
 }
 
-}  // namespace
+}  // namespace PointLawContactTest

@@ -10,7 +10,7 @@
 using namespace tooljoint::contact;
 using namespace tooljoint::contact::testing;
 
-namespace {
+namespace RecordsTest {
 
 class Records : public ::testing::TestWithParam<const char*> {};
 
@@ -27,8 +27,6 @@ std::map<std::string, std::vector<double>> recorded(const tooljoint::model::Poin
                                  values.begin() + static_cast<std::ptrdiff_t>((c + 1) * size));
   return out;
 }
-
-}  // namespace
 
 // F = -F_n n + F_t t with n = (u, v)/r, t = (-v, u)/r: the components of the force of evaluate()
 // along -n and t, and its torque.
@@ -95,3 +93,5 @@ TEST_P(Records, StaticForcesOpposeTheRotation) {
     EXPECT_NEAR(f[3], -direction * p.muStatic * N * p.contactRadius, 1e-9 * N);
   }
 }
+
+}  // namespace RecordsTest

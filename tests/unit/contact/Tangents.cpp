@@ -16,7 +16,7 @@ std::shared_ptr<const ContactLaw> tooljoint::contact::testing::law(const std::st
   return LawRegistry::instance().make(name, own);
 }
 
-namespace {
+namespace TangentsTest {
 
 double speed(double t) { return 12.0 + t; }
 
@@ -51,8 +51,6 @@ void expectTangents(const tooljoint::model::PointLaw& contact, const State& stat
     }
   }
 }
-
-}  // namespace
 
 class Tangents : public ::testing::TestWithParam<const char*> {};
 
@@ -139,3 +137,5 @@ TEST_P(Tangents, StaticOnesAgreeWithDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(Laws, Tangents, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"),
                          testName);
+
+}  // namespace TangentsTest

@@ -12,7 +12,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace AssemblerTest {
 
 using namespace tooljoint;
 using namespace tooljoint::coupling;
@@ -313,4 +313,4 @@ TEST(Assembler, JoinsEndsThatDoNotFit) {
   }
 }
 
-}  // namespace
+}  // namespace AssemblerTest

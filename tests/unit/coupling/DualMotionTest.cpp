@@ -13,7 +13,7 @@
 #include "tests/support/SpaceFrame.hpp"
 #include "transient/Transient.hpp"
 
-namespace {
+namespace DualMotionTest {
 
 using namespace tooljoint;
 using namespace tooljoint::coupling;
@@ -128,4 +128,4 @@ TEST(DualMotion, IsThePrimalMotion) {
   }
 }
 
-}  // namespace
+}  // namespace DualMotionTest

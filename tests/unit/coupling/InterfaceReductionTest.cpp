@@ -19,7 +19,7 @@
 #include "tests/support/ListDefaults.hpp"
 #include "tests/support/SpaceFrame.hpp"
 
-namespace {
+namespace InterfaceReductionTest {
 
 using namespace tooljoint;
 using namespace tooljoint::coupling;
@@ -318,4 +318,4 @@ TEST(InterfaceReductionDeck, ReadsOneCriterion) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace InterfaceReductionTest

@@ -11,7 +11,7 @@
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace ModeCountTest {
 
 using namespace tooljoint;
 using coupling::Assembly;
@@ -73,4 +73,4 @@ TEST(ModeCount, HoldsForLoopsAndDualAssembly) {
       expectSameCounts(parts, reducedBy("Craig-Bampton", parts, modes, assembly), "loop");
 }
 
-}  // namespace
+}  // namespace ModeCountTest

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 
-namespace {
+namespace NumberingTest {
 
 using tooljoint::coupling::cuthillMcKee;
 using Edges = std::vector<std::pair<int, int>>;
@@ -50,4 +50,4 @@ TEST(CuthillMcKee, SeparateGroupsFollowEachOther) {
   EXPECT_TRUE(cuthillMcKee(0, {}).empty());
 }
 
-}  // namespace
+}  // namespace NumberingTest

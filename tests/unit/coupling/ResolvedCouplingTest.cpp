@@ -14,7 +14,7 @@
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace ResolvedCouplingTest {
 
 using namespace tooljoint;
 using namespace tooljoint::coupling;
@@ -378,4 +378,4 @@ TEST(PlannedCouplingErrors, NamePlaceAndPart) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace ResolvedCouplingTest

@@ -11,7 +11,7 @@
 #include "tests/support/ListDefaults.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace SynthesisTest {
 
 using namespace tooljoint;
 using namespace tooljoint::coupling;
@@ -82,4 +82,4 @@ TEST(Synthesis, ImprovementWithoutEndIsAnError) {
                ConvergenceError);
 }
 
-}  // namespace
+}  // namespace SynthesisTest

@@ -10,7 +10,7 @@ using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-namespace {
+namespace AlternativesTest {
 
 ListSpec tubes() {
   ListSpec tube("tube", "A tube.");
@@ -33,8 +33,6 @@ Deck parsed(const std::string& tube, const std::vector<std::string>& overrides =
 std::string fault(const std::string& tube, const std::vector<std::string>& overrides = {}) {
   return messageOf([&] { parsed(tube, overrides); });
 }
-
-}  // namespace
 
 TEST(Radius, IsHalfOfTheDiameter) {
   const Deck deck = parsed(parameter("Outer Diameter", "string", "5 in") + "\n" +
@@ -126,3 +124,5 @@ TEST(UnitBy, RefusesTheUnitOfAnotherKind) {
   EXPECT_EQ(refusal("x", "2 kN"),
             "deck.xml:5: /s/a/Value: value=\"2 kN\" stands where a plain number is expected.");
 }
+
+}  // namespace AlternativesTest

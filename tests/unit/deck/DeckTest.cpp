@@ -16,7 +16,7 @@ using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-namespace {
+namespace DeckTest {
 
 /// A folder of its own for each test, made by rank 0 and known to all.
 class DeckFiles : public ::testing::Test {
@@ -43,8 +43,6 @@ class DeckFiles : public ::testing::Test {
 };
 
 const std::string good = deckWith(stiffness, endTime);
-
-}  // namespace
 
 TEST_F(DeckFiles, AreReadWithTextHashAndFolder) {
   const std::string file = write("scene one.xml", good);
@@ -265,3 +263,5 @@ TEST(Defaults, OfAListWithoutADeck) {
   EXPECT_EQ(messageOf([] { defaults(smallScene()); }),
             "\"Transient/End Time\" is required but missing.");
 }
+
+}  // namespace DeckTest

@@ -9,7 +9,7 @@
 #include "common/Error.hpp"
 #include "deck/Registry.hpp"
 
-namespace {
+namespace DefaultsTest {
 
 using namespace tooljoint;
 using namespace tooljoint::deck;
@@ -68,4 +68,4 @@ TEST(Defaults, RefuseAnUnknownChoice) {
   }
 }
 
-}  // namespace
+}  // namespace DefaultsTest

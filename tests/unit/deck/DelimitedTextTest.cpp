@@ -6,7 +6,7 @@
 #include "common/Error.hpp"
 
 namespace tooljoint::deck {
-namespace {
+namespace DelimitedTextTest {
 
 using Cells = std::vector<std::string>;
 
@@ -55,5 +55,5 @@ TEST(CellNumber, TakesAPointOrAComma) {
     EXPECT_FALSE(cellNumber(bad)) << bad;
 }
 
-}  // namespace
+}  // namespace DelimitedTextTest
 }  // namespace tooljoint::deck

@@ -6,7 +6,7 @@
 
 #include "deck/Deck.hpp"
 
-namespace {
+namespace FileNameTest {
 
 using namespace tooljoint;
 
@@ -38,4 +38,4 @@ TEST(FileName, OfAProgramsListStaysAsItIs) {
   EXPECT_EQ(deck::fileName(list, "File"), "vectors.mtx");
 }
 
-}  // namespace
+}  // namespace FileNameTest

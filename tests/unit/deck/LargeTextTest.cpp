@@ -9,7 +9,7 @@ using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-namespace {
+namespace LargeTextTest {
 
 /// What `count` of these in a row take to be refused [s]; the time of the process, so that a loaded
 /// machine does not matter.
@@ -21,8 +21,6 @@ double secondsFor(int count, const Item& item) {
   EXPECT_NE(faultOf(deckWith(contact, endTime)), "");
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
-
-}  // namespace
 
 TEST(LargeText, AnElementOfManyAttributesIsRefusedBeforeItIsParsed) {
   std::string attributes;
@@ -77,3 +75,5 @@ TEST(LargeText, MessagesQuoteLittleOfALongValue) {
           .size(),
       1000U);
 }
+
+}  // namespace LargeTextTest

@@ -8,15 +8,13 @@ using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-namespace {
+namespace LexicalTest {
 
 /// The first line a person sees when `contact` stands in line 3 of a deck that is otherwise in
 /// order.
 std::string faultIn(const std::string& contact) { return faultOf(deckWith(contact, endTime)); }
 
 const std::string p = "deck.xml:3: /well/Contact";
-
-}  // namespace
 
 struct Lexical {
   std::string contact, message;
@@ -293,3 +291,5 @@ TEST(WholeFile, PlainCharacterReferencesAreFine) {
       "<ParameterList name=\"Transient\">" + endTime + "</ParameterList></ParameterList>");
   EXPECT_EQ(deck.list().get<std::string>("Title"), "a < b & c");
 }
+
+}  // namespace LexicalTest

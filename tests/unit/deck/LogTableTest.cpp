@@ -13,7 +13,7 @@
 
 using namespace tooljoint::deck;
 
-namespace {
+namespace LogTableTest {
 
 std::vector<LogSignal> read(const std::string& text, const std::vector<WantedColumn>& wanted,
                             const WantedColumn& time = {"", "s", ""}) {
@@ -81,4 +81,4 @@ TEST(LasFile, FaultsNameTheirLine) {
   }
 }
 
-}  // namespace
+}  // namespace LogTableTest

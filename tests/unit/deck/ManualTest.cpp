@@ -14,7 +14,7 @@ using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-namespace {
+namespace ManualTest {
 
 std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t n = 0;
@@ -54,8 +54,6 @@ ListSpec springList() {
                                                          "The law of the springs.");
   return list;
 }
-
-}  // namespace
 
 TEST(Manual, ShowsEachListAndParameterInTheOrderOfDeclaration) {
   const std::string text = manualMarkdown(smallScene());
@@ -370,3 +368,5 @@ TEST(Variants, AVariantWithRequiredParametersNeedsItsList) {
   EXPECT_EQ(messageOf([&] { variantList(list, "Own", own); }),
             "/well/Springs needs the list \"Own\", since some of its parameters are required.");
 }
+
+}  // namespace ManualTest

@@ -9,7 +9,7 @@ using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-namespace {
+namespace OverridesTest {
 
 const std::string base = deckWith(
     stiffness, endTime + parameter("Samples", "int", "5") + "<ParameterList name=\"NOX\">" +
@@ -18,8 +18,6 @@ const std::string base = deckWith(
 Teuchos::ParameterList listWith(const std::vector<std::string>& overrides) {
   return parseSmall(base, overrides).list();
 }
-
-}  // namespace
 
 struct Path {
   std::string text;
@@ -219,3 +217,5 @@ TEST(Override, ADeclaredListWithTheScenesNameIsThatList) {
   EXPECT_EQ(deck.list().get<int>("A"), 1);
   EXPECT_EQ(deck.list().sublist("same").get<int>("A"), 5);
 }
+
+}  // namespace OverridesTest

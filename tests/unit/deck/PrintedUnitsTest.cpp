@@ -8,7 +8,7 @@
 
 using namespace tooljoint::deck;
 
-namespace {
+namespace PrintedUnitsTest {
 
 /// Units of the field for the length of a test.
 struct InField {
@@ -56,4 +56,4 @@ TEST(PrintedUnits, AWrongNameIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace PrintedUnitsTest

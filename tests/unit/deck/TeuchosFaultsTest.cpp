@@ -9,7 +9,7 @@
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-namespace {
+namespace TeuchosFaultsTest {
 
 std::string transientWith(const std::string& item) { return deckWith(stiffness, endTime + item); }
 
@@ -21,8 +21,6 @@ bool teuchosTakes(const std::string& text) {
     return false;
   }
 }
-
-}  // namespace
 
 struct Silent {
   std::string item, message;
@@ -93,3 +91,5 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(TeuchosFaults, TheSceneKeepsItsName) {
   EXPECT_EQ(parseSmall(transientWith("")).list().name(), "/well");
 }
+
+}  // namespace TeuchosFaultsTest

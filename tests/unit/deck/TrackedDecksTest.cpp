@@ -7,9 +7,10 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include "tests/support/SourceFolder.hpp"
 #include "tests/unit/io/Scratch.hpp"
 
-namespace {
+namespace TrackedDecksTest {
 
 using namespace tooljoint;
 using Names = std::vector<std::string>;
@@ -32,9 +33,9 @@ TEST(TrackedDecks, AreThoseGitKnowsAndWithoutGitAll) {
 }
 
 TEST(TrackedDecks, OfTheProjectAreThere) {
-  const auto names = testing_::trackedDecks(std::string(TOOLJOINT_SOURCE_DIR) + "/xml");
+  const auto names = testing_::trackedDecks(testing_::sourceFolder() + "/xml");
   EXPECT_EQ(std::count(names.begin(), names.end(), "helical_170m.xml"), 1);
   EXPECT_EQ(std::count(names.begin(), names.end(), "frame.xml"), 1);
 }
 
-}  // namespace
+}  // namespace TrackedDecksTest

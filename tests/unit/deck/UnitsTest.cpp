@@ -9,7 +9,7 @@
 
 using namespace tooljoint::deck;
 
-namespace {
+namespace UnitsTest {
 using tooljoint::constants::pi;
 }
 

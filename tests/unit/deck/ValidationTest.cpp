@@ -155,10 +155,9 @@ TEST_P(SecondPhase, FaultIsReportedWithLinePathAndHelp) {
   EXPECT_EQ(fault.substr(0, row.message.size()), row.message) << fault;
 }
 
-namespace {
+namespace ValidationTest {
 const std::string s = stiffness + "\n";  // the fault then stands in line 4
 const std::string e = endTime + "\n";    // the fault then stands in line 7
-}  // namespace
 
 INSTANTIATE_TEST_SUITE_P(
     Names, SecondPhase,
@@ -376,3 +375,5 @@ TEST(SecondPhase, EndsWithExitCodeTwo) {
     EXPECT_EQ(error.code(), ExitCode::InvalidDeck);
   }
 }
+
+}  // namespace ValidationTest

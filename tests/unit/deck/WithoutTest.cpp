@@ -6,7 +6,7 @@
 #include "common/Error.hpp"
 #include "deck/Deck.hpp"
 
-namespace {
+namespace WithoutTest {
 
 using namespace tooljoint;
 
@@ -73,4 +73,4 @@ TEST(Without, TakesAParameterOutSoThatItsDefaultReturns) {
 
 TEST(Without, NeedsAPath) { EXPECT_THROW(without(""), UsageError); }
 
-}  // namespace
+}  // namespace WithoutTest

@@ -14,7 +14,7 @@
 #include "substructures/drilling/BitLaw.hpp"
 #include "substructures/drilling/TopDrive.hpp"
 
-namespace {
+namespace BitAndDriveTest {
 
 using namespace tooljoint;
 using namespace tooljoint::drilling;
@@ -241,4 +241,4 @@ TEST(TopDrive, RefusesAStaticTorqueAboveItsLimit) {
   EXPECT_DOUBLE_EQ(torque, 99.0);
 }
 
-}  // namespace
+}  // namespace BitAndDriveTest

@@ -15,7 +15,7 @@
 #include "tests/unit/drillstring/InclinedString.hpp"
 
 namespace tooljoint::drillstring {
-namespace {
+namespace EquationsTest {
 
 using namespace testing_;
 using constants::pi;
@@ -391,5 +391,5 @@ TEST(Equations, RecoveryPutsHeldDofsBack) {
     EXPECT_EQ(d(dof), scene.held[at(dof)] != 0 ? 0.0 : q(next++)) << dof;
 }
 
-}  // namespace
+}  // namespace EquationsTest
 }  // namespace tooljoint::drillstring

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/report/Log.hpp"
+#include "tests/support/SourceFolder.hpp"
 #include "tests/unit/drillstring/Decks.hpp"
 
 using namespace tooljoint;
@@ -300,7 +301,7 @@ TEST(ComponentErrors, AreAllReported) {
 
 TEST(ComponentErrors, ANameMayBeDefinedOnlyOnce) {
   const std::string library =
-      text("Library", std::string(TOOLJOINT_SOURCE_DIR) + "/xml/components/helical_170m.xml");
+      text("Library", testing_::sourceFolder() + "/xml/components/helical_170m.xml");
   const std::string message = errorOf(
       library + list("Components", tube("bit", 1.0, 1, 0.08, 0.03)) + array("Assembly", "bit"));
   EXPECT_NE(message.find("/Drillstring/Components/bit: The component is defined before ("),

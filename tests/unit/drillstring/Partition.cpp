@@ -12,7 +12,7 @@ using namespace tooljoint;
 using namespace tooljoint::drillstring;
 using namespace tooljoint::drillstring::testing;
 
-namespace {
+namespace PartitionTest {
 
 /// Four components of five elements, 1 m each: nodes 0 to 20 at depths 0 to 20 m.
 DrillString string() {
@@ -35,8 +35,6 @@ std::vector<int> wholeNodes(const std::vector<int>& dofs) {
   }
   return nodes;
 }
-
-}  // namespace
 
 TEST(Partition, KeepsEveryNodeBelowADepth) {
   const DrillString s = string();
@@ -128,3 +126,5 @@ TEST(Partition, CutsAtNodesComponentsOrLengths) {
   rules.length = 12.0;
   EXPECT_EQ(ranges(), (Ranges{{0, 19}})) << "a short rest joins the last part";
 }
+
+}  // namespace PartitionTest

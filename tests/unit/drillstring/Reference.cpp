@@ -5,19 +5,20 @@
 #include "common/Constants.hpp"
 #include "substructures/contact/ContactParameters.hpp"
 #include "substructures/drillstring/ContactNodes.hpp"
+#include "tests/support/SourceFolder.hpp"
 #include "tests/unit/drillstring/Decks.hpp"
 
 using namespace tooljoint;
 using namespace tooljoint::drillstring;
 using namespace tooljoint::drillstring::testing;
 
-namespace {
+namespace ReferenceTest {
 
 using constants::pi;
 
 DrillString reference() {
   const std::string inside =
-      text("Library", std::string(TOOLJOINT_SOURCE_DIR) + "/xml/components/helical_170m.xml") +
+      text("Library", testing_::sourceFolder() + "/xml/components/helical_170m.xml") +
       array("Assembly",
             "5*pipe, last pipe, 3*collar, stabiliser, 4*collar, stabiliser, 3*collar, bit") +
       list("Material", real("Density", "7900") + real("Young Modulus", "2.03e11") +
@@ -28,8 +29,6 @@ DrillString reference() {
 const Node& node(const DrillString& string, int number) {
   return string.nodes.at(static_cast<std::size_t>(number - 1));
 }
-
-}  // namespace
 
 TEST(ReferenceString, HasTheMeshOfThePaper) {
   const DrillString string = reference();
@@ -108,7 +107,7 @@ TEST(ReferenceString, HasTheMaterialOfTheDeck) {
 
 TEST(ApiLibrary, BuildsAStringAndHasTheCatalogueWeights) {
   const std::string inside =
-      text("Library", std::string(TOOLJOINT_SOURCE_DIR) + "/xml/components/api_pipes.xml") +
+      text("Library", testing_::sourceFolder() + "/xml/components/api_pipes.xml") +
       array(
           "Assembly",
           "2*5 in stand, 5 in HWDP stand, 2*8 in collar, under-gauge stabiliser, 3*6.5 in collar, "
@@ -138,3 +137,5 @@ TEST(ApiLibrary, BuildsAStringAndHasTheCatalogueWeights) {
   EXPECT_TRUE(string.nodes.back().gauge);
   EXPECT_NEAR(string.nodes.back().clearance, 0.108 - 4.25 * 0.0254, 1e-12);
 }
+
+}  // namespace ReferenceTest

@@ -10,7 +10,7 @@ using namespace tooljoint;
 using namespace tooljoint::drillstring;
 using namespace tooljoint::drillstring::testing;
 
-namespace {
+namespace SupportsTest {
 
 std::vector<char> held(const std::string& inside, int nodes) {
   deck::ListSpec spec("scene", "A scene.");
@@ -35,8 +35,6 @@ std::string row(const std::vector<char>& flags, int node) {
     text += flags[static_cast<std::size_t>(6 * (node - 1) + c)] != 0 ? '1' : '0';
   return text;
 }
-
-}  // namespace
 
 TEST(Supports, DefaultsHoldTheTopAndKeepTheBitOnTheAxis) {
   for (const auto& flags : {SupportSettings().held(163), held("", 163)}) {
@@ -77,3 +75,5 @@ TEST(Supports, FaultsNameTheirPlace) {
           .find("/scene/Supports/guide/Node: node 9 does not exist; the string has nodes 1 to 4."),
       std::string::npos);
 }
+
+}  // namespace SupportsTest

@@ -14,7 +14,7 @@
 #include "substructures/contact/ContactLaw.hpp"
 
 namespace tooljoint::equilibrium {
-namespace {
+namespace LoadPathTest {
 
 namespace nodal = beam::nodal;
 
@@ -141,5 +141,5 @@ TEST(LoadPath, RefusesALoadOnHeldDofs) {
   EXPECT_THROW(LoadPath(column.input, column.load), ModelError);
 }
 
-}  // namespace
+}  // namespace LoadPathTest
 }  // namespace tooljoint::equilibrium

@@ -13,7 +13,7 @@
 #include "tests/support/JacobianDifference.hpp"
 
 namespace tooljoint::equilibrium {
-namespace {
+namespace StaticProblemTest {
 
 constexpr int nodes = 4;
 const std::vector<double> lengths{2.0, 3.0, 1.5};
@@ -245,5 +245,5 @@ TEST(StaticState, SumsUpItsElements) {
               scene.input.load(11) + scene.input.load(17) + scene.input.load(23), 1e-12);
 }
 
-}  // namespace
+}  // namespace StaticProblemTest
 }  // namespace tooljoint::equilibrium

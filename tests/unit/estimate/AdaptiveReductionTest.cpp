@@ -16,7 +16,7 @@
 #include "tests/support/SampleParts.hpp"
 #include "transient/Transient.hpp"
 
-namespace {
+namespace AdaptiveReductionTest {
 
 using namespace tooljoint;
 
@@ -274,4 +274,4 @@ TEST(MotionTolerance, IsNotMetByWhatIsNoNumber) {
   EXPECT_GT(outcome.rounds.back().modes, outcome.rounds.front().modes);
 }
 
-}  // namespace
+}  // namespace AdaptiveReductionTest

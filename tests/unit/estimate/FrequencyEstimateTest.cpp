@@ -17,7 +17,7 @@
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace FrequencyEstimateTest {
 
 using namespace tooljoint;
 
@@ -173,4 +173,4 @@ TEST(FrequencyEstimate, CountsModesThatNoResidualSees) {
     EXPECT_TRUE(e.definite);
 }
 
-}  // namespace
+}  // namespace FrequencyEstimateTest

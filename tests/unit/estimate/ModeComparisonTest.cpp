@@ -11,7 +11,7 @@
 #include "model/laws/Connectors.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace ModeComparisonTest {
 
 using namespace tooljoint;
 
@@ -131,4 +131,4 @@ TEST(ModeComparison, NamesADofThatIsInNoPart) {
   }
 }
 
-}  // namespace
+}  // namespace ModeComparisonTest

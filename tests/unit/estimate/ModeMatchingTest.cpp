@@ -9,7 +9,7 @@
 
 #include "common/Constants.hpp"
 
-namespace {
+namespace ModeMatchingTest {
 
 using namespace tooljoint;
 using estimate::matchModes;
@@ -92,4 +92,4 @@ TEST(ModeMatching, SaysWhenNoCandidateIsLeft) {
   EXPECT_EQ(matches[2].mac, 0.0);
 }
 
-}  // namespace
+}  // namespace ModeMatchingTest

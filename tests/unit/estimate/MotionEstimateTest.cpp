@@ -14,7 +14,7 @@
 #include "model/laws/PointLawRegistry.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace MotionEstimateTest {
 
 using namespace tooljoint;
 
@@ -192,4 +192,4 @@ TEST(MotionEstimate, CountsAStartOutsideTheBasis) {
     }
 }
 
-}  // namespace
+}  // namespace MotionEstimateTest

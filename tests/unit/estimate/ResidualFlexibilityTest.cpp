@@ -12,7 +12,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace ResidualFlexibilityTest {
 
 using namespace tooljoint;
 
@@ -79,4 +79,4 @@ TEST(PartResidual, IsWhatTheEquationsOfThePartLack) {
   EXPECT_GT(expected.norm(), 1e-4);
 }
 
-}  // namespace
+}  // namespace ResidualFlexibilityTest

@@ -9,7 +9,7 @@
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace TiedCoordinatesTest {
 
 using namespace tooljoint;
 
@@ -38,4 +38,4 @@ TEST(TiedCoordinates, EstimatesStayNearTheTrueErrors) {
   }
 }
 
-}  // namespace
+}  // namespace TiedCoordinatesTest

@@ -9,7 +9,7 @@
 #include "tests/unit/io/Scratch.hpp"
 
 namespace tooljoint::io {
-namespace {
+namespace MatrixMarketTest {
 
 std::string file(const std::string& name, const std::string& text) {
   static const test::Scratch scratch;
@@ -155,5 +155,5 @@ TEST(MatrixMarket, ADenseMatrixIsNoLargerThanItsFileAllows) {
   EXPECT_EQ(readMatrixMarketDense(file("tall.mtx", general + "1000000 2 1\n3 2 5\n"))(2, 1), 5.0);
 }
 
-}  // namespace
+}  // namespace MatrixMarketTest
 }  // namespace tooljoint::io

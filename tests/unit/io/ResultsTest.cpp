@@ -15,12 +15,12 @@
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/ResultsReader.hpp"
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 #include "io/TextFile.hpp"
 #include "io/Xdmf.hpp"
 #include "tests/unit/io/Scratch.hpp"
 
-namespace {
+namespace ResultsTest {
 
 using namespace tooljoint;
 namespace fs = std::filesystem;
@@ -261,4 +261,4 @@ TEST_F(Io, TablesReadBackAsTheSameDoubles) {
   EXPECT_THROW(table.row(std::vector<double>{1.0}), Error);
 }
 
-}  // namespace
+}  // namespace ResultsTest

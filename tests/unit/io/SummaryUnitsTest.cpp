@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/SummaryUnits.hpp"
+#include "io/summary/SummaryUnits.hpp"
 
 #include <gtest/gtest.h>
 #include <set>
 
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 
 using namespace tooljoint::io;
 

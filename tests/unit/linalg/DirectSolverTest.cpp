@@ -12,7 +12,7 @@
 #include "linalg/blocks/ChainFactor.hpp"
 
 namespace tooljoint::linalg {
-namespace {
+namespace DirectSolverTest {
 
 using tooljoint::testing::beam;
 using tooljoint::testing::springChain;
@@ -238,5 +238,5 @@ TEST(DirectSolver, ChecksEverySolution) {
   EXPECT_THROW(DirectSolver(A, {}, impossible).solve(b), ModelError);
 }
 
-}  // namespace
+}  // namespace DirectSolverTest
 }  // namespace tooljoint::linalg

@@ -8,7 +8,7 @@
 #include "linalg/trilinos/EigenSolver.hpp"
 
 namespace tooljoint::linalg {
-namespace {
+namespace DynamicStiffnessTest {
 
 using Complex = std::complex<double>;
 
@@ -44,5 +44,5 @@ TEST(DynamicStiffness, RefinesAModeFromAGuess) {
   EXPECT_LT(std::abs(mode->s - exact), 1e-12 * std::abs(exact));
 }
 
-}  // namespace
+}  // namespace DynamicStiffnessTest
 }  // namespace tooljoint::linalg

@@ -12,7 +12,7 @@
 #include "tests/support/ErrorText.hpp"
 
 namespace tooljoint::linalg {
-namespace {
+namespace EigenSolverTest {
 
 using testing::beam;
 using testing::Pencil;
@@ -307,7 +307,6 @@ TEST(EigenSolver, RefusesWhatIsNotASymmetricPencil) {
             std::string::npos);
 }
 
-}  // namespace
 TEST(EigenSolver, AFreeCoordinateBesideStiffOnesIsAccepted) {
   Matrix K = Matrix::Zero(3, 3);
   K.diagonal() << 0.0, 1e6, 4e10;
@@ -318,4 +317,5 @@ TEST(EigenSolver, AFreeCoordinateBesideStiffOnesIsAccepted) {
   EXPECT_NEAR(modes.values[1], 1e6 / (1.0 - 0.09), 1e-3);
 }
 
+}  // namespace EigenSolverTest
 }  // namespace tooljoint::linalg

@@ -8,7 +8,7 @@
 #include <random>
 
 namespace tooljoint::linalg {
-namespace {
+namespace GroupedRowsTest {
 
 TEST(GroupedRows, multiplyAsTheSparseMatrix) {
   std::mt19937 random(5);
@@ -47,5 +47,5 @@ TEST(GroupedRows, ofNothing) {
   EXPECT_EQ(y, Vector(Vector::Zero(3)));
 }
 
-}  // namespace
+}  // namespace GroupedRowsTest
 }  // namespace tooljoint::linalg

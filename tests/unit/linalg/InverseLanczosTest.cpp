@@ -9,10 +9,10 @@
 #include "common/Constants.hpp"
 #include "common/Index.hpp"
 #include "linalg/Deterministic.hpp"
-#include "linalg/NestedDissection.hpp"
-#include "linalg/PartialFactor.hpp"
+#include "linalg/factor/NestedDissection.hpp"
+#include "linalg/factor/PartialFactor.hpp"
 
-namespace {
+namespace InverseLanczosTest {
 
 using namespace tooljoint;
 using namespace tooljoint::linalg;
@@ -143,4 +143,4 @@ TEST(NestedDissection, StopsWhereNothingCanBeCut) {
   EXPECT_EQ(cut.pieces(), 1);
 }
 
-}  // namespace
+}  // namespace InverseLanczosTest

@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace tooljoint::linalg {
-namespace {
+namespace LargePagesTest {
 
 /// Whether the mapping that holds an address asks for large pages ("hg" among its flags).
 bool asksForLargePages(const void* address) {
@@ -71,5 +71,5 @@ TEST(LargePages, AlignLongArrays) {
   }
 }
 
-}  // namespace
+}  // namespace LargePagesTest
 }  // namespace tooljoint::linalg

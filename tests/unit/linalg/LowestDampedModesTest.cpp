@@ -16,7 +16,7 @@
 #include "common/Index.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
-namespace {
+namespace LowestDampedModesTest {
 
 using namespace tooljoint;
 using namespace tooljoint::linalg;
@@ -389,4 +389,4 @@ TEST(LowestDampedModes, WithoutDampingTheyAreTheSymmetricModes) {
   }
 }
 
-}  // namespace
+}  // namespace LowestDampedModesTest

@@ -2,7 +2,7 @@
 /// \file
 /// Factors by MUMPS on the grid of springs whose eigenvalues are known, 6 - 2 sum cos(i pi /
 /// (n+1)).
-#include "linalg/MumpsFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
-namespace {
+namespace MumpsFactorTest {
 
 using namespace tooljoint;
 using namespace tooljoint::linalg;
@@ -199,4 +199,4 @@ TEST(MumpsFactor, servesTheModesOfTheSameMatrix) {
   }
 }
 
-}  // namespace
+}  // namespace MumpsFactorTest

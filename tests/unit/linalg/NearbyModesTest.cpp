@@ -14,7 +14,7 @@
 #include "common/Index.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
-namespace {
+namespace NearbyModesTest {
 
 using namespace tooljoint;
 using namespace tooljoint::linalg;
@@ -128,4 +128,4 @@ TEST(NearbyModes, TooManyForTheSpaceAreRefused) {
   EXPECT_THROW(dampedModesNear(chain.M, none, chain.K, {{0.0, 10.0}, 9.9, 0}), ConvergenceError);
 }
 
-}  // namespace
+}  // namespace NearbyModesTest

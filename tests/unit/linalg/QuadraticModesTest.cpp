@@ -7,7 +7,7 @@
 #include "linalg/trilinos/EigenSolver.hpp"
 
 namespace tooljoint::linalg {
-namespace {
+namespace QuadraticModesTest {
 
 TEST(QuadraticModes, DampedOscillator) {
   const double m = 3.0, k = 4.8e5, zeta = 0.02, omega = std::sqrt(k / m);
@@ -78,5 +78,5 @@ TEST(QuadraticModes, RefusesASingularMassMatrix) {
   EXPECT_EQ(dampedModes(Matrix(0, 0), Matrix(0, 0), Matrix(0, 0)).values.size(), 0);
 }
 
-}  // namespace
+}  // namespace QuadraticModesTest
 }  // namespace tooljoint::linalg

@@ -21,7 +21,7 @@
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::loads {
-namespace {
+namespace LoadsTest {
 
 const std::vector<double> depths{0.0, 1.8, 3.6, 5.4, 7.2};
 
@@ -321,5 +321,5 @@ TEST(LoadsDeck, Damping) {
   EXPECT_TRUE(readDamping(list).present());
 }
 
-}  // namespace
+}  // namespace LoadsTest
 }  // namespace tooljoint::loads

@@ -18,7 +18,7 @@
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::loads {
-namespace {
+namespace RotarySpeedTest {
 
 using constants::pi;
 using constants::rpm;
@@ -375,5 +375,5 @@ TEST(SpeedLaw, SteadyFormsAreTheLawsAtAConstantSpeed) {
   EXPECT_EQ(model::speedLaw(model::ScalarLaw::one()), nullptr);
 }
 
-}  // namespace
+}  // namespace RotarySpeedTest
 }  // namespace tooljoint::loads

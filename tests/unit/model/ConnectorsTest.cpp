@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-namespace {
+namespace ConnectorsTest {
 
 using namespace tooljoint;
 using namespace tooljoint::model;
@@ -183,4 +183,4 @@ TEST(Frictions, HoldBackWithTheirForce) {
   EXPECT_EQ(law->channels()[0].unit, "N");
 }
 
-}  // namespace
+}  // namespace ConnectorsTest

@@ -9,7 +9,7 @@
 #include "model/laws/PointLawRegistry.hpp"
 #include "tests/unit/model/OnePoint.hpp"
 
-namespace {
+namespace DrillingLawsTest {
 
 using namespace tooljoint;
 using namespace tooljoint::model;
@@ -82,4 +82,4 @@ TEST(SpeedControl, HoldsItsLimitAndTheIntegral) {
   }
 }
 
-}  // namespace
+}  // namespace DrillingLawsTest

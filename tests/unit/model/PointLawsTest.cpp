@@ -9,7 +9,7 @@
 #include "model/laws/DelayLine.hpp"
 #include "model/laws/PointLawRegistry.hpp"
 
-namespace {
+namespace PointLawsTest {
 
 using namespace tooljoint;
 using namespace tooljoint::model;
@@ -145,4 +145,4 @@ TEST(DelayLine, IsAtRestBeforeTheStart) {
   EXPECT_EQ(then, 4.0);
 }
 
-}  // namespace
+}  // namespace PointLawsTest

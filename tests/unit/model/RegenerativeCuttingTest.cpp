@@ -10,7 +10,7 @@
 #include "common/Error.hpp"
 #include "tests/unit/model/OnePoint.hpp"
 
-namespace {
+namespace RegenerativeCuttingTest {
 
 using namespace tooljoint;
 using namespace tooljoint::model;
@@ -150,4 +150,4 @@ TEST(DelayLine, StartsInSteadyMotion) {
   }
 }
 
-}  // namespace
+}  // namespace RegenerativeCuttingTest

@@ -10,7 +10,7 @@
 #include "common/Error.hpp"
 #include "model/laws/Connectors.hpp"
 
-namespace {
+namespace SecondOrderModelTest {
 
 using namespace tooljoint;
 using model::DofLabel;
@@ -99,4 +99,4 @@ TEST(SecondOrderModel, LoadsOnDofsThatNothingDeterminesAreFound) {
   EXPECT_TRUE(m.loadsOnNothing().empty());
 }
 
-}  // namespace
+}  // namespace SecondOrderModelTest

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-namespace {
+namespace SharedListTest {
 
 using tooljoint::model::SharedList;
 using Names = SharedList<std::string>;
@@ -51,4 +51,4 @@ TEST(SharedList, IsEmptyWhenMovedFromAndFillsAgain) {
   EXPECT_EQ(none.size(), 1u);
 }
 
-}  // namespace
+}  // namespace SharedListTest

@@ -7,7 +7,7 @@
 
 #include "model/SecondOrderModel.hpp"
 
-namespace {
+namespace SharedSparseTest {
 
 using namespace tooljoint;
 using model::SharedSparse;
@@ -71,4 +71,4 @@ TEST(SharedSparse, OutlivesWhatItWasCopiedFrom) {
   EXPECT_EQ(copy.stiffness[0].matrix.coeff(0, 0), 6);
 }
 
-}  // namespace
+}  // namespace SharedSparseTest

@@ -7,7 +7,7 @@
 #include "model/SpeedLaw.hpp"
 
 namespace tooljoint::model {
-namespace {
+namespace SteadyRotationTest {
 
 using Complex = std::complex<double>;
 
@@ -53,5 +53,5 @@ TEST(SteadyRotation, NamesTheLawsOfMatrices) {
   EXPECT_EQ(matrixLaws(rotor(), false), std::vector<std::string>{"wave"});
 }
 
-}  // namespace
+}  // namespace SteadyRotationTest
 }  // namespace tooljoint::model

@@ -9,7 +9,7 @@
 #include "common/Constants.hpp"
 
 namespace tooljoint::mud {
-namespace {
+namespace MudCollarTest {
 
 using constants::pi;
 
@@ -88,5 +88,5 @@ TEST(MudCollar, TimoshenkoTermsAreSmallAndLower) {
   }
 }
 
-}  // namespace
+}  // namespace MudCollarTest
 }  // namespace tooljoint::mud

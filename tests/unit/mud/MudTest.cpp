@@ -17,7 +17,7 @@
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::mud {
-namespace {
+namespace MudTest {
 
 using constants::pi;
 const double unbounded = std::numeric_limits<double>::infinity();
@@ -414,5 +414,5 @@ TEST(MudDeck, SectionWithoutRadiiIsRefused) {
   EXPECT_THROW(AnnularFlow(referenceMud()).element(bare, boreRadius, 1.0, downElement), ModelError);
 }
 
-}  // namespace
+}  // namespace MudTest
 }  // namespace tooljoint::mud

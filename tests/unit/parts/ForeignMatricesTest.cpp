@@ -15,7 +15,7 @@
 #include "tests/unit/io/Scratch.hpp"
 
 namespace tooljoint::parts {
-namespace {
+namespace ForeignMatricesTest {
 
 using model::DofLabel;
 
@@ -401,5 +401,5 @@ TEST(ExtPtfm, OtherPartsAreRefused) {
   refuses(gyroscopic, "its matrix \"gyroscopic\" varies in time with the law \"Omega\"");
 }
 
-}  // namespace
+}  // namespace ForeignMatricesTest
 }  // namespace tooljoint::parts

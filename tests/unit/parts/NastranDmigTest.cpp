@@ -13,7 +13,7 @@
 #include "tests/unit/io/Scratch.hpp"
 
 namespace tooljoint::parts {
-namespace {
+namespace NastranDmigTest {
 
 using model::DofLabel;
 
@@ -303,5 +303,5 @@ TEST(NastranDmig, JsonFileBesideItGivesTheSets) {
   EXPECT_THROW(json(R"(, "dofs": [[1, "u"]])"), DeckError);
 }
 
-}  // namespace
+}  // namespace NastranDmigTest
 }  // namespace tooljoint::parts

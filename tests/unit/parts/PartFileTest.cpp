@@ -11,7 +11,7 @@
 #include "tests/unit/io/Scratch.hpp"
 
 namespace tooljoint::parts {
-namespace {
+namespace PartFileTest {
 
 using model::DofLabel;
 
@@ -249,5 +249,5 @@ TEST(PartFile, NamesFaultsOfHdf5) {
   }
 }
 
-}  // namespace
+}  // namespace PartFileTest
 }  // namespace tooljoint::parts

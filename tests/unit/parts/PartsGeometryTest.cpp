@@ -12,7 +12,7 @@
 #include "tests/support/SampleParts.hpp"
 
 namespace tooljoint::parts {
-namespace {
+namespace PartsGeometryTest {
 
 /// Bars of two elements of 1 m along x; node n of part p has the number 10 p + n unless joined.
 class PartsGeometry : public ::testing::Test {
@@ -99,5 +99,5 @@ TEST_F(PartsGeometry, DensePartsHaveNoLinks) {
   EXPECT_TRUE(nodeLinks(scene_).empty());
 }
 
-}  // namespace
+}  // namespace PartsGeometryTest
 }  // namespace tooljoint::parts

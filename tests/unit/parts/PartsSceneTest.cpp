@@ -19,7 +19,7 @@
 #include "tests/unit/io/Scratch.hpp"
 
 namespace tooljoint::parts {
-namespace {
+namespace PartsSceneTest {
 
 using model::DofLabel;
 
@@ -292,5 +292,5 @@ TEST(TimeLaw, RefusesNumbersThatMakeNoSense) {
   EXPECT_THROW(at("Table", table, 0.0), DeckError);
 }
 
-}  // namespace
+}  // namespace PartsSceneTest
 }  // namespace tooljoint::parts

@@ -14,7 +14,7 @@
 #include "tests/unit/io/Scratch.hpp"
 
 namespace tooljoint::parts {
-namespace {
+namespace ReducedPartTest {
 
 using model::Substructure;
 
@@ -149,5 +149,5 @@ TEST(ReducedPart, WithoutInterfaceDofsIsRefused) {
   EXPECT_THROW(reducedContent(contentOf(parts[0]), small), ModelError);
 }
 
-}  // namespace
+}  // namespace ReducedPartTest
 }  // namespace tooljoint::parts

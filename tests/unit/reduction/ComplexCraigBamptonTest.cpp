@@ -9,7 +9,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/BasisFamilies.hpp"
 
-namespace {
+namespace ComplexCraigBamptonTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -99,4 +99,4 @@ TEST(ComplexCraigBampton, NoModesIsStaticCondensation) {
   EXPECT_EQ(build(samples::loopFrame(8, true)[2], samples::modes(0)).modes(), 0);
 }
 
-}  // namespace
+}  // namespace ComplexCraigBamptonTest

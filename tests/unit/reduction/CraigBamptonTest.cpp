@@ -9,7 +9,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/BasisFamilies.hpp"
 
-namespace {
+namespace CraigBamptonTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -326,4 +326,4 @@ TEST(CraigBampton, ChecksNoticeModesThatAreNotOrthonormal) {
       << "a repeated vector makes the reduced mass singular";
 }
 
-}  // namespace
+}  // namespace CraigBamptonTest

@@ -10,7 +10,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace CutOffTest {
 
 using namespace tooljoint;
 
@@ -50,4 +50,4 @@ TEST(CutOff, IsReportedInHertz) {
                 1e-8 * part.basis->eigenvalues[2]);
 }
 
-}  // namespace
+}  // namespace CutOffTest

@@ -12,7 +12,7 @@
 #include "reduction/project/IdenticalParts.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace DistributionTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -182,4 +182,4 @@ TEST(TotalModes, TwinsGetTheSameNumber) {
   }
 }
 
-}  // namespace
+}  // namespace DistributionTest

@@ -12,7 +12,7 @@
 #include "tests/support/SampleParts.hpp"
 #include "transient/Transient.hpp"
 
-namespace {
+namespace DualCraigBamptonTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -155,4 +155,4 @@ TEST(DualCraigBampton, MotionWithResidualMassIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace DualCraigBamptonTest

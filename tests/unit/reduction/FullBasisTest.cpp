@@ -10,7 +10,7 @@
 #include "linalg/SparseProducts.hpp"
 
 namespace tooljoint::reduction {
-namespace {
+namespace FullBasisTest {
 
 /// Rows that are full, and some with one entry, as of boundary dofs; more rows than a block has.
 struct Basis {
@@ -68,5 +68,5 @@ TEST(SparseProducts, AnyNumberOfColumnsIsThatOfDenseMatrices) {
   }
 }
 
-}  // namespace
+}  // namespace FullBasisTest
 }  // namespace tooljoint::reduction

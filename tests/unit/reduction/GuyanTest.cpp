@@ -14,7 +14,7 @@
 #include "reduction/part/MasterDofs.hpp"
 #include "tests/support/BasisFamilies.hpp"
 
-namespace {
+namespace GuyanTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -194,4 +194,4 @@ TEST(Guyan, SaysThatItHasNoModes) {
   EXPECT_EQ(basis.vectors.cols(), 3);
 }
 
-}  // namespace
+}  // namespace GuyanTest

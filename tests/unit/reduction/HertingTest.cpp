@@ -10,7 +10,7 @@
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "tests/support/BasisFamilies.hpp"
 
-namespace {
+namespace HertingTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -80,4 +80,4 @@ TEST(Herting, WeightIsAnsweredExactly) {
   }
 }
 
-}  // namespace
+}  // namespace HertingTest

@@ -10,7 +10,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/BasisFamilies.hpp"
 
-namespace {
+namespace InitialStateTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -129,4 +129,4 @@ TEST(InitialVelocity, IsProjectedLikeTheDisplacement) {
       1e-12);
 }
 
-}  // namespace
+}  // namespace InitialStateTest

@@ -13,7 +13,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace InterfaceCriteriaTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -121,4 +121,4 @@ TEST(InterfaceCriteria, ASecondModeOfBendingMayComeBeforeAnAxialOne) {
   EXPECT_TRUE(skipped) << "a mode above a dropped one was kept";
 }
 
-}  // namespace
+}  // namespace InterfaceCriteriaTest

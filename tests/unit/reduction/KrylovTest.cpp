@@ -11,7 +11,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace KrylovTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -136,4 +136,4 @@ TEST(Krylov, EqualDirectionsStayTogether) {
   EXPECT_EQ(build(part, 3).modes(), 3);
 }
 
-}  // namespace
+}  // namespace KrylovTest

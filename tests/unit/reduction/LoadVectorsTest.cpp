@@ -13,7 +13,7 @@
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/ListDefaults.hpp"
 
-namespace {
+namespace LoadVectorsTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -233,4 +233,4 @@ TEST(LoadVectors, TheDeckIsRead) {
   EXPECT_THROW(readLoadVectors(list), DeckError);
 }
 
-}  // namespace
+}  // namespace LoadVectorsTest

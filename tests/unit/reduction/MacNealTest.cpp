@@ -10,7 +10,7 @@
 #include "tests/support/BasisFamilies.hpp"
 #include "transient/Transient.hpp"
 
-namespace {
+namespace MacNealTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -137,4 +137,4 @@ TEST(MacNeal, RunsWithImplicitIntegratorsOnly) {
   }
 }
 
-}  // namespace
+}  // namespace MacNealTest

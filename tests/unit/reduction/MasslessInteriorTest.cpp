@@ -13,7 +13,7 @@
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace MasslessInteriorTest {
 
 using namespace tooljoint;
 
@@ -152,4 +152,4 @@ TEST(MasslessInteriorLoad, ALoadThatNoBasisFollowsIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace MasslessInteriorTest

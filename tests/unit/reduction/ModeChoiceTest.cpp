@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace ModeChoiceTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -78,4 +78,4 @@ TEST(ShareTotal, RoundsUpWithinEachPart) {
   EXPECT_EQ(shareTotal(spectra, {true, true}, 3, 0.01), (std::vector<int>{2, 2}));
 }
 
-}  // namespace
+}  // namespace ModeChoiceTest

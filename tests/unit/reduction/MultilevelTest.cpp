@@ -13,7 +13,7 @@
 #include "tests/support/BasisFamilies.hpp"
 #include "tests/support/SolidBlock.hpp"
 
-namespace {
+namespace MultilevelTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -223,4 +223,4 @@ TEST(Multilevel, InteriorsOnAHingeHaveRigidBodyModes) {
   EXPECT_EQ(reduced.report.zeroEnergyReduced, 6);
 }
 
-}  // namespace
+}  // namespace MultilevelTest

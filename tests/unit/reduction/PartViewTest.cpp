@@ -12,7 +12,7 @@
 #include "coupling/Synthesis.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace PartViewTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -105,4 +105,4 @@ TEST(PartView, RefusesAnInconsistentPart) {
   EXPECT_THROW(view.partition(), ModelError);
 }
 
-}  // namespace
+}  // namespace PartViewTest

@@ -8,7 +8,7 @@
 #include "common/Error.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace PartitionTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -94,4 +94,4 @@ TEST(Partition, BlockPicksRowsAndColumns) {
       EXPECT_EQ(picked(i, j), dense(i == 0 ? 3 : 0, j == 0 ? 4 : j == 1 ? 2 : 1));
 }
 
-}  // namespace
+}  // namespace PartitionTest

@@ -13,7 +13,7 @@
 #include "tests/support/ListDefaults.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace ReductionParametersTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -160,4 +160,4 @@ TEST(ReductionParameters, UnknownBasisListsTheKnownOnes) {
   }
 }
 
-}  // namespace
+}  // namespace ReductionParametersTest

@@ -10,7 +10,7 @@
 #include "reduction/vectors/FreeInterfaceModes.hpp"
 #include "tests/support/BasisFamilies.hpp"
 
-namespace {
+namespace RubinTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -161,4 +161,4 @@ TEST(Rubin, StaticStateIsKept) {
   EXPECT_EQ((small.offset - reference).norm(), 0.0);
 }
 
-}  // namespace
+}  // namespace RubinTest

@@ -16,7 +16,7 @@
 #include "tests/support/BasisFamilies.hpp"
 #include "tests/support/ErrorText.hpp"
 
-namespace {
+namespace UserVectorsTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -160,4 +160,4 @@ TEST(UserVectors, MissingFilesAndListsAreRefused) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace UserVectorsTest

@@ -9,7 +9,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace WholePartTest {
 
 using namespace tooljoint;
 
@@ -42,4 +42,4 @@ TEST(WholePart, HasTheMatricesOfThePartInTheOrderOfItsKeptDofs) {
   }
 }
 
-}  // namespace
+}  // namespace WholePartTest

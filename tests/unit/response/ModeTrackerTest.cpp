@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace tooljoint::response {
-namespace {
+namespace ModeTrackerTest {
 
 using Complex = std::complex<double>;
 
@@ -127,5 +127,5 @@ TEST(ModeTracker, NewModesBeginTracksAndStrangersEndThem) {
   EXPECT_EQ(tracker.now()[1].track, 3);  // the shape of track 2 is gone
 }
 
-}  // namespace
+}  // namespace ModeTrackerTest
 }  // namespace tooljoint::response

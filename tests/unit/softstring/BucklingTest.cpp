@@ -7,7 +7,7 @@
 #include "common/Constants.hpp"
 
 namespace tooljoint::softstring {
-namespace {
+namespace BucklingTest {
 
 using constants::degree;
 constexpr double weight = 300.0, EI = 1.2e6, r = 0.045;
@@ -61,5 +61,5 @@ TEST(Buckling, HelicalSideForceIsThatOfTheEnergyOfAHelix) {
   EXPECT_NEAR(helicalSideForce(2e5, EI, r), r * 4e10 / (4 * EI), 1e-9);
 }
 
-}  // namespace
+}  // namespace BucklingTest
 }  // namespace tooljoint::softstring

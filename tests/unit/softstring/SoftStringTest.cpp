@@ -9,7 +9,7 @@
 #include "common/Error.hpp"
 
 namespace tooljoint::softstring {
-namespace {
+namespace SoftStringTest {
 
 using constants::degree;
 using constants::pi;
@@ -191,5 +191,5 @@ TEST(SoftString, LocksUpWhereTheHelixHoldsIt) {
   EXPECT_LT(march(stringOf(length), hole, length, sliding(0.3, 2.5e5), false).lockUpDepth, 0.0);
 }
 
-}  // namespace
+}  // namespace SoftStringTest
 }  // namespace tooljoint::softstring

@@ -11,7 +11,7 @@
 #include "common/Error.hpp"
 
 namespace tooljoint::statics {
-namespace {
+namespace NewtonSolverTest {
 
 using testing::ContactChain;
 using testing::DenseProblem;
@@ -325,5 +325,5 @@ TEST(NewtonSolver, NoxAndBelosListsAreLaidOverOurs) {
   EXPECT_THROW(solve(chain, y, {}, &badNox), ModelError);
 }
 
-}  // namespace
+}  // namespace NewtonSolverTest
 }  // namespace tooljoint::statics

@@ -14,7 +14,7 @@
 #include "common/Error.hpp"
 
 namespace tooljoint::statics {
-namespace {
+namespace PathContinuationTest {
 
 /// Of a clamped column, E I = L = 1.
 constexpr double euler = 0.25 * constants::pi * constants::pi;
@@ -220,5 +220,5 @@ TEST(PathContinuation, RefusesWhatDoesNotFit) {
                DeckError);
 }
 
-}  // namespace
+}  // namespace PathContinuationTest
 }  // namespace tooljoint::statics

@@ -13,7 +13,7 @@
 #include "study/map/MapParameters.hpp"
 #include "study/map/MapRows.hpp"
 
-namespace {
+namespace MapTest {
 
 using namespace tooljoint;
 
@@ -125,4 +125,4 @@ TEST(MapRange, LeavesMissingPointsOut) {
   EXPECT_EQ(study::rangeOf(value, rows).unsafe, 2u);
 }
 
-}  // namespace
+}  // namespace MapTest

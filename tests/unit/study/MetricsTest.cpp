@@ -9,7 +9,7 @@
 
 #include "common/Error.hpp"
 
-namespace {
+namespace MetricsTest {
 
 using namespace tooljoint;
 
@@ -93,4 +93,4 @@ TEST(Metrics, DifferentHistoriesAreRefused) {
   EXPECT_THROW(study::errorOverTime(h.view(h.reference), h.view(h.reference), {5.0, 6.0}), Error);
 }
 
-}  // namespace
+}  // namespace MetricsTest

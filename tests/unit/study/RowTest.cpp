@@ -13,7 +13,7 @@
 #include "common/Text.hpp"
 #include "study/RowStore.hpp"
 
-namespace {
+namespace RowTest {
 
 using namespace tooljoint;
 
@@ -167,4 +167,4 @@ TEST(RowStore, GivesBackWhatItKeptUnderItsKey) {
   EXPECT_TRUE(std::filesystem::is_empty(folder + "/cache"));
 }
 
-}  // namespace
+}  // namespace RowTest

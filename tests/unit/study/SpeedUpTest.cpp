@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace SpeedUpTest {
 
 using namespace tooljoint;
 
@@ -42,4 +42,4 @@ TEST(BestCost, AnErrorOfZeroIsAsGoodAsAny) {
   EXPECT_EQ(*study::bestCostAt(1e-9, {{"a", 0.0, 7.0}}), 7.0);
 }
 
-}  // namespace
+}  // namespace SpeedUpTest

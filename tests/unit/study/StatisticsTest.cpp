@@ -11,7 +11,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 
-namespace {
+namespace StatisticsTest {
 
 using namespace tooljoint;
 
@@ -120,4 +120,4 @@ TEST(StatisticsDifference, OfTwiceTheMotion) {
   EXPECT_NEAR(d.dutyMean, 0.5 * two.contactDuty[0], 1e-15);
 }
 
-}  // namespace
+}  // namespace StatisticsTest

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace StepLimitTest {
 
 using namespace tooljoint;
 
@@ -63,4 +63,4 @@ TEST(StepLimit, RunsWithOtherStepsAreApart) {
   EXPECT_EQ(study::stepLimits(rows, {"a", "a", "a", "b", "b", "b"}).size(), 1u);
 }
 
-}  // namespace
+}  // namespace StepLimitTest

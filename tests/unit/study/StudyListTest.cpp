@@ -10,7 +10,7 @@
 #include "study/StudyParameters.hpp"
 #include "study/reference/FittedReference.hpp"
 
-namespace {
+namespace StudyListTest {
 
 using namespace tooljoint;
 
@@ -173,4 +173,4 @@ TEST(Expansion, TheCheckIsTheReferenceWithFurtherOverrides) {
   EXPECT_EQ(study::references(still).size(), 2u);
 }
 
-}  // namespace
+}  // namespace StudyListTest

@@ -7,7 +7,7 @@
 #include "Models.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace AlphaStepTest {
 
 /// A chain of 400 consistent masses of 1 kg falls at 1 m/s; two of its nodes meet hard floors, far
 /// from each other and not together.
@@ -63,5 +63,5 @@ TEST(AlphaStep, EndsInBalanceWhereWallsAreMetAsImpacts) {
   EXPECT_GT(hit[1], 0);
 }
 
-}  // namespace
+}  // namespace AlphaStepTest
 }  // namespace tooljoint::transient::testing

@@ -10,7 +10,7 @@
 #include <set>
 
 namespace tooljoint::linalg {
-namespace {
+namespace BlockFactorTest {
 
 using Edges = std::vector<std::pair<int, int>>;
 
@@ -438,5 +438,5 @@ TEST(BlockProduct, ofNodesBesideModes) {
   }
 }
 
-}  // namespace
+}  // namespace BlockFactorTest
 }  // namespace tooljoint::linalg

@@ -15,7 +15,7 @@
 #include "transient/ModelIdentity.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace CheckpointTest {
 
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -219,5 +219,5 @@ TEST(Identity, isAskedForByARestart) {
   EXPECT_TRUE(says(errorText([&] { integrate(model, o, samples, again); }), "another model"));
 }
 
-}  // namespace
+}  // namespace CheckpointTest
 }  // namespace tooljoint::transient::testing

@@ -14,7 +14,7 @@
 #include "substructures/contact/ContactLaw.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace CompiledModelTest {
 
 Vector sampleVector(int n, double phase) {
   Vector x(n);
@@ -417,5 +417,5 @@ TEST(PointBatch, looksOnlyAtPointsThatCanTouchBeforeTheNextLook) {
   EXPECT_FALSE(batch.addMissed(q.data()));
 }
 
-}  // namespace
+}  // namespace CompiledModelTest
 }  // namespace tooljoint::transient::testing

@@ -10,7 +10,7 @@
 #include <random>
 
 namespace tooljoint::transient {
-namespace {
+namespace ContactBroadPhaseTest {
 
 std::vector<int> upTo(int count) {
   std::vector<int> all(static_cast<std::size_t>(count));
@@ -201,5 +201,5 @@ TEST(ContactBroadPhase, GoesOnAsItWas) {
   }
 }
 
-}  // namespace
+}  // namespace ContactBroadPhaseTest
 }  // namespace tooljoint::transient

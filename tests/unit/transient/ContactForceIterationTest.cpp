@@ -10,7 +10,7 @@
 #include "linalg/blocks/BlockFactor.hpp"
 
 namespace tooljoint::transient {
-namespace {
+namespace ContactForceIterationTest {
 
 constexpr double ca = 4e6, cv = 2e3;  // steps of about 1 ms
 
@@ -221,5 +221,5 @@ TEST(ContactForceIteration, TellsAStiffWallFromWhereASoftOneBegins) {
       << "it damps by 1 kN within a nanometre, but is no stiffer than 1e6 N/m beyond";
 }
 
-}  // namespace
+}  // namespace ContactForceIterationTest
 }  // namespace tooljoint::transient

@@ -8,7 +8,7 @@
 #include "Models.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace CostModelTest {
 
 TEST(CostModel, growsWithTheLengthOfAChain) {
   const auto o = options("Generalized-alpha", 1, 1e-3, 0.1);
@@ -48,5 +48,5 @@ TEST(CostModel, explicitStepsSolveWithTheMassMatrixFourTimes) {
                    4.0 / 3.0);  // two relaxations and the phase correction
 }
 
-}  // namespace
+}  // namespace CostModelTest
 }  // namespace tooljoint::transient::testing

@@ -14,7 +14,7 @@
 #include "tests/support/ErrorText.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace EnergyTest {
 
 TEST(Energy, freeVibrationIsConserved) {
   const auto model = oscillator(2, 0, 800, 0.1, 1.0);
@@ -266,5 +266,5 @@ TEST(Energy, aDrivenRotorInItsBoreBalances) {
   EXPECT_LT(std::abs(report.energy.residual()), 1e-4);
 }
 
-}  // namespace
+}  // namespace EnergyTest
 }  // namespace tooljoint::transient::testing

@@ -11,7 +11,7 @@
 #include "transient/contact/ImpactResolution.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace ImpactTest {
 
 constexpr double mass = 3, gravity = 9.81, drop = 0.02;
 
@@ -193,5 +193,5 @@ TEST(Impacts, ABarRebounds) {
     }
 }
 
-}  // namespace
+}  // namespace ImpactTest
 }  // namespace tooljoint::transient::testing

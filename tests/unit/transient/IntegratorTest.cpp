@@ -10,7 +10,7 @@
 #include "tests/support/ErrorText.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace IntegratorTest {
 
 /// Largest error of the samples of a damped free vibration with step h: m 2, zeta 0.05, omega 10.
 double freeVibrationError(const std::string& integrator, double h,
@@ -434,5 +434,5 @@ TEST(Integrators, fixedStepsDivideTheSamplingInterval) {
                    1.0 / 34);  // longer than the interval: samples are interpolated
 }
 
-}  // namespace
+}  // namespace IntegratorTest
 }  // namespace tooljoint::transient::testing

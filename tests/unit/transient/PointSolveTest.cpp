@@ -13,7 +13,7 @@
 #include "transient/compiled/CompiledModel.hpp"
 
 namespace tooljoint::transient {
-namespace {
+namespace PointSolveTest {
 
 /// A node of 100 kg and 0.6 kg m^2 in a bore that turns with 0.1 rad/s, friction 0.4 falling to 0.3
 /// within `velocity`.
@@ -123,5 +123,5 @@ TEST(PointSolve, takesABalanceKnownToRoundingForOne) {
   EXPECT_LT(most, 1000);
 }
 
-}  // namespace
+}  // namespace PointSolveTest
 }  // namespace tooljoint::transient

@@ -11,7 +11,7 @@
 #include "common/Error.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace RestartTest {
 
 /// A run, and what it makes.
 struct Outcome {
@@ -366,5 +366,5 @@ TEST(Restarts, ofSundialsDependOnTheIntervalToTheTolerance) {
   }
 }
 
-}  // namespace
+}  // namespace RestartTest
 }  // namespace tooljoint::transient::testing

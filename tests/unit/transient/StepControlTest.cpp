@@ -14,7 +14,7 @@
 #include "transient/accuracy/StepGrid.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace StepControlTest {
 
 TransientOptions controlled(double tolerance, double end, double step, double sampling) {
   auto o = options("Generalized-alpha", end, step, sampling);
@@ -369,5 +369,5 @@ TEST(ControlledSteps, refuseASmallestStepThatMeansNothing) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace StepControlTest
 }  // namespace tooljoint::transient::testing

@@ -14,7 +14,7 @@
 #include "common/report/Log.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace StepErrorTest {
 
 constexpr double w = 10, duration = 2000 / w;
 
@@ -146,5 +146,5 @@ TEST(StepError, contactThatLastsIsNoError) {
   EXPECT_LT(report.stepError, 0.02);
 }
 
-}  // namespace
+}  // namespace StepErrorTest
 }  // namespace tooljoint::transient::testing

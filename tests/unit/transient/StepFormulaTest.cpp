@@ -9,7 +9,7 @@
 #include "Models.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace StepFormulaTest {
 
 constexpr double mass = 2.0, damping = 0.8, stiffness = 200.0, start = 0.1, speed = -0.3;
 
@@ -160,5 +160,5 @@ TEST(StepFormula, GeneralizedAlphaJudgesAStepByTheTermItHasWrong) {
       0);
 }
 
-}  // namespace
+}  // namespace StepFormulaTest
 }  // namespace tooljoint::transient::testing

@@ -9,10 +9,10 @@
 #include "common/Error.hpp"
 #include "common/report/Log.hpp"
 #include "tests/support/ErrorText.hpp"
-#include "transient/schemes/FirstOrderForm.hpp"
+#include "transient/schemes/sundials/FirstOrderForm.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace SundialsTest {
 
 const std::string arkode = "SUNDIALS ARKODE", cvode = "SUNDIALS CVODE";
 
@@ -374,5 +374,5 @@ TEST(FirstOrderForm, singularMatricesAreTold) {
   EXPECT_TRUE(form.factor(0.0, y.data(), 0.2));
 }
 
-}  // namespace
+}  // namespace SundialsTest
 }  // namespace tooljoint::transient::testing

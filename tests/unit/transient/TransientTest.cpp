@@ -24,7 +24,7 @@ extern "C" void* malloc(std::size_t bytes) {
 #endif
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace TransientTest {
 
 const std::vector<std::string> allIntegrators = {"Generalized-alpha", "RK4", "RK4 adaptive"};
 
@@ -413,5 +413,5 @@ TEST(Cost, reportAddsUp) {
   EXPECT_FALSE(report.interrupted);
 }
 
-}  // namespace
+}  // namespace TransientTest
 }  // namespace tooljoint::transient::testing

@@ -12,7 +12,7 @@
 using namespace tooljoint;
 using namespace tooljoint::well;
 
-namespace {
+namespace FramesTest {
 
 using constants::pi;
 
@@ -30,8 +30,6 @@ void expectOrthonormal(const std::vector<Matrix3>& frames, const Trajectory& wel
     EXPECT_LT((frames[i].col(2) - well.at(s[i]).tangent).norm(), 1e-15) << s[i];
   }
 }
-
-}  // namespace
 
 TEST(SmallestRotation, TurnsOneDirectionIntoAnotherAboutTheirCommonNormal) {
   const Vector3 to = Vector3(1.0, 2.0, 0.5).normalized();
@@ -160,3 +158,5 @@ TEST(HighSide, OfAVerticalHoleIsNorth) {
   const double slight = 1e-3;  // rad, azimuth 0
   EXPECT_NEAR(highSide({std::sin(slight), 0.0, std::cos(slight)}).x(), 1.0, 1e-6);
 }
+
+}  // namespace FramesTest

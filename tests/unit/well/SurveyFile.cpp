@@ -14,7 +14,7 @@
 using namespace tooljoint;
 using namespace tooljoint::well;
 
-namespace {
+namespace SurveyFileTest {
 
 using constants::degree;
 
@@ -46,8 +46,6 @@ std::string errorOf(const std::string& text) {
   }
   return "no error";
 }
-
-}  // namespace
 
 TEST(SurveyFile, WithoutHeaderIsDepthInclinationAzimuthInMetresAndDegrees) {
   const CsvFile file("# a comment\n0, 0, 0\n\n100, 10, 350\r\n+200, 2.5e1, -10\n");
@@ -230,3 +228,5 @@ TEST(SurveyFile, OtherFaultsHaveTheirOwnSentence) {
   EXPECT_NE(errorOf("MD,Inc,Azi,MD\n0,0,0,0\n").find("stands twice"), std::string::npos);
   EXPECT_THROW(readSurvey("no_such_file.csv"), DeckError);
 }
+
+}  // namespace SurveyFileTest

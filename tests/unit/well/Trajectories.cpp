@@ -9,7 +9,7 @@
 using namespace tooljoint;
 using namespace tooljoint::well;
 
-namespace {
+namespace TrajectoriesTest {
 
 using constants::pi;
 const double degree = pi / 180.0;
@@ -28,8 +28,6 @@ void expectConsistent(const Trajectory& well, const std::vector<double>& depths)
     EXPECT_LT(((below.tangent - above.tangent) / (2.0 * h) - at.curvature).norm(), 1e-8) << s;
   }
 }
-
-}  // namespace
 
 TEST(Helix, HasTheClosedFormCurvatureAndInclination) {
   const double a = 85.1;
@@ -174,3 +172,5 @@ TEST(MinimumCurvature, RefusesWhatIsNoSurvey) {
   EXPECT_THROW(minimumCurvature({{0.0, 0.0, 0.0}, {0.0, 0.1, 0.0}}), DeckError);
   EXPECT_THROW(minimumCurvature({{0.0, 0.5 * pi, 0.0}, {10.0, 0.5 * pi, pi}}), DeckError);
 }
+
+}  // namespace TrajectoriesTest

@@ -6,11 +6,12 @@
 
 #include "common/Constants.hpp"
 #include "deck/Deck.hpp"
+#include "tests/support/SourceFolder.hpp"
 
 using namespace tooljoint;
 using namespace tooljoint::well;
 
-namespace {
+namespace WellTest {
 
 using constants::pi;
 
@@ -43,8 +44,6 @@ std::string text(const std::string& name, const std::string& value) {
 std::string list(const std::string& name, const std::string& inside) {
   return "<ParameterList name=\"" + name + "\">" + inside + "</ParameterList>";
 }
-
-}  // namespace
 
 TEST(Well, BoreRadiusFollowsTheIntervalsAndTheSmallerCountsWhereTwoMeet) {
   const Well well(straight(100.0), 0.1, {{"hole", 50.0, 100.0, 0.15}, {"casing", 20.0, 50.0, 0.2}});
@@ -85,9 +84,9 @@ TEST(Well, ReadsEveryTrajectoryFromADeck) {
   EXPECT_EQ(curved.boreRadius(50.0), 0.15);
   EXPECT_EQ(curved.boreRadius(150.0), 0.1);
 
-  const Well surveyed = fromDeck(text("Trajectory", "Survey") + real("Bore Radius", "0.1") +
-                                 list("Survey", text("File", std::string(TOOLJOINT_SOURCE_DIR) +
-                                                                 "/tests/unit/well/survey.csv")));
+  const Well surveyed = fromDeck(
+      text("Trajectory", "Survey") + real("Bore Radius", "0.1") +
+      list("Survey", text("File", testing_::sourceFolder() + "/tests/unit/well/survey.csv")));
   EXPECT_NEAR(surveyed.length(), 1500.0 * 0.3048, 1e-9);
 }
 
@@ -143,3 +142,5 @@ TEST(Below, IsTheSameHoleFromADepthOn) {
   ASSERT_EQ(above.trajectory().breaks().size(), 1U);
   EXPECT_DOUBLE_EQ(above.trajectory().breaks().front(), 50.0) << "the kick-off point";
 }
+
+}  // namespace WellTest

@@ -14,7 +14,7 @@
 #include "tests/support/StraightBeam.hpp"
 
 namespace tooljoint::beam {
-namespace {
+namespace ClosedFormsTest {
 
 using constants::pi;
 using testing_::StraightBeam;
@@ -228,5 +228,5 @@ TEST(Frequencies, GyroscopicSplittingOfAPinnedShaft) {
   EXPECT_LT(std::abs(ratio(0) - std::complex<double>(0.0, 1.0)), 1e-3);
 }
 
-}  // namespace
+}  // namespace ClosedFormsTest
 }  // namespace tooljoint::beam

@@ -11,7 +11,7 @@
 #include "tests/support/FrameProblem.hpp"
 
 namespace tooljoint::beam {
-namespace {
+namespace LargeDisplacementTest {
 
 using constants::pi;
 using testing_::FrameProblem;
@@ -103,5 +103,5 @@ TEST(LargeDisplacement, Bathes45DegreeBend) {
                             std::to_string(problem.tip().z()));
 }
 
-}  // namespace
+}  // namespace LargeDisplacementTest
 }  // namespace tooljoint::beam

@@ -12,7 +12,7 @@
 using namespace tooljoint;
 using namespace tooljoint::contact;
 
-namespace {
+namespace ImpactTest {
 
 using constants::pi;
 
@@ -89,8 +89,6 @@ double restitution(const ContactLaw& law, const ContactPoint& point, double mass
   if (duration != nullptr) *duration = t;
   return -x[3] / impact;
 }
-
-}  // namespace
 
 // Without damping: half a period of the oscillator m, k, and nothing lost.
 TEST(Impact, ElasticWallReturnsEverythingAfterHalfAPeriod) {
@@ -186,3 +184,5 @@ TEST(Energy, LedgerCloses) {
     EXPECT_NEAR(energy(x) + lost - fed, start, 1e-4 * (start + lost + fed)) << name;
   }
 }
+
+}  // namespace ImpactTest

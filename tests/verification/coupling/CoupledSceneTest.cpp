@@ -10,13 +10,14 @@
 #include "estimate/ModeComparison.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace CoupledSceneTest {
 
 using namespace tooljoint;
 
 drillstring::Scene sceneWith(const std::vector<std::string>& overrides) {
-  return drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/tests/effects/coupling.xml",
+  return drillstring::readScene(testing_::sourceFolder() + "/tests/effects/coupling.xml",
                                 overrides);
 }
 
@@ -70,4 +71,4 @@ TEST(CoupledScene, StaysAtRestWhereTheStringWas) {
   EXPECT_GT(jump, 1e3) << "the slide carries the axial force of the string";
 }
 
-}  // namespace
+}  // namespace CoupledSceneTest

@@ -9,7 +9,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SpaceFrame.hpp"
 
-namespace {
+namespace SpatialFrameTest {
 
 using namespace tooljoint;
 using namespace tooljoint::coupling;
@@ -82,4 +82,4 @@ TEST_F(SpatialFrame, DualHasTheWholeSpectrum) {
   expectEqual(eigenvalues(dual, 60), exact.head(60), largest);
 }
 
-}  // namespace
+}  // namespace SpatialFrameTest

@@ -22,13 +22,14 @@
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 #include "tests/support/Scenes.hpp"
+#include "tests/support/SourceFolder.hpp"
 #include "tests/support/TrackedDecks.hpp"
 
-namespace {
+namespace ScenesTest {
 
 using namespace tooljoint;
 
-std::string folder() { return std::string(TOOLJOINT_SOURCE_DIR) + "/xml/"; }
+std::string folder() { return testing_::sourceFolder() + "/xml/"; }
 
 /// Free dofs of the longest strings taken: twenty modes of a string of 5 km take minutes.
 constexpr int mostDofs = 20000;
@@ -270,4 +271,4 @@ TEST(MotionTolerance, IsMetAtTheStartOfEveryOtherScene) {
   }
 }
 
-}  // namespace
+}  // namespace ScenesTest

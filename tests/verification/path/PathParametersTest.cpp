@@ -6,7 +6,7 @@
 #include "substructures/path/Path.hpp"
 
 namespace tooljoint::path {
-namespace {
+namespace PathParametersTest {
 
 TEST(PathParameters, AreReadAsTheyStandInTheDeck) {
   Teuchos::ParameterList list;
@@ -31,5 +31,5 @@ TEST(PathParameters, AreReadAsTheyStandInTheDeck) {
     EXPECT_NE(spec.findParameter(list.name(it)), nullptr) << list.name(it);
 }
 
-}  // namespace
+}  // namespace PathParametersTest
 }  // namespace tooljoint::path

@@ -15,7 +15,7 @@
 #include "tests/support/NoxBinding.hpp"
 
 namespace tooljoint::path {
-namespace {
+namespace PathTest {
 
 using constants::pi;
 
@@ -263,5 +263,5 @@ TEST(Path, ImpossibleRequestsAreRefused) {
                ConvergenceError);
 }
 
-}  // namespace
+}  // namespace PathTest
 }  // namespace tooljoint::path

@@ -9,7 +9,7 @@
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace ComplexModesTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -119,4 +119,4 @@ TEST(ComplexModes, HoldTheFixedInterfaceEigenvalues) {
     EXPECT_LT((small.array() - full[k]).abs().minCoeff(), 1e-8 * std::abs(full[k])) << full[k];
 }
 
-}  // namespace
+}  // namespace ComplexModesTest

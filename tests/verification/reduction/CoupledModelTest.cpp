@@ -14,7 +14,7 @@
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace CoupledModelTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -221,4 +221,4 @@ TEST(SomeModes, RetainedNodesSplitThePartIntoLinks) {
   }
 }
 
-}  // namespace
+}  // namespace CoupledModelTest

@@ -11,7 +11,7 @@
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace EnhancedCraigBamptonTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -131,4 +131,4 @@ TEST(EnhancedCraigBampton, UnknownChoiceIsRefused) {
   EXPECT_THROW(makeBasis("Enhanced Craig-Bampton", list), DeckError);
 }
 
-}  // namespace
+}  // namespace EnhancedCraigBamptonTest

@@ -13,7 +13,7 @@
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace FixedInterfaceBasesTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -133,4 +133,4 @@ TEST_P(FixedInterfaceBases, PartsWithoutInteriorOrInterface) {
 INSTANTIATE_TEST_SUITE_P(All, FixedInterfaceBases, testing::ValuesIn(cases()),
                          [](const auto& chosen) { return chosen.param.label; });
 
-}  // namespace
+}  // namespace FixedInterfaceBasesTest

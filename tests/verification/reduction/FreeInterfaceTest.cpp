@@ -15,7 +15,7 @@
 #include "tests/support/BasisFamilies.hpp"
 #include "tests/support/SpaceFrame.hpp"
 
-namespace {
+namespace FreeInterfaceTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -310,4 +310,4 @@ TEST(Accuracy, OrderOfTheFamilies) {
   }
 }
 
-}  // namespace
+}  // namespace FreeInterfaceTest

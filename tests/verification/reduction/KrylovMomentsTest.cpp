@@ -11,7 +11,7 @@
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace KrylovMomentsTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -177,4 +177,4 @@ TEST(KrylovMoments, BeatModesNearTheExpansionPoint) {
     EXPECT_LT(feltError("Krylov", hertz), 0.1 * feltError("Craig-Bampton", hertz)) << hertz;
 }
 
-}  // namespace
+}  // namespace KrylovMomentsTest

@@ -12,7 +12,7 @@
 #include "substructures/beam/BeamMatrices.hpp"
 #include "tests/support/SampleParts.hpp"
 
-namespace {
+namespace PublishedTest {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
@@ -148,4 +148,4 @@ TEST(FreeBeam, ExplicitStepFollowsTheRetainedDofs) {
   EXPECT_NEAR(all.report.largestOmega, omega[omega.size() - 1], 1e-9 * all.report.largestOmega);
 }
 
-}  // namespace
+}  // namespace PublishedTest

@@ -7,7 +7,7 @@
 #include "common/report/EvaluationCounters.hpp"
 #include "tests/support/Scenes.hpp"
 
-namespace {
+namespace AbsentTest {
 
 using namespace tooljoint;
 
@@ -90,4 +90,4 @@ TEST(Absent, AFamilyOfDofsThatIsNotModelledIsNotInTheModel) {
   EXPECT_EQ(lateral.size(), 163 * 4 - 4);
 }
 
-}  // namespace
+}  // namespace AbsentTest

@@ -10,7 +10,7 @@
 
 #include "tests/support/Scenes.hpp"
 
-namespace {
+namespace AllModesTest {
 
 using namespace tooljoint;
 
@@ -76,4 +76,4 @@ INSTANTIATE_TEST_SUITE_P(Cuts, AllModes,
                                                 "57, 65, 73, 81, 89, 97, 105, 113, 121, 129, "
                                                 "137, 145, 153}"}}));
 
-}  // namespace
+}  // namespace AllModesTest

@@ -8,7 +8,7 @@
 #include "common/Constants.hpp"
 #include "tests/support/Scenes.hpp"
 
-namespace {
+namespace ReferenceStaticTest {
 
 using namespace tooljoint;
 using testing_::reference;
@@ -95,4 +95,4 @@ TEST(ReferenceStatic, ImposedNodesStrayFromTheAxisAndTouchElsewhere) {
   EXPECT_LE(stage.state.contactNodes, 78);
 }
 
-}  // namespace
+}  // namespace ReferenceStaticTest

@@ -7,8 +7,9 @@
 
 #include "common/Constants.hpp"
 #include "tests/support/Scenes.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace StaticFrictionTest {
 
 using namespace tooljoint;
 
@@ -18,8 +19,7 @@ drillstring::Scene scene(std::vector<std::string> overrides) {
   overrides.insert(overrides.begin(),
                    {"Well/Arc/Kick-off Depth=0", "Well/Arc/Start Inclination=50 deg",
                     "Well/Arc/Build Rate=3 deg/30m", "Drillstring/Assembly={4*stand}"});
-  return drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml",
-                                overrides);
+  return drillstring::readScene(testing_::sourceFolder() + "/xml/build_hold_1400m.xml", overrides);
 }
 
 const std::vector<std::string> fromRestLater{"Rotary Speed/Law=Table",
@@ -90,4 +90,4 @@ TEST(StaticFriction, ActsWithItsCoefficient) {
   EXPECT_EQ(coefficient({"!Rotary Speed"}), 0.0);
 }
 
-}  // namespace
+}  // namespace StaticFrictionTest

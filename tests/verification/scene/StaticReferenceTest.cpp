@@ -7,8 +7,9 @@
 
 #include "substructures/beam/NodalDofs.hpp"
 #include "tests/support/Scenes.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace StaticReferenceTest {
 
 using namespace tooljoint;
 using namespace beam::nodal;
@@ -18,8 +19,7 @@ drillstring::Scene scene(const std::string& reference, std::vector<std::string> 
                    {"Well/Arc/Kick-off Depth=0", "Well/Arc/Start Inclination=50 deg",
                     "Well/Arc/Build Rate=3 deg/30m", "Drillstring/Assembly={4*stand}",
                     "Static/Reference=" + reference});
-  return drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml",
-                                overrides);
+  return drillstring::readScene(testing_::sourceFolder() + "/xml/build_hold_1400m.xml", overrides);
 }
 
 /// K D - F - F_c at the start of the motion over the largest load, the largest of all dofs.
@@ -64,4 +64,4 @@ TEST(StaticReference, ChangesWhereDisplacementsCountFrom) {
   EXPECT_NEAR(from.displacement(bit) - to.displacement(bit), stretch, 0.01 * std::abs(stretch));
 }
 
-}  // namespace
+}  // namespace StaticReferenceTest

@@ -10,14 +10,14 @@
 #include "common/Error.hpp"
 #include "common/report/Log.hpp"
 #include "tests/support/Scenes.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace TorqueBalanceTest {
 
 using namespace tooljoint;
 
 drillstring::Scene buildAndHold(const std::vector<std::string>& overrides) {
-  return drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml",
-                                overrides);
+  return drillstring::readScene(testing_::sourceFolder() + "/xml/build_hold_1400m.xml", overrides);
 }
 
 /// A well with its share of curvature, tension and compression.
@@ -72,7 +72,7 @@ TEST(TorqueOfTheDecks, BalancesWithinHalfAPerCent) {
         "xml/stress_170m.xml", "xml/study_helical_170m.xml", "xml/vertical_1000m.xml",
         "examples/01_vertical_string/deck.xml", "examples/03_survey_well/deck.xml",
         "tests/effects/scene.xml", "tests/study/study.xml"}) {
-    const auto scene = drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/" + deck, {});
+    const auto scene = drillstring::readScene(testing_::sourceFolder() + "/" + deck, {});
     EXPECT_EQ(scene.path.prestress, path::Prestress::FullTangent) << deck;
     const auto state = drillstring::findEquilibrium(scene).state;
     EXPECT_LT(state.relativeTorqueDefect(), 0.005)
@@ -157,4 +157,4 @@ TEST(TorqueJudgement, WarnsAboveTwoPerCentAndRefusesAboveTen) {
   log::clearWarnings();
 }
 
-}  // namespace
+}  // namespace TorqueBalanceTest

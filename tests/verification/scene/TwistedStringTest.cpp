@@ -14,8 +14,9 @@
 #include "substructures/beam/VonMises.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
 #include "tests/support/Scenes.hpp"
+#include "tests/support/SourceFolder.hpp"
 
-namespace {
+namespace TwistedStringTest {
 
 using namespace tooljoint;
 
@@ -36,7 +37,7 @@ drillstring::Scene twisted(int elements, std::vector<std::string> well, double t
     held += "<ParameterList name=\"node" + std::to_string(node) +
             "\"><Parameter name=\"Node\" type=\"int\" value=\"" + std::to_string(node) +
             "\"/><Parameter name=\"Dofs\" type=\"string\" value=\"u v\"/></ParameterList>";
-  const std::string file = std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml";
+  const std::string file = testing_::sourceFolder() + "/xml/build_hold_1400m.xml";
   const std::string root = "<ParameterList name=\"build_hold_1400m\">";
   std::string text = io::readText(file);
   text.insert(text.find(root) + root.size(),
@@ -82,4 +83,4 @@ TEST(TwistedString, BentHasTheCurvatureOfTheWell) {
                   2.0 * constants::degree / 30.0);
 }
 
-}  // namespace
+}  // namespace TwistedStringTest

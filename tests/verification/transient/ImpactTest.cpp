@@ -8,7 +8,7 @@
 #include "substructures/contact/ContactLaw.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace ImpactTest {
 
 /// A mass m meets a spring-damper stop at speed v: while they touch, m q'' + c q' + k q = 0, q(0) =
 /// 0, q'(0) = -v. It leaves at half a damped period with speed v exp(-pi zeta / sqrt(1 - zeta^2)),
@@ -66,5 +66,5 @@ TEST(Impact, frictionSpinsARotorUpAtConstantTorque) {
         << "at " << samples.time[s];
 }
 
-}  // namespace
+}  // namespace ImpactTest
 }  // namespace tooljoint::transient::testing

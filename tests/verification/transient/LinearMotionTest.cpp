@@ -11,7 +11,7 @@
 #include "substructures/beam/BeamMatrices.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace LinearMotionTest {
 
 const std::vector<std::string> all = {"Generalized-alpha", "RK4", "RK4 adaptive"};
 
@@ -243,5 +243,5 @@ TEST(LinearMotion, aDofOfDampingAloneFollowsItsLoad) {
   }
 }
 
-}  // namespace
+}  // namespace LinearMotionTest
 }  // namespace tooljoint::transient::testing

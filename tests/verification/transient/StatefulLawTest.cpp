@@ -17,7 +17,7 @@
 #include "transient/schemes/FixedStepIntegrator.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace StatefulLawTest {
 
 constexpr double kEnd = 0.4;
 
@@ -286,5 +286,5 @@ TEST(StatefulLaw, IntegratorsThatDoNotCarryStatesRefuseTheLaw) {
   EXPECT_EQ(integrate(oscillator(1, 0, 9, 0.1, 0), o, samples).counters.steps, 100);
 }
 
-}  // namespace
+}  // namespace StatefulLawTest
 }  // namespace tooljoint::transient::testing

@@ -12,10 +12,11 @@
 #include "common/Error.hpp"
 #include "common/report/Log.hpp"
 #include "tests/support/Scenes.hpp"
+#include "tests/support/SourceFolder.hpp"
 #include "tests/unit/transient/Models.hpp"
 
 namespace tooljoint::transient {
-namespace {
+namespace StepAccuracyTest {
 
 using namespace testing;
 
@@ -140,7 +141,7 @@ TEST(StepAccuracy, saysWhatMakesItWorse) {
 TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
   const auto hang = [](const std::string& step) {
     const auto scene = drillstring::readScene(
-        std::string(TOOLJOINT_SOURCE_DIR) + "/xml/vertical_1000m.xml",
+        testing_::sourceFolder() + "/xml/vertical_1000m.xml",
         {"Transient/End Time=2", "Transient/Step=" + step, "Transient/Progress=false", "!Study"});
     const auto model = drillstring::fullModel(drillstring::solveStatic(scene));
     NoSamples sink;
@@ -157,7 +158,7 @@ TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
 std::string saidOfScene(const std::string& deck, std::vector<std::string> more) {
   more.insert(more.end(), {"Transient/End Time=2", "Transient/Progress=false", "!Study"});
   const auto scene =
-      drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/" + deck + ".xml", more);
+      drillstring::readScene(testing_::sourceFolder() + "/xml/" + deck + ".xml", more);
   const auto model = drillstring::fullModel(drillstring::solveStatic(scene));
   return saidOf(model, readOptions(scene.list().sublist("Transient")));
 }
@@ -200,5 +201,5 @@ TEST(StepAccuracy, judgesStringsByTheirMotion) {
       saidOfScene("helical_170m", {"Transient/Step=0.02", "Transient/Sampling Interval=0.02"})));
 }
 
-}  // namespace
+}  // namespace StepAccuracyTest
 }  // namespace tooljoint::transient

@@ -7,7 +7,7 @@
 #include "tests/support/Scenes.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace SundialsSceneTest {
 
 using namespace testing_;
 
@@ -47,5 +47,5 @@ TEST(SundialsScene, theReferenceSceneMovesAsWithRungeKutta) {
   }
 }
 
-}  // namespace
+}  // namespace SundialsSceneTest
 }  // namespace tooljoint::transient::testing

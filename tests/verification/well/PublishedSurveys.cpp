@@ -10,7 +10,7 @@
 using namespace tooljoint;
 using namespace tooljoint::well;
 
-namespace {
+namespace PublishedSurveysTest {
 
 using constants::pi;
 const double degree = pi / 180.0;
@@ -18,8 +18,6 @@ const double foot = 0.3048;
 
 /// Angle by which the x axis of a frame with vertical tangent is turned from X towards Y.
 double spin(const Matrix3& frame) { return std::atan2(frame(1, 0), frame(0, 0)); }
-
-}  // namespace
 
 // The textbook leg of the minimum curvature method: from 3500 ft, 15 deg, N20E to 3600 ft, 25 deg,
 // N45E the hole goes 27.22 ft north, 19.45 ft east and 94.01 ft down, with a dogleg of 0.22605 rad.
@@ -78,3 +76,5 @@ TEST(BishopFrames, FullTurnOfAHelixTurnsThemByItsSolidAngle) {
   const Matrix3 turn = frames[0].transpose() * frames[1];
   EXPECT_NEAR(std::atan2(turn(1, 0), turn(0, 0)), solid, 1e-10);
 }
+
+}  // namespace PublishedSurveysTest

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/SummaryUnits.hpp"
+#include "io/summary/SummaryUnits.hpp"
 
 #include <map>
 #include <utility>

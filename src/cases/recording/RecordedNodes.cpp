@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cases/run/RecordedNodes.hpp"
+#include "cases/recording/RecordedNodes.hpp"
 
 #include <string>
 

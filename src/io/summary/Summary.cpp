@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/Summary.hpp"
+#include "io/summary/Summary.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
-#include "io/SummaryKeys.hpp"
+#include "io/summary/SummaryKeys.hpp"
 #include "io/TextFile.hpp"
 
 namespace tooljoint::io {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "transient/schemes/FirstOrderForm.hpp"
+#include "transient/schemes/sundials/FirstOrderForm.hpp"
 
 namespace tooljoint::transient {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/schemes/FirstOrderForm.hpp"
+#include "transient/schemes/sundials/FirstOrderForm.hpp"
 
 #include <algorithm>
 

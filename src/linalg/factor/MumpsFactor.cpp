@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/MumpsFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,6 +12,7 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/factor/MumpsControl.hpp"
 
 namespace tooljoint::linalg {
 
@@ -21,15 +22,7 @@ namespace {
 constexpr int fewRows = 2000;
 /// Entries of a row of a string: its node and two neighbours, six dofs each. Solids have 81.
 constexpr int entriesOfAString = 18;
-/// Columns solved at a time: enough for level-3 BLAS, little memory beside the factors.
-constexpr int blockOfColumns = 64;
-/// Room beside the estimate of the analysis that pivoting may take [%], at first and at most.
-constexpr int firstRoom = 30, mostRoom = 500;
-
-/// Jobs of MUMPS.
-constexpr int initialise = -1, finish = -2, analyse = 1, decompose = 2, substitute = 3;
-/// Of its errors (Users' guide 5.5, section 8).
-constexpr int noRoom = -9, realRoom = -8, noMemory = -13, singular = -10, notDefinite = -40;
+using namespace mumps;
 
 /// Memory that is free, as Linux says [MB]; none where it does not.
 std::optional<long> freeMegabytes() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/PartialFactor.hpp"
+#include "linalg/factor/PartialFactor.hpp"
 
 #include <algorithm>
 #include <dmumps_c.h>
@@ -10,21 +10,11 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/factor/MumpsControl.hpp"
 
 namespace tooljoint::linalg {
 
-namespace {
-
-/// Columns solved at a time: enough for level-3 BLAS, little memory beside the factors.
-constexpr int blockOfColumns = 64;
-/// Room beside the estimate of the analysis [%], at first and at most.
-constexpr int firstRoom = 30, mostRoom = 500;
-
-/// Jobs of MUMPS, and of its errors (Users' guide 5.5, section 8).
-constexpr int initialise = -1, finish = -2, analyse = 1, decompose = 2, substitute = 3;
-constexpr int realRoom = -8, noRoom = -9, singular = -10, noMemory = -13, notDefinite = -40;
-
-}  // namespace
+using namespace mumps;
 
 struct PartialFactor::Impl {
   DMUMPS_STRUC_C id{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cases/run/Recorder.hpp"
+#include "cases/recording/Recorder.hpp"
 
 #include <algorithm>
 #include <utility>

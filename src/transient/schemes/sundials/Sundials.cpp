@@ -18,7 +18,7 @@
 #include "common/Error.hpp"
 #include "common/report/Log.hpp"
 #include "transient/Integrator.hpp"
-#include "transient/schemes/SundialsStepper.hpp"
+#include "transient/schemes/sundials/SundialsStepper.hpp"
 
 namespace tooljoint::transient {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "cases/MotionRecord.hpp"
 #include "cases/measured/LogRecorder.hpp"
-#include "cases/run/SampleRecovery.hpp"
+#include "cases/recording/SampleRecovery.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/OutputParameters.hpp"
 #include "model/SecondOrderModel.hpp"

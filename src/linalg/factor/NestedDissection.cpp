@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/NestedDissection.hpp"
+#include "linalg/factor/NestedDissection.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cases/run/SampleRecovery.hpp"
+#include "cases/recording/SampleRecovery.hpp"
 
 #include <algorithm>
 #include <vector>

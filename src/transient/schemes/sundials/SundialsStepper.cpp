@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/schemes/SundialsStepper.hpp"
+#include "transient/schemes/sundials/SundialsStepper.hpp"
 
 #include <algorithm>
 #include <arkode/arkode_arkstep.h>

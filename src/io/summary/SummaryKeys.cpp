@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/SummaryKeys.hpp"
+#include "io/summary/SummaryKeys.hpp"
 
 namespace tooljoint::io {
 
