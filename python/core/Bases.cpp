@@ -37,14 +37,14 @@ struct LentPart {
   }
 };
 
-struct Registered {
+struct WrittenBasis {
   Kept build;
   py::dict names;
 };
 
 /// By name; changed and read with the GIL only, never destroyed.
-std::map<std::string, Registered>& registered() {
-  static auto* bases = new std::map<std::string, Registered>;
+std::map<std::string, WrittenBasis>& writtenBases() {
+  static auto* bases = new std::map<std::string, WrittenBasis>;
   return *bases;
 }
 
@@ -77,7 +77,7 @@ class PythonBasis final : public reduction::ReductionMethod {
     const std::string who = "The basis \"" + name_ + "\"";
     Matrix X;
     fromPython(who, [&] {
-      const auto& one = registered().at(name_);
+      const auto& one = writtenBases().at(name_);
       const auto lent = std::make_shared<LentPart>(LentPart{&part});
       struct Withdraw {
         LentPart& part;
@@ -108,7 +108,7 @@ class PythonBasis final : public reduction::ReductionMethod {
 
 void registerBasis(const std::string& name, const std::string& doc, const py::list& parameters,
                    const py::dict& names, const py::object& build) {
-  auto& bases = registered();
+  auto& bases = writtenBases();
   const bool own = bases.count(name) != 0;
   auto& registry = reduction::MethodRegistry::instance();
   if (!own && registry.entries().count(name) != 0)
@@ -117,7 +117,7 @@ void registerBasis(const std::string& name, const std::string& doc, const py::li
     throw UsageError("The basis \"" + name +
                      "\" was registered with other parameters. Choose another name, or start "
                      "Python anew.");
-  bases.insert_or_assign(name, Registered{Kept(build), names});
+  bases.insert_or_assign(name, WrittenBasis{Kept(build), names});
   if (own) return;
   registry.add(name,
                {doc, specFrom(name, doc, parameters), [name](const Teuchos::ParameterList& list) {

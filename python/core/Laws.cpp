@@ -23,23 +23,23 @@ namespace {
 using model::PointLaw;
 
 /// A law that decks can name.
-struct Registered {
+struct WrittenLaw {
   int width;
   Kept force, tangent, power;
   py::dict names;
 };
 
 /// By name; changed and read with the GIL only, never destroyed.
-std::map<std::string, Registered>& registered() {
-  static auto* laws = new std::map<std::string, Registered>;
+std::map<std::string, WrittenLaw>& writtenLaws() {
+  static auto* laws = new std::map<std::string, WrittenLaw>;
   return *laws;
 }
 
-std::unique_ptr<PointLaw> makeRegistered(const std::string& name, const Teuchos::ParameterList& own,
-                                         const model::PointLawPlace& place) {
+std::unique_ptr<PointLaw> makeWritten(const std::string& name, const Teuchos::ParameterList& own,
+                                      const model::PointLawPlace& place) {
   std::unique_ptr<PointLaw> law;
   fromPython("The point law \"" + name + "\"", [&] {
-    const auto& one = registered().at(name);
+    const auto& one = writtenLaws().at(name);
     if (one.width > place.coordinates)
       throw DeckError("The point law \"" + name + "\" takes " + std::to_string(one.width) +
                       " coordinates, but its place has " + std::to_string(place.coordinates) + ".");
@@ -53,7 +53,7 @@ std::unique_ptr<PointLaw> makeRegistered(const std::string& name, const Teuchos:
 void registerLaw(const std::string& name, const std::string& doc, const py::list& parameters,
                  const py::dict& names, int width, const py::object& force,
                  const py::object& tangent, const py::object& power) {
-  auto& laws = registered();
+  auto& laws = writtenLaws();
   const bool own = laws.count(name) != 0;
   auto& registry = model::PointLawRegistry::instance();
   if (!own && registry.entries().count(name) != 0)
@@ -62,12 +62,12 @@ void registerLaw(const std::string& name, const std::string& doc, const py::list
     throw UsageError("The point law \"" + name +
                      "\" was registered with other parameters. Choose another name, or start "
                      "Python anew.");
-  laws.insert_or_assign(name, Registered{width, Kept(force), Kept(tangent), Kept(power), names});
+  laws.insert_or_assign(name, WrittenLaw{width, Kept(force), Kept(tangent), Kept(power), names});
   if (own) return;
   registry.add(name,
                {doc, specFrom(name, doc, parameters),
                 [name](const Teuchos::ParameterList& list, const model::PointLawPlace& place) {
-                  return makeRegistered(name, list, place);
+                  return makeWritten(name, list, place);
                 }});
 }
 

@@ -12,8 +12,8 @@
 #include "io/Csv.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
-#include "io/summary/Summary.hpp"
 #include "io/Xdmf.hpp"
+#include "io/summary/Summary.hpp"
 
 namespace tooljoint::cases {
 

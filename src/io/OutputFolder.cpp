@@ -16,8 +16,8 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
-#include "io/summary/Summary.hpp"
 #include "io/TextFile.hpp"
+#include "io/summary/Summary.hpp"
 
 namespace tooljoint::io {
 namespace {

@@ -8,8 +8,8 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
-#include "io/summary/SummaryKeys.hpp"
 #include "io/TextFile.hpp"
+#include "io/summary/SummaryKeys.hpp"
 
 namespace tooljoint::io {
 namespace {

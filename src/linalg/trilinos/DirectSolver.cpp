@@ -11,10 +11,10 @@
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "linalg/Deterministic.hpp"
-#include "linalg/factor/MumpsFactor.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/SparseProducts.hpp"
 #include "linalg/blocks/ChainFactor.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 #include "linalg/trilinos/TpetraConversion.hpp"
 
 namespace tooljoint::linalg {

@@ -14,9 +14,9 @@
 #include "common/Index.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/Deterministic.hpp"
-#include "linalg/factor/MumpsFactor.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/SparseProducts.hpp"
+#include "linalg/factor/MumpsFactor.hpp"
 
 namespace tooljoint::linalg {
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/ListText.hpp"
-#include "cases/run/ResultsWriter.hpp"
 #include "cases/recording/SampleRecovery.hpp"
+#include "cases/run/ResultsWriter.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"

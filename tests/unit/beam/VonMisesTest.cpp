@@ -5,9 +5,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-using namespace tooljoint::beam;
-
 namespace VonMisesTest {
+
+using namespace tooljoint::beam;
 
 TEST(VonMises, IsTheAxialStressTheBendingStressOrTheShearOfAPipe) {
   const Section pipe = Section::hollow(0.0635, 0.0543, Material{});

@@ -9,10 +9,10 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 
+namespace SignalComparisonTest {
+
 using namespace tooljoint;
 using namespace tooljoint::cases;
-
-namespace SignalComparisonTest {
 
 constexpr double interval = 0.01;
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
+namespace ParallelTest {
+
 using namespace tooljoint;
 
 TEST(Parallel, RanksAreNumberedFromZero) {
@@ -90,3 +92,5 @@ TEST(Agree, AForeignExceptionIsAnInternalError) {
     EXPECT_STREQ(error.what(), "index 9");
   }
 }
+
+}  // namespace ParallelTest

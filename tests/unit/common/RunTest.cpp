@@ -14,9 +14,9 @@
 #include "common/report/Log.hpp"
 #include "common/report/Progress.hpp"
 
-using namespace tooljoint;
-
 namespace RunTest {
+
+using namespace tooljoint;
 
 std::size_t linesOf(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+namespace Sha256Test {
+
 using tooljoint::sha256;
 
 TEST(Sha256, KnowsTheEmptyText) {
@@ -33,3 +35,5 @@ TEST(Sha256, KnowsTheLengthsWherePaddingChanges) {
   EXPECT_EQ(sha256(std::string(64, 'a')),
             "ffe054fe7ae0cb6dc65c3af9b61d5209f439851db43d0ba5997337df154668eb");
 }
+
+}  // namespace Sha256Test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+namespace TextTest {
+
 using namespace tooljoint;
 
 TEST(EditDistance, CountsInsertionsDeletionsSubstitutionsAndSwaps) {
@@ -83,3 +85,5 @@ TEST(Text, CountsHaveThreeDigits) {
 TEST(Text, ALongTextIsComparedWithNoTable) {
   EXPECT_EQ(closest(std::string(5000000, 'x'), {"Stiffness", "Friction"}), "");
 }
+
+}  // namespace TextTest

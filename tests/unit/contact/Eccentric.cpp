@@ -6,11 +6,11 @@
 #include "model/laws/Friction.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
+namespace EccentricTest {
+
 using namespace tooljoint;
 using namespace tooljoint::contact;
 using namespace tooljoint::contact::testing;
-
-namespace EccentricTest {
 
 const Offsets offsets{{0.0, 0.0}, {0.004, -0.003}};
 

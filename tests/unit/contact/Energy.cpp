@@ -3,10 +3,10 @@
 
 #include "tests/unit/contact/Samples.hpp"
 
+namespace EnergyTest {
+
 using namespace tooljoint::contact;
 using namespace tooljoint::contact::testing;
-
-namespace EnergyTest {
 
 double turning(double) { return 7.0; }
 

@@ -5,6 +5,8 @@
 #include "model/laws/Coulomb.hpp"
 #include "substructures/contact/ContactPoints.hpp"
 
+namespace FrictionTest {
+
 using tooljoint::model::FrictionCurve;
 
 // Nguyen et al. 2020, eq. (9), as printed.
@@ -98,3 +100,5 @@ TEST(FrictionCurve, NoDynamicFrictionFallsToZeroAndNoFrictionIsZero) {
   const FrictionCurve none(0.0, 0.0, 0.1);
   EXPECT_EQ(none.value(5.0), 0.0);
 }
+
+}  // namespace FrictionTest

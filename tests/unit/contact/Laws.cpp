@@ -8,11 +8,11 @@
 #include "substructures/contact/WallKinematics.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
+namespace LawsTest {
+
 using namespace tooljoint;
 using namespace tooljoint::contact;
 using namespace tooljoint::contact::testing;
-
-namespace LawsTest {
 
 using constants::pi;
 double still(double) { return 0.0; }

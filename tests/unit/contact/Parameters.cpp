@@ -4,10 +4,10 @@
 #include "deck/Deck.hpp"
 #include "substructures/contact/ContactParameters.hpp"
 
+namespace ParametersTest {
+
 using namespace tooljoint;
 using namespace tooljoint::contact;
-
-namespace ParametersTest {
 
 ContactSettings fromDeck(const std::string& inside) {
   deck::ListSpec scene("scene", "A scene.");

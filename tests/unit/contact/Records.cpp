@@ -7,10 +7,10 @@
 
 #include "tests/unit/contact/Samples.hpp"
 
+namespace RecordsTest {
+
 using namespace tooljoint::contact;
 using namespace tooljoint::contact::testing;
-
-namespace RecordsTest {
 
 class Records : public ::testing::TestWithParam<const char*> {};
 

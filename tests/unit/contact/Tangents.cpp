@@ -7,9 +7,6 @@
 #include "model/laws/Friction.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
-using namespace tooljoint::contact;
-using namespace tooljoint::contact::testing;
-
 std::shared_ptr<const ContactLaw> tooljoint::contact::testing::law(const std::string& name) {
   Teuchos::ParameterList own;
   if (name == "Hunt-Crossley") own.set("Exponent", 1.5).set("Dissipation", 2.0);
@@ -17,6 +14,9 @@ std::shared_ptr<const ContactLaw> tooljoint::contact::testing::law(const std::st
 }
 
 namespace TangentsTest {
+
+using namespace tooljoint::contact;
+using namespace tooljoint::contact::testing;
 
 double speed(double t) { return 12.0 + t; }
 

@@ -6,11 +6,11 @@
 #include "deck/Manual.hpp"
 #include "deck/Template.hpp"
 
+namespace AlternativesTest {
+
 using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
-
-namespace AlternativesTest {
 
 ListSpec tubes() {
   ListSpec tube("tube", "A tube.");

@@ -12,11 +12,11 @@
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"
 
+namespace DeckTest {
+
 using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
-
-namespace DeckTest {
 
 /// A folder of its own for each test, made by rank 0 and known to all.
 class DeckFiles : public ::testing::Test {

@@ -5,11 +5,11 @@
 
 #include "SmallScene.hpp"
 
+namespace LargeTextTest {
+
 using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
-
-namespace LargeTextTest {
 
 /// What `count` of these in a row take to be refused [s]; the time of the process, so that a loaded
 /// machine does not matter.

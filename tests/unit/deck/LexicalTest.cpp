@@ -4,11 +4,11 @@
 
 #include "SmallScene.hpp"
 
+namespace LexicalTest {
+
 using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
-
-namespace LexicalTest {
 
 /// The first line a person sees when `contact` stands in line 3 of a deck that is otherwise in
 /// order.

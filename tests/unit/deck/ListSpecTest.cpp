@@ -7,6 +7,8 @@
 #include "SmallScene.hpp"
 #include "deck/Describe.hpp"
 
+namespace ListSpecTest {
+
 using namespace tooljoint;
 using namespace tooljoint::deck;
 
@@ -186,3 +188,5 @@ TEST(Describe, ExamplesLieInRangeAndAmongTheChoices) {
                              .parameters()[0]),
             "{3}");
 }
+
+}  // namespace ListSpecTest

@@ -11,9 +11,9 @@
 #include "deck/tables/ColumnHeading.hpp"
 #include "deck/tables/LasFile.hpp"
 
-using namespace tooljoint::deck;
-
 namespace LogTableTest {
+
+using namespace tooljoint::deck;
 
 std::vector<LogSignal> read(const std::string& text, const std::vector<WantedColumn>& wanted,
                             const WantedColumn& time = {"", "s", ""}) {

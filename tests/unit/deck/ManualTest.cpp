@@ -10,11 +10,11 @@
 #include "deck/Variants.hpp"
 #include "deck/reading/Units.hpp"
 
+namespace ManualTest {
+
 using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
-
-namespace ManualTest {
 
 std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t n = 0;

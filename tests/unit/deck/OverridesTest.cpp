@@ -5,11 +5,11 @@
 
 #include "SmallScene.hpp"
 
+namespace OverridesTest {
+
 using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
-
-namespace OverridesTest {
 
 const std::string base = deckWith(
     stiffness, endTime + parameter("Samples", "int", "5") + "<ParameterList name=\"NOX\">" +

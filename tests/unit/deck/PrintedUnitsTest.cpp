@@ -6,6 +6,8 @@
 
 #include "common/Error.hpp"
 
+namespace PrintedUnitsTest {
+
 using namespace tooljoint::deck;
 
 namespace PrintedUnitsTest {
@@ -55,5 +57,7 @@ TEST(PrintedUnits, AWrongNameIsRefused) {
     EXPECT_NE(std::string(error.what()).find("Did you mean \"field\"?"), std::string::npos);
   }
 }
+
+}  // namespace PrintedUnitsTest
 
 }  // namespace PrintedUnitsTest

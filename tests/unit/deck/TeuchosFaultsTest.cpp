@@ -6,10 +6,10 @@
 
 #include "SmallScene.hpp"
 
+namespace TeuchosFaultsTest {
+
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
-
-namespace TeuchosFaultsTest {
 
 std::string transientWith(const std::string& item) { return deckWith(stiffness, endTime + item); }
 

@@ -7,11 +7,11 @@
 
 #include "common/Constants.hpp"
 
+namespace UnitsTest {
+
 using namespace tooljoint::deck;
 
-namespace UnitsTest {
 using tooljoint::constants::pi;
-}
 
 struct Quantity {
   std::string text, si;
@@ -301,3 +301,5 @@ TEST(Units, OfferedUnitsAllMeasureWhatIsAsked) {
     }
   }
 }
+
+}  // namespace UnitsTest

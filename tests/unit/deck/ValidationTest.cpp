@@ -7,10 +7,6 @@
 #include "SmallScene.hpp"
 #include "common/Constants.hpp"
 
-using namespace tooljoint;
-using namespace tooljoint::deck;
-using namespace tooljoint::deck::test;
-
 TEST(Validation, AGoodDeckHoldsItsValuesInSi) {
   const Deck deck = parseSmall(deckWith(
       parameter("Stiffness", "string", "2 MN/m") + parameter("Law", "string", "Hertz") +
@@ -156,6 +152,10 @@ TEST_P(SecondPhase, FaultIsReportedWithLinePathAndHelp) {
 }
 
 namespace ValidationTest {
+
+using namespace tooljoint;
+using namespace tooljoint::deck;
+using namespace tooljoint::deck::test;
 const std::string s = stiffness + "\n";  // the fault then stands in line 4
 const std::string e = endTime + "\n";    // the fault then stands in line 7
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+namespace ValueTest {
+
 using namespace tooljoint::deck;
 
 struct Good {
@@ -133,3 +135,5 @@ TEST(Value, AnUnknownTypeIsNamedWithTheKnownOnes) {
             "\"Array(double)\", \"Array(int)\", "
             "\"Array(string)\". Did you mean type=\"double\"?");
 }
+
+}  // namespace ValueTest

@@ -7,6 +7,8 @@
 #include "tests/support/SourceFolder.hpp"
 #include "tests/unit/drillstring/Decks.hpp"
 
+namespace MeshTest {
+
 using namespace tooljoint;
 using namespace tooljoint::drillstring;
 using namespace tooljoint::drillstring::testing;
@@ -44,8 +46,6 @@ TEST(Mesh, SegmentsFollowInTheOrderOfTheDeck) {
   EXPECT_EQ(string.elements[3].section().outerRadius(), 0.07);
 }
 
-namespace {
-
 /// Two stands of {pipe of 9 m in 3 elements, joint of 1 m} and a bit with a gauge, hung at a depth.
 DrillString hung(double bit) {
   const std::string gauge = real("Gauge Position", "2") + real("Gauge Radius", "0.1");
@@ -56,8 +56,6 @@ DrillString hung(double bit) {
       array("Assembly", "2*stand, bit")));
   return buildDrillString(settings, verticalWell(), bit);
 }
-
-}  // namespace
 
 TEST(Mesh, HangsWithItsBitAtADepthAndIsCutAtTheSurface) {
   const DrillString string =
@@ -95,16 +93,12 @@ TEST(Mesh, LeavesNoSliverAtTheSurface) {
   EXPECT_NEAR(hung(0.05).length(), 0.05, 1e-12) << "no neighbour takes the last sliver";
 }
 
-namespace {
-
 std::string filling(const std::string& assembly, const std::string& depth = "") {
   return list("Components", tube("pipe", 9.0, 3, 0.06, 0.05) + tube("joint", 1.0, 1, 0.08, 0.05) +
                                 tube("bit", 2.0, 2, 0.07, 0.03) +
                                 list("stand", array("Parts", "pipe, joint"))) +
          array("Assembly", assembly) + (depth.empty() ? "" : real("Bit Depth", depth));
 }
-
-}  // namespace
 
 TEST(Mesh, FillsTheStringUpToTheSurface) {
   const DrillString string = build(filling("fill*stand, bit", "33.5"));
@@ -314,3 +308,5 @@ TEST(ComponentErrors, LibraryThatIsMissingIsAFaultOfTheDeck) {
   const std::string message = errorOf(text("Library", "none.xml") + array("Assembly", "bit"));
   EXPECT_NE(message.find("/scene/Drillstring/Library"), std::string::npos) << message;
 }
+
+}  // namespace MeshTest

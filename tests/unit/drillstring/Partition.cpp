@@ -8,11 +8,11 @@
 
 #include "tests/unit/drillstring/Decks.hpp"
 
+namespace PartitionTest {
+
 using namespace tooljoint;
 using namespace tooljoint::drillstring;
 using namespace tooljoint::drillstring::testing;
-
-namespace PartitionTest {
 
 /// Four components of five elements, 1 m each: nodes 0 to 20 at depths 0 to 20 m.
 DrillString string() {

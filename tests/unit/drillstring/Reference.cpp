@@ -8,11 +8,11 @@
 #include "tests/support/SourceFolder.hpp"
 #include "tests/unit/drillstring/Decks.hpp"
 
+namespace ReferenceTest {
+
 using namespace tooljoint;
 using namespace tooljoint::drillstring;
 using namespace tooljoint::drillstring::testing;
-
-namespace ReferenceTest {
 
 using constants::pi;
 

@@ -6,11 +6,11 @@
 
 #include "tests/unit/drillstring/Decks.hpp"
 
+namespace SupportsTest {
+
 using namespace tooljoint;
 using namespace tooljoint::drillstring;
 using namespace tooljoint::drillstring::testing;
-
-namespace SupportsTest {
 
 std::vector<char> held(const std::string& inside, int nodes) {
   deck::ListSpec spec("scene", "A scene.");

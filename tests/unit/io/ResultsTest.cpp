@@ -15,9 +15,9 @@
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/ResultsReader.hpp"
-#include "io/summary/Summary.hpp"
 #include "io/TextFile.hpp"
 #include "io/Xdmf.hpp"
+#include "io/summary/Summary.hpp"
 #include "tests/unit/io/Scratch.hpp"
 
 namespace ResultsTest {

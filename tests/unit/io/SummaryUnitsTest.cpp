@@ -6,6 +6,8 @@
 
 #include "io/summary/Summary.hpp"
 
+namespace SummaryUnitsTest {
+
 using namespace tooljoint::io;
 
 TEST(SummaryUnits, OfKeysThatAreDocumented) {
@@ -20,3 +22,5 @@ TEST(SummaryUnits, OfKeysThatAreDocumented) {
   EXPECT_GE(units.count("N m"), 10U);
   EXPECT_GE(units.count("m"), 3U);
 }
+
+}  // namespace SummaryUnitsTest

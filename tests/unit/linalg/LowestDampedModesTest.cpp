@@ -14,6 +14,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
 namespace LowestDampedModesTest {
@@ -292,13 +293,13 @@ std::vector<std::complex<double>> finiteValues(const Matrix& M, const Matrix& C,
     (M(i, i) > 0 ? heavy : C(i, i) > 0 ? damped : light).push_back(i);
   rest = heavy;
   rest.insert(rest.end(), damped.begin(), damped.end());
-  const Matrix k =
-      K(rest, rest) - K(rest, light) * Matrix(K(light, light)).lu().solve(Matrix(K(light, rest)));
+  const Matrix k = K(rest, rest) -
+                   K(rest, light) * linalg::DenseLu(K(light, light)).solve(Matrix(K(light, rest)));
   const Matrix c = C(rest, rest);
   const auto h = static_cast<Eigen::Index>(heavy.size()),
              d = static_cast<Eigen::Index>(damped.size());
   // C_dd x_d' = -C_dm x_m' - K_dm x_m - K_dd x_d, put into M x_m'' = -C_mm x_m' - C_md x_d' - ...
-  const Eigen::PartialPivLU<Matrix> viscous(c.bottomRightCorner(d, d));
+  const linalg::DenseLu viscous(c.bottomRightCorner(d, d));
   Matrix slow(d, 2 * h + d), A = Matrix::Zero(2 * h + d, 2 * h + d);
   slow << k.bottomLeftCorner(d, h), c.bottomLeftCorner(d, h), k.bottomRightCorner(d, d);
   A.bottomRows(d) = -viscous.solve(slow);
@@ -306,8 +307,8 @@ std::vector<std::complex<double>> finiteValues(const Matrix& M, const Matrix& C,
   Matrix force(h, 2 * h + d);
   force << k.topLeftCorner(h, h), c.topLeftCorner(h, h), k.topRightCorner(h, d);
   force += c.topRightCorner(h, d) * A.bottomRows(d);
-  A.middleRows(h, h) = -Matrix(M(heavy, heavy)).lu().solve(force);
-  const Eigen::VectorXcd all = Eigen::EigenSolver<Matrix>(A).eigenvalues();
+  A.middleRows(h, h) = -linalg::DenseLu(M(heavy, heavy)).solve(force);
+  const Eigen::VectorXcd all = linalg::generalPairs(A).values;
   std::vector<std::complex<double>> values;
   for (const auto& s : all)
     if (s.imag() >= 0) values.push_back(s);

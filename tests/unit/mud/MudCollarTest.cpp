@@ -7,6 +7,7 @@
 
 #include "ReferenceCollar.hpp"
 #include "common/Constants.hpp"
+#include "linalg/DenseDecompositions.hpp"
 
 namespace tooljoint::mud {
 namespace MudCollarTest {
@@ -40,7 +41,8 @@ Vector collarFrequencies(int elements, bool shearAndRotaryInertia) {
     load[e + 1] += weight[8];
   }
   Vector w = Vector::Zero(n);
-  w.tail(n - 1) = axial.bottomRightCorner(n - 1, n - 1).ldlt().solve(load.tail(n - 1));
+  w.tail(n - 1) =
+      linalg::solveSymmetric(axial.bottomRightCorner(n - 1, n - 1), Vector(load.tail(n - 1)));
 
   const std::array<int, 4> plane{0, 4, 6, 10};  // u, theta_y
   Matrix stiffness = Matrix::Zero(2 * n, 2 * n);
@@ -65,9 +67,9 @@ Vector collarFrequencies(int elements, bool shearAndRotaryInertia) {
   std::vector<Eigen::Index> freeDofs;
   for (Eigen::Index i = 0; i < 2 * n; ++i)
     if (i != 0 && i != 2 * n - 2) freeDofs.push_back(i);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(
-      stiffness(freeDofs, freeDofs), mass(freeDofs, freeDofs), Eigen::EigenvaluesOnly);
-  return modes.eigenvalues().head(4).cwiseSqrt() / (2.0 * pi);
+  const auto modes =
+      linalg::symmetricPairs(stiffness(freeDofs, freeDofs), mass(freeDofs, freeDofs));
+  return modes.values.head(4).cwiseSqrt() / (2.0 * pi);
 }
 
 /// Known frequencies of this string, to the five digits they are given with.

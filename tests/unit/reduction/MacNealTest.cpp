@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "tests/support/BasisFamilies.hpp"
 #include "transient/Transient.hpp"
 
@@ -29,10 +30,10 @@ TEST(MacNeal, MatricesAreThoseOfTheFormulas) {
   const auto part = column();
   const int m = 5;
   const Matrix K = constantStiffness(part.model), M = part.model.mass;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> all(K, M);
-  const Matrix Phi = all.eigenvectors().leftCols(m);
-  const Vector lambda = all.eigenvalues().head(m);
-  Matrix Gr = K.inverse();
+  const auto all = linalg::symmetricPairs(K, M);
+  const Matrix Phi = all.vectors.leftCols(m);
+  const Vector lambda = all.values.head(m);
+  Matrix Gr = linalg::inverseOf(K);
   for (int k = 0; k < m; ++k) Gr -= Phi.col(k) * Phi.col(k).transpose() / lambda[k];
   Matrix G(3, 3), Phib(3, m), Psi(K.rows(), 3);
   for (int i = 0; i < 3; ++i) {
@@ -40,7 +41,7 @@ TEST(MacNeal, MatricesAreThoseOfTheFormulas) {
     Phib.row(i) = Phi.row(part.interface[static_cast<std::size_t>(i)]);
   }
   for (int i = 0; i < 3; ++i) G.row(i) = Psi.row(part.interface[static_cast<std::size_t>(i)]);
-  const Matrix F = G.inverse(), H = F * Psi.transpose() * M * Psi * F;
+  const Matrix F = linalg::inverseOf(G), H = F * Psi.transpose() * M * Psi * F;
   Matrix k(3 + m, 3 + m), mass = Matrix::Zero(3 + m, 3 + m);
   k << F, -F * Phib, -Phib.transpose() * F,
       Matrix(lambda.asDiagonal()) + Phib.transpose() * F * Phib;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "reduction/vectors/FreeInterfaceModes.hpp"
 #include "tests/support/BasisFamilies.hpp"
 
@@ -22,18 +23,18 @@ std::unique_ptr<ReductionMethod> rubin() { return makeBasis("Rubin", Teuchos::Pa
 /// grounded, residual flexibility by differences.
 Matrix textbookSpace(const model::Substructure& part, const std::vector<int>& kept, int count) {
   const Matrix K = constantStiffness(part.model), M = part.model.mass;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> all(K, M);
-  const Vector& lambda = all.eigenvalues();
+  const auto all = linalg::symmetricPairs(K, M);
+  const Vector& lambda = all.values;
   int rigid = 0;
   while (lambda[rigid] < 1e-9 * lambda[lambda.size() - 1] && lambda[rigid] < 1e-4 * lambda[6])
     ++rigid;
-  const Matrix R = all.eigenvectors().leftCols(rigid), MR = M * R;
+  const Matrix R = all.vectors.leftCols(rigid), MR = M * R;
   const Matrix A = Matrix::Identity(K.rows(), K.rows()) - R * MR.transpose();
-  Matrix G = A * (K + lambda[rigid + 3] * MR * MR.transpose()).inverse() * A.transpose();
+  Matrix G = A * linalg::inverseOf(K + lambda[rigid + 3] * MR * MR.transpose()) * A.transpose();
   for (int k = rigid; k < count; ++k)
-    G -= all.eigenvectors().col(k) * all.eigenvectors().col(k).transpose() / lambda[k];
+    G -= all.vectors.col(k) * all.vectors.col(k).transpose() / lambda[k];
   Matrix space(K.rows(), count + static_cast<Eigen::Index>(kept.size()));
-  space.leftCols(count) = all.eigenvectors().leftCols(count);
+  space.leftCols(count) = all.vectors.leftCols(count);
   for (std::size_t j = 0; j < kept.size(); ++j) {
     const Vector column = G.col(kept[j]);
     space.col(count + static_cast<Eigen::Index>(j)) = column / std::sqrt(column.dot(M * column));

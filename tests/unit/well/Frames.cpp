@@ -9,10 +9,10 @@
 #include "common/Error.hpp"
 #include "substructures/well/Well.hpp"
 
+namespace FramesTest {
+
 using namespace tooljoint;
 using namespace tooljoint::well;
-
-namespace FramesTest {
 
 using constants::pi;
 

@@ -11,10 +11,10 @@
 #include "substructures/well/ArcChain.hpp"
 #include "substructures/well/Trajectory.hpp"
 
+namespace SurveyFileTest {
+
 using namespace tooljoint;
 using namespace tooljoint::well;
-
-namespace SurveyFileTest {
 
 using constants::degree;
 

@@ -6,10 +6,10 @@
 #include "common/Constants.hpp"
 #include "substructures/well/Trajectory.hpp"
 
+namespace TrajectoriesTest {
+
 using namespace tooljoint;
 using namespace tooljoint::well;
-
-namespace TrajectoriesTest {
 
 using constants::pi;
 const double degree = pi / 180.0;

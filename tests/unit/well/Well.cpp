@@ -8,10 +8,10 @@
 #include "deck/Deck.hpp"
 #include "tests/support/SourceFolder.hpp"
 
+namespace WellTest {
+
 using namespace tooljoint;
 using namespace tooljoint::well;
-
-namespace WellTest {
 
 using constants::pi;
 

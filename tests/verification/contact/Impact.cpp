@@ -9,10 +9,10 @@
 #include "common/Constants.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 
+namespace ImpactTest {
+
 using namespace tooljoint;
 using namespace tooljoint::contact;
-
-namespace ImpactTest {
 
 using constants::pi;
 

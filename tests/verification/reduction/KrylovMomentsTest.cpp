@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Constants.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
@@ -33,13 +34,13 @@ struct Blocks {
 struct Series {
   std::vector<Matrix> interior, felt;
   Series(const Blocks& z0, const Blocks& z1, const Blocks& z2, int count) {
-    const Eigen::PartialPivLU<Matrix> factor(z0.II);
+    const linalg::DenseLu factor(z0.II);
     const Blocks* z[3] = {&z0, &z1, &z2};
     for (int k = 0; k < count; ++k) {
       Matrix right = k < 3 ? z[k]->IC : Matrix(Matrix::Zero(z0.IC.rows(), z0.IC.cols()));
       for (int j = 1; j <= std::min(k, 2); ++j)
         right += z[j]->II * interior[static_cast<std::size_t>(k - j)];
-      interior.push_back(factor.solve(-right));
+      interior.push_back(factor.solve(Matrix(-right)));
       Matrix force = k < 3 ? z[k]->CC : Matrix(Matrix::Zero(z0.CC.rows(), z0.CC.cols()));
       for (int j = 0; j <= std::min(k, 2); ++j)
         force += z[j]->CI * interior[static_cast<std::size_t>(k - j)];
@@ -160,10 +161,10 @@ double feltError(const std::string& basisName, double hertz) {
   const Sparse Z = constantStiffness(part.model) - omega * omega * part.model.mass;
   const auto felt = [](const Matrix& A, Eigen::Index kept) {
     const auto rest = A.rows() - kept;
-    return Matrix(
-        A.topLeftCorner(kept, kept) -
-        A.topRightCorner(kept, rest) *
-            A.bottomRightCorner(rest, rest).partialPivLu().solve(A.bottomLeftCorner(rest, kept)));
+    return Matrix(A.topLeftCorner(kept, kept) -
+                  A.topRightCorner(kept, rest) *
+                      linalg::DenseLu(A.bottomRightCorner(rest, rest))
+                          .solve(Matrix(A.bottomLeftCorner(rest, kept))));
   };
   const Partition& p = basis.partition;
   std::vector<int> order = p.boundary;

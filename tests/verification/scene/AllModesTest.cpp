@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "linalg/DenseDecompositions.hpp"
 #include "tests/support/Scenes.hpp"
 
 namespace AllModesTest {
@@ -18,10 +19,9 @@ using namespace tooljoint;
 Vector eigenvalues(const model::SecondOrderModel& model) {
   const Matrix stiffness = model.stiffnessAt(0.0);
   const Matrix mass = model.mass;
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(0.5 * (stiffness + stiffness.transpose()),
-                                                          0.5 * (mass + mass.transpose()),
-                                                          Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return linalg::symmetricPairs(0.5 * (stiffness + stiffness.transpose()),
+                                0.5 * (mass + mass.transpose()))
+      .values;
 }
 
 struct Cut {

@@ -8,6 +8,7 @@
 
 #include "../../unit/transient/Models.hpp"
 #include "common/Constants.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "substructures/beam/BeamMatrices.hpp"
 
 namespace tooljoint::transient::testing {
@@ -57,8 +58,8 @@ double errorAgainstExponential(const model::SecondOrderModel& model, const Trans
       D.cwiseInverse().asDiagonal() * Matrix(model.dampingAt(0)) * D.cwiseInverse().asDiagonal();
   Matrix A = Matrix::Zero(2 * n, 2 * n);
   A.topRightCorner(n, n) = w * Matrix::Identity(n, n);
-  A.bottomLeftCorner(n, n) = -M.inverse() * K / w;
-  A.bottomRightCorner(n, n) = -M.inverse() * C;
+  A.bottomLeftCorner(n, n) = -linalg::inverseOf(M) * K / w;
+  A.bottomRightCorner(n, n) = -linalg::inverseOf(M) * C;
   const Matrix step = (A * o.sampling).exp();
   Keep samples;
   integrate(model, o, samples);
@@ -78,11 +79,9 @@ double errorAgainstExponential(const model::SecondOrderModel& model, const Trans
 /// step resolves.
 void bend(model::SecondOrderModel& model) {
   const Matrix K(model.stiffness[0].matrix);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(0.5 * (K + K.transpose()),
-                                                               Matrix(model.mass));
+  const auto modes = linalg::symmetricPairs(0.5 * (K + K.transpose()), Matrix(model.mass));
   model.initialDisplacement =
-      1e-2 * (modes.eigenvectors().col(0) + 0.5 * modes.eigenvectors().col(1) -
-              0.2 * modes.eigenvectors().col(2));
+      1e-2 * (modes.vectors.col(0) + 0.5 * modes.vectors.col(1) - 0.2 * modes.vectors.col(2));
 }
 
 TEST(LinearMotion, spinningTwistedShaftFollowsTheMatrixExponential) {

@@ -7,10 +7,10 @@
 #include "common/Constants.hpp"
 #include "substructures/well/Frames.hpp"
 
+namespace PublishedSurveysTest {
+
 using namespace tooljoint;
 using namespace tooljoint::well;
-
-namespace PublishedSurveysTest {
 
 using constants::pi;
 const double degree = pi / 180.0;
