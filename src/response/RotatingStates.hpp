@@ -5,6 +5,7 @@
 
 #include <list>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "response/RotatingCase.hpp"

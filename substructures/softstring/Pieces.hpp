@@ -3,6 +3,7 @@
 /// A string in its hole, cut where anything jumps.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "substructures/softstring/SoftString.hpp"

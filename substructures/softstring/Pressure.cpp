@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 
 #include "common/Constants.hpp"
 #include "substructures/softstring/Pieces.hpp"

@@ -7,11 +7,15 @@
 #include "model/laws/Friction.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
-std::shared_ptr<const ContactLaw> tooljoint::contact::testing::law(const std::string& name) {
+namespace tooljoint::contact::testing {
+
+std::shared_ptr<const ContactLaw> law(const std::string& name) {
   Teuchos::ParameterList own;
   if (name == "Hunt-Crossley") own.set("Exponent", 1.5).set("Dissipation", 2.0);
   return LawRegistry::instance().make(name, own);
 }
+
+}  // namespace tooljoint::contact::testing
 
 namespace TangentsTest {
 

@@ -7,6 +7,11 @@
 #include "SmallScene.hpp"
 #include "common/Constants.hpp"
 
+namespace ValidationTest {
+
+using namespace tooljoint;
+using namespace tooljoint::deck;
+using namespace tooljoint::deck::test;
 TEST(Validation, AGoodDeckHoldsItsValuesInSi) {
   const Deck deck = parseSmall(deckWith(
       parameter("Stiffness", "string", "2 MN/m") + parameter("Law", "string", "Hertz") +
@@ -151,11 +156,6 @@ TEST_P(SecondPhase, FaultIsReportedWithLinePathAndHelp) {
   EXPECT_EQ(fault.substr(0, row.message.size()), row.message) << fault;
 }
 
-namespace ValidationTest {
-
-using namespace tooljoint;
-using namespace tooljoint::deck;
-using namespace tooljoint::deck::test;
 const std::string s = stiffness + "\n";  // the fault then stands in line 4
 const std::string e = endTime + "\n";    // the fault then stands in line 7
 
