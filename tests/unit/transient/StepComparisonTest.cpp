@@ -12,7 +12,7 @@
 #include "common/report/Log.hpp"
 
 namespace tooljoint::transient::testing {
-namespace {
+namespace StepComparisonTest {
 
 constexpr double w = 10, span = 3;
 
@@ -138,5 +138,5 @@ TEST(StepComparison, leavesTheRunAlone) {
   EXPECT_EQ(first.energy.contact, second.energy.contact);
 }
 
-}  // namespace
+}  // namespace StepComparisonTest
 }  // namespace tooljoint::transient::testing
