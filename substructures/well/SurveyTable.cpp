@@ -85,14 +85,50 @@ class SurveyReader {
   }
 
  private:
-  deck::DelimitedText split() const {
+  deck::DelimitedText split() {
     try {
-      return deck::splitDelimited(readInput(file_, largestSurvey));
+      return deck::splitDelimited(withoutPreamble(readInput(file_, largestSurvey)));
     } catch (const FileError& error) {
       throw DeckError(std::string("The survey file ") + error.what());
     } catch (const DeckError& error) {
       throw DeckError("The survey file " + file_ + " " + error.what());
     }
+  }
+
+  /// Lines of text above a header that names all columns (well, company, datum) become comments.
+  std::string withoutPreamble(const std::string& text) {
+    std::vector<std::string> lines = tooljoint::split(text, '\n');
+    std::vector<std::size_t> above;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto line = deck::splitDelimited(lines[i]);
+      if (line.rows.empty()) continue;
+      const auto& cells = line.rows[0].cells;
+      if (namesAllColumns(cells)) {
+        for (const std::size_t j : above) lines[j].insert(0, 1, '#');
+        preamble_ = above.size();
+        return above.empty() ? text : join(lines, "\n");
+      }
+      const auto numbers = std::count_if(cells.begin(), cells.end(), [](const std::string& cell) {
+        return deck::cellNumber(cell).has_value();
+      });
+      if (static_cast<std::size_t>(numbers) >= kinds.size()) break;  // a station
+      above.push_back(i);
+    }
+    return text;
+  }
+
+  static bool namesAllColumns(const std::vector<std::string>& cells) {
+    std::array<bool, 3> seen = {false, false, false};
+    for (const std::string& cell : cells)
+      if (const int which = columnOf(heading(cell)); which >= 0)
+        seen[static_cast<std::size_t>(which)] = true;
+    return seen[0] && seen[1] && seen[2];
+  }
+
+  /// A cell of the header without its unit.
+  static std::string heading(const std::string& cell) {
+    if (endsInDegreeSign(cell)) return cell.substr(0, cell.size() - degreeSign.size());
+    return cell.substr(0, cell.find_first_of("[("));
   }
 
   static std::string expected(const ColumnKind& kind) {
@@ -152,7 +188,7 @@ class SurveyReader {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const bool bare = endsInDegreeSign(cells[i]);
       const auto end = bare ? cells[i].size() - degreeSign.size() : cells[i].find_first_of("[(");
-      const int which = columnOf(cells[i].substr(0, end));
+      const int which = columnOf(heading(cells[i]));
       if (which < 0) {  // comments, true vertical depth
         ignored_.push_back(cells[i]);
         continue;
@@ -276,9 +312,12 @@ class SurveyReader {
     std::vector<std::string> left;
     if (!ignored_.empty())
       left.push_back((ignored_.size() == 1 ? "column " : "columns ") + quotedList(ignored_));
-    if (text.comments > 0)
-      left.push_back(std::to_string(text.comments) +
-                     (text.comments == 1 ? " comment line" : " comment lines"));
+    if (preamble_ > 0)
+      left.push_back(std::to_string(preamble_) +
+                     (preamble_ == 1 ? " line above the header" : " lines above the header"));
+    if (const auto comments = text.comments - static_cast<int>(preamble_); comments > 0)
+      left.push_back(std::to_string(comments) +
+                     (comments == 1 ? " comment line" : " comment lines"));
     if (text.emptyRows > 0)
       left.push_back(std::to_string(text.emptyRows) +
                      (text.emptyRows == 1 ? " empty row" : " empty rows"));
@@ -293,6 +332,7 @@ class SurveyReader {
   std::array<bool, 3> given_ = {false, false, false};  ///< the file gives the unit
   std::array<std::size_t, 3> position_ = {0, 1, 2};
   std::size_t columns_ = kinds.size();
+  std::size_t preamble_ = 0;  ///< lines of text above the header
   bool started_ = false, afterHeader_ = false;
   int line_ = 0;
   int commaLine_ = 0,

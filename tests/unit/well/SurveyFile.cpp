@@ -154,6 +154,25 @@ TEST(SurveyFile, SaysWhatWasNotRead) {
   EXPECT_TRUE(readSurveyTable(plain.name()).remarks.empty());
 }
 
+TEST(SurveyFile, TextAboveTheHeaderIsNotRead) {
+  const CsvFile file(
+      "Well: A-1, slot 4\nRKB elevation;25,3;m\n\n# exported\nMD "
+      "(ft);Inc;Azi\n0;0;0\n328,1;9;45\n");
+  const auto table = readSurveyTable(file.name());
+  ASSERT_EQ(table.stations.size(), 2U);
+  EXPECT_NEAR(table.stations[1].depth, 328.1 * 0.3048, 1e-9);
+  EXPECT_NEAR(table.stations[1].inclination, 9 * M_PI / 180, 1e-12);
+  ASSERT_EQ(table.remarks.size(), 1U);
+  EXPECT_NE(table.remarks[0].find("2 lines above the header, 1 comment line"), std::string::npos)
+      << table.remarks[0];
+  // faults keep the line of the file; a station above the header stays an error
+  EXPECT_NE(errorOf("Well A-1\nMD,Inc,Azi\n0,0,0\n100,x,0\n").find("F:4: the inclination \"x\""),
+            std::string::npos);
+  EXPECT_NE(errorOf("0,0,0\nMD,Inc,Azi\n100,5,0\n").find("F:2: "), std::string::npos);
+  EXPECT_NE(errorOf("Well A-1\n0,0,0\n100,5,0\n").find("no column for the measured depth"),
+            std::string::npos);
+}
+
 TEST(SurveyFile, DecimalCommasAndPointsDoNotMix) {
   const std::string mixed = errorOf("MD;Inc;Azi\n0;0;0\n100,5;1.5;0\n");
   EXPECT_NE(mixed.find("F:3: the inclination \"1.5\" has a decimal point, but there is a decimal "
