@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/CaseLists.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "cases/PartsExport.hpp"
@@ -18,7 +19,9 @@ AnalysisLists& AnalysisLists::instance() {
 }
 
 bool AnalysisLists::add(AnalysisList list) {
-  lists_.push_back(std::move(list));
+  const auto after = std::upper_bound(lists_.begin(), lists_.end(), list,
+                                      [](const auto& a, const auto& b) { return a.name < b.name; });
+  lists_.insert(after, std::move(list));
   return true;
 }
 

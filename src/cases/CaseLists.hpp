@@ -32,6 +32,7 @@ class AnalysisLists {
   static AnalysisLists& instance();
   /// Call from a namespace-scope constant in the file of the analysis.
   bool add(AnalysisList list);
+  /// By name: in whatever order they were linked.
   const std::vector<AnalysisList>& lists() const { return lists_; }
 
  private:
