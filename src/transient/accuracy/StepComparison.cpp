@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/Error.hpp"
+#include "transient/accuracy/NumericalDamping.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -13,6 +15,11 @@ namespace {
 /// Part of its velocity that a motion is disturbed by, so often in T, in turns up and down.
 constexpr double disturbance = 1e-3;
 constexpr long disturbances = 16;
+/// Motion below this part of all displacement is rounding, and a speed that would take T for this
+/// part of the motion is rest.
+constexpr double rounding = 1e-6, rest = 1e-3;
+/// Shorter steps cost more than they tell: contact that they do not resolve is warned of.
+constexpr int mostParts = 16;
 
 }  // namespace
 
@@ -31,12 +38,18 @@ StepComparison::StepComparison(CompiledModel& model,
   window_.sampling = window.step;  // of which steps of a half are a whole part
 }
 
-std::optional<StepComparison::Difference> StepComparison::withHalves() {
+bool StepComparison::shorten() {
+  if (parts_ >= mostParts) return false;
+  parts_ *= 2;
+  return true;
+}
+
+std::optional<StepComparison::Difference> StepComparison::withShorter() {
   return compare(make_(), window_.step, 0);
 }
 
 std::optional<StepComparison::Difference> StepComparison::withDisturbed() {
-  return compare(halves(), 0.5 * window_.step, disturbance);
+  return compare(sharpened(), shorterStep(), disturbance);
 }
 
 void StepComparison::begin(Motion& motion, std::unique_ptr<Integrator> scheme, double step) {
@@ -64,7 +77,7 @@ void StepComparison::advance(Motion& motion, double t) {
   model_->remember(motion.model);
 }
 
-std::unique_ptr<Integrator> StepComparison::halves() const {
+std::unique_ptr<Integrator> StepComparison::sharpened() const {
   auto made = make_();
   made->sharpen();
   return made;
@@ -76,12 +89,14 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
   model_->remember(snapshot);
   const long steps = std::lround((window_.end - window_.begin) / window_.step);
   const long between = std::max(1L, steps / disturbances);
-  double apart = 0, moved = 0, speed = 0, otherSpeed = 0;
+  double apart = 0, moved = 0, size = 0, speed = 0, otherSpeed = 0;
+  long unresolved = 0;
   bool whole = false;
   try {
     Motion run, second;
     begin(run, std::move(first), step);
-    begin(second, halves(), 0.5 * window_.step);
+    begin(second, sharpened(), shorterStep());
+    const auto* contact = dynamic_cast<const NumericalDamping*>(second.scheme.get());
     Vector before = start_.q, otherBefore = start_.q, difference = start_.q;
     const auto square = [&](const Vector& a, const Vector& b) {
       difference = a - b;
@@ -92,8 +107,10 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
       if (k % between == 0) second.state.v *= k / between % 2 == 0 ? 1 - kick : 1 + kick;
       advance(run, t);
       advance(second, t);
+      if (contact != nullptr && contact->hasUnresolvedContact()) ++unresolved;
       apart += square(run.state.q, second.state.q);
       moved += square(second.state.q, start_.q);
+      size += norm_.square(second.state.q);
       if (2 * k > steps) {
         speed += square(run.state.q, before);
         otherSpeed += square(second.state.q, otherBefore);
@@ -105,9 +122,16 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
   } catch (const ConvergenceError&) {
   }
   model_->comeBack(snapshot);
-  if (!whole || !(moved > 0) || !(otherSpeed > 0) || !std::isfinite(apart + moved + otherSpeed))
-    return std::nullopt;
-  return Difference{std::sqrt(apart / moved), std::sqrt(speed / otherSpeed)};
+  if (!whole || !std::isfinite(apart + moved + otherSpeed)) return std::nullopt;
+  Difference found;
+  found.unresolved = static_cast<double>(unresolved) > oftenUnresolved * static_cast<double>(steps);
+  if (std::max(moved, apart) <= rounding * rounding * size) return found;
+  found.size = moved > 0 ? std::sqrt(apart / moved) : std::numeric_limits<double>::infinity();
+  const double inT = static_cast<double>(steps * steps) * std::max(speed, otherSpeed);
+  if (inT <= rest * rest * moved) return found;
+  found.speeds =
+      otherSpeed > 0 ? std::sqrt(speed / otherSpeed) : std::numeric_limits<double>::infinity();
+  return found;
 }
 
 }  // namespace tooljoint::transient

@@ -7,11 +7,12 @@
 ///     r^2 = sum |q_k - q_k-1|^2 / sum |q'_k - q'_k-1|^2     over those in the second half of T
 ///
 /// |.| is the norm over the translations of the nodes, q' the displacement of the other motion.
-/// With halves, without numerical damping, D is the vibration error less that of the halves: half
-/// of it where the steps are of first order, most of it else. With the steps of the run and a
-/// velocity that is disturbed by a thousandth, D is the sensitivity: where it is of the size of the
-/// first, the motion parts from any neighbour and only means like r say whether the steps are
-/// right.
+/// The other steps are halves without numerical damping, or shorter where halves do not resolve
+/// contact that rests on a wall (NumericalDamping.hpp). Beside halves D is the vibration error less
+/// that of the halves: half of it where the steps are of first order, most of it else. Of the other
+/// steps beside themselves with a velocity that is disturbed by a thousandth, D is the sensitivity:
+/// where it is of the size of the first, the motion parts from any neighbour and only means like r
+/// say whether the steps are right.
 ///
 /// Objects, points and states are its own; the model is left as it was.
 #pragma once
@@ -29,8 +30,9 @@ namespace tooljoint::transient {
 class StepComparison {
  public:
   struct Difference {
-    double size = 0;    ///< D
-    double speeds = 1;  ///< r
+    double size = 0;          ///< D; 0 where nothing moves
+    double speeds = 1;        ///< r
+    bool unresolved = false;  ///< contact rests on walls too stiff for the shorter steps, too
   };
 
   /// \param make    objects made from the parameters of the run
@@ -40,9 +42,13 @@ class StepComparison {
   /// \param stop    true when the user has asked for an end
   StepComparison(CompiledModel& model, std::function<std::unique_ptr<Integrator>()> make,
                  const Window& window, double span, const State& start, std::function<bool()> stop);
-  /// Beside halves without numerical damping; nothing where these have no solution. Collective.
-  std::optional<Difference> withHalves();
-  /// Beside a disturbed motion in equal steps. Collective.
+  /// The other steps become half as long; false where they are a sixteenth already.
+  bool shorten();
+  double shorterStep() const { return window_.step / parts_; }
+  /// Beside the shorter steps without numerical damping; nothing where these have no solution.
+  /// Collective.
+  std::optional<Difference> withShorter();
+  /// These beside a disturbed motion of their own. Collective.
   std::optional<Difference> withDisturbed();
 
  private:
@@ -55,12 +61,13 @@ class StepComparison {
   };
   void begin(Motion& motion, std::unique_ptr<Integrator> scheme, double step);
   void advance(Motion& motion, double t);
-  std::unique_ptr<Integrator> halves() const;
+  std::unique_ptr<Integrator> sharpened() const;
   std::optional<Difference> compare(std::unique_ptr<Integrator> first, double step, double kick);
 
   CompiledModel* model_;
   std::function<std::unique_ptr<Integrator>()> make_;
   Window window_;
+  int parts_ = 2;  ///< of a step, that the other steps are
   State start_;
   std::function<bool()> stop_;
   TranslationNorm norm_;

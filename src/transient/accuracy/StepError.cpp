@@ -114,6 +114,7 @@ void StepError::lookAtDamping(const State& from, const State& to) {
   difference_ = to.q - from.q;
   vibrated_ += weight * norm_.square(difference_) / (to.t - from.t);
   lost_ += weight * damping_->dissipated(from, to);
+  if (damping_->hasUnresolvedContact()) rested_ += weight;
 }
 
 void StepError::after(const State& from, const State& to) {
@@ -187,11 +188,15 @@ double StepError::damped() const {
   return 1 - std::exp(-std::max(0.0, 0.25 * turning_ * lost_ / energy));
 }
 
+bool StepError::hasUnresolvedContact() const {
+  return rested_ > oftenUnresolved * static_cast<double>(taken_);
+}
+
 void StepError::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(),
-                {static_cast<double>(seen_), static_cast<double>(end_), most_,
-                 static_cast<double>(count_), errors_, moved_, sizes_, lost_, vibrated_, speeds_,
-                 offsets_, looked_, static_cast<double>(taken_), static_cast<double>(looks_)});
+  memory.insert(memory.end(), {static_cast<double>(seen_), static_cast<double>(end_), most_,
+                               static_cast<double>(count_), errors_, moved_, sizes_, lost_,
+                               vibrated_, speeds_, offsets_, looked_, static_cast<double>(taken_),
+                               static_cast<double>(looks_), rested_});
   if (end_ >= 0) {
     from_.save(memory);
     memory.insert(memory.end(), first_.begin(), first_.end());
@@ -213,6 +218,7 @@ void StepError::restore(const double*& memory) {
     *sum = *memory++;
   taken_ = static_cast<long>(*memory++);
   looks_ = static_cast<long>(*memory++);
+  rested_ = *memory++;
   plan();
   if (end_ >= 0) {
     from_.restore(memory);

@@ -20,6 +20,9 @@
 /// / h> / (4 <v'M v / 2>), v'M v from the speeds of the nodes. S does not see what steps and halves
 /// damp alike.
 ///
+/// In the same steps it is asked whether contact rests on walls too stiff for them: vibration of
+/// such contact is held down by steps and halves alike.
+///
 /// The second object has points, factor, counters and memory of its own and leaves the model as it
 /// was: the run does not notice it.
 #pragma once
@@ -49,6 +52,8 @@ class StepError {
   /// 1 - exp(-d): part of its amplitude that vibration loses in T by the scheme; 0 where it is not
   /// known.
   double damped() const;
+  /// Contact rests on walls too stiff for the steps in more than a tenth of them.
+  bool hasUnresolvedContact() const;
   double span() const { return turning_; }  ///< T [s]
   /// Of a scheme that damps; null for others.
   const NumericalDamping* damping() const { return damping_; }
@@ -96,6 +101,7 @@ class StepError {
   double lost_ = 0, vibrated_ = 0;  ///< sum of e [J], integral of |v|^2
   long taken_ = 0;                  ///< steps, those of cut ones one by one
   long looks_ = 0;                  ///< at steps after the first ones
+  double rested_ = 0;               ///< steps with unresolved contact
   // over windows
   double speeds_ = 0, offsets_ = 0, looked_ = 0;  ///< integrals of |v|^2, |q - q(0)|^2 and 1
 };

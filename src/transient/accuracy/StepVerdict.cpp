@@ -16,13 +16,13 @@ namespace {
 
 /// The motion is compared from this part of `Step Error Limit` on, and from this part of `Step
 /// Error Warning` that the scheme damps: what it holds down from the start has little to lose.
-constexpr double compared = 0.5, damps = 0.2;
+constexpr double comparedError = 0.5, comparedDamping = 0.2;
 /// Step error as large as the motion, which no comparison saves.
-constexpr double all = 1;
-/// Part of D from which the sensitivity explains it.
-constexpr double explains = 0.25;
+constexpr double lostMotion = 1;
+/// Sensitivity over D from which the motion is chaotic.
+constexpr double chaoticShare = 0.25;
 /// Times `Step Error Limit` by which speeds may be larger or smaller: by half at its default.
-constexpr double ofSpeeds = 2.5;
+constexpr double speedTolerance = 2.5;
 
 /// A part of 1 in per cent, with two digits.
 std::string percent(double part) {
@@ -35,33 +35,61 @@ std::string percent(double part) {
 
 /// What is known of the steps of a run.
 struct Findings {
-  double error = 0;   ///< S
-  double damped = 0;  ///< part of the amplitude that the scheme takes
-  std::optional<StepComparison::Difference> halves;
-  std::optional<StepComparison::Difference> neighbour;  ///< of the halves
+  double error = 0;        ///< S
+  double damped = 0;       ///< part of the amplitude that the scheme takes
+  bool rests = false;      ///< contact, on walls too stiff for the step
+  double shorterStep = 0;  ///< [s]
+  std::optional<StepComparison::Difference> shorter;
+  std::optional<StepComparison::Difference> neighbour;  ///< of the shorter steps
 
-  /// Means that are far from those of the halves.
-  bool isSlow(double limit) const { return halves && halves->speeds * (1 + ofSpeeds * limit) < 1; }
-  bool isFast(double limit) const { return halves && halves->speeds > 1 + ofSpeeds * limit; }
-  /// Neighbours part as far as steps and halves do.
-  bool isChaos() const { return neighbour && neighbour->size > explains * halves->size; }
-  double reported() const { return halves ? halves->size : error; }
+  /// Means that are far from those of the shorter steps.
+  bool isSlow(double limit) const {
+    return shorter && shorter->speeds * (1 + speedTolerance * limit) < 1;
+  }
+  bool isFast(double limit) const {
+    return shorter && shorter->speeds > 1 + speedTolerance * limit;
+  }
+  /// Neighbours part as far as steps and shorter steps do.
+  bool isChaos() const { return neighbour && neighbour->size > chaoticShare * shorter->size; }
+  double reported() const { return shorter ? shorter->size : error; }
   bool isRight(double warning) const {
-    return halves && halves->size <= warning && std::abs(halves->speeds - 1) <= warning;
+    return shorter && !isUnknown() && shorter->size <= warning &&
+           std::abs(shorter->speeds - 1) <= warning;
+  }
+  /// Contact that neither the steps nor what they are compared with resolve.
+  bool isUnknown() const { return rests && shorterStep > 0 && (!shorter || shorter->unresolved); }
+  bool isWide(double warning) const {
+    return error > warning || (shorter && shorter->size > warning) || isUnknown();
+  }
+  bool isTooLarge(double limit) const {
+    return isSlow(limit) || isFast(limit) || (neighbour && !isChaos());
   }
 };
 
 std::string describe(const Findings& found, double span) {
   std::ostringstream text;
   text << "step error " << percent(found.error);
-  if (!found.halves) return text.str();
-  text << std::setprecision(2) << "; in its first " << span << " s the motion differs by "
-       << percent(found.halves->size)
-       << " from that in half the step without numerical damping, at " << found.halves->speeds
-       << " of its speed";
+  if (found.shorter)
+    text << std::setprecision(2) << "; in its first " << span << " s the motion differs by "
+         << percent(found.shorter->size) << " from that in steps of " << found.shorterStep
+         << " s without numerical damping, at " << found.shorter->speeds << " of its speed";
   if (found.neighbour)
     text << ", and a disturbance of 0.1 % changes that by " << percent(found.neighbour->size);
+  if (found.isUnknown())
+    text << "; contact rests on walls too stiff for the step, and steps of " << found.shorterStep
+         << " s " << (found.shorter ? "do not resolve it either" : "have no solution");
   return text.str();
+}
+
+/// Beside steps short enough for contact that rests on walls.
+void compare(StepComparison motions, double limit, Findings& found) {
+  do {
+    found.shorterStep = motions.shorterStep();
+    found.shorter = motions.withShorter();
+    found.neighbour.reset();
+    if (found.shorter && found.shorter->size > limit) found.neighbour = motions.withDisturbed();
+  } while (found.shorter && found.shorter->unresolved && !found.isTooLarge(limit) &&
+           motions.shorten());
 }
 
 void warnOfDamping(const Findings& found, const StepError& error, double step) {
@@ -80,27 +108,25 @@ double judgeSteps(const Integrator& run, const StepError& error, const Transient
   Findings found;
   found.error = error.value();
   found.damped = error.damped();
-  const bool lost = found.error > std::max(all, limit);
-  const bool due = found.error > compared * limit || found.damped > damps * warning;
-  if (due && !lost && limit < all) {
-    auto motions = comparison();
-    found.halves = motions.withHalves();
-    if (found.halves && found.halves->size > limit) found.neighbour = motions.withDisturbed();
+  const bool lost = found.error > std::max(lostMotion, limit);
+  found.rests = error.hasUnresolvedContact();
+  const bool due = found.error > comparedError * limit ||
+                   found.damped > comparedDamping * warning || found.rests;
+  if (due && !lost && limit < lostMotion) {
+    compare(comparison(), limit, found);
     log::info("accuracy    " + describe(found, error.span()));
   }
-  const bool slow = found.isSlow(limit);
-  const bool apart = found.neighbour && !found.isChaos();
-  const bool tooLarge = lost || apart || slow || found.isFast(limit);
+  const bool tooLarge = lost || found.isTooLarge(limit);
   if (!tooLarge && found.isRight(warning)) return found.reported();
   const double step = run.counters().maxStep;
   if (found.damped > warning) warnOfDamping(found, error, step);
-  const bool wide = found.error > warning || (found.halves && found.halves->size > warning);
-  if (!tooLarge && !wide) return found.reported();
+  if (!tooLarge && !found.isWide(warning)) return found.reported();
   std::ostringstream text;
   text << "The time step (" << step << " s) is " << (tooLarge ? "too large" : "coarse") << ": "
        << describe(found, error.span()) << ". "
-       << (slow && error.damping() != nullptr ? error.damping()->dampingAdvice()
-                                              : run.stepAdvice());
+       << (found.isSlow(limit) && !found.rests && error.damping() != nullptr
+               ? error.damping()->dampingAdvice()
+               : run.stepAdvice());
   if (tooLarge) throw ConvergenceError(text.str());
   log::warn(text.str());
   return found.reported();

@@ -14,10 +14,11 @@ namespace tooljoint::transient {
 
 /// S above `Step Error Warning` warns, and so does a scheme that damps more of the vibration than
 /// that; the run fails with an S above 1. Where S is above half of `Step Error Limit`, or the
-/// scheme damps more than a fifth of `Step Error Warning`, its motion is compared
-/// (StepComparison.hpp): it fails when D is above the limit, unless neighbours part as far, and
-/// when its speeds are more than 2.5 limits off; nothing is said of a D within `Step Error
-/// Warning`. A limit of 1 and more is one of S alone. Throws ConvergenceError. Collective.
+/// scheme damps more than a fifth of `Step Error Warning`, or contact rests on walls too stiff for
+/// the step, its motion is compared (StepComparison.hpp): it fails when D is above the limit,
+/// unless neighbours part as far, and when its speeds are more than 2.5 limits off; nothing is said
+/// of a D within `Step Error Warning`. A limit of 1 and more is one of S alone. Throws
+/// ConvergenceError. Collective.
 double judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
                   const std::function<StepComparison()>& comparison);
 

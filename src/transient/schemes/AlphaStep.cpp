@@ -232,6 +232,10 @@ void AlphaStep::restore(const double*& memory) {
   equation_.restore(memory);
 }
 
+bool AlphaStep::restsOnImpacts() const {
+  return model_->cut().any(!impacts_.blocks.empty() && !lastImpacts_.blocks.empty());
+}
+
 void AlphaStep::listBlocks(Impacts& impacts) const {
   impacts.blocks.clear();
   const auto& pattern = model_->pattern();

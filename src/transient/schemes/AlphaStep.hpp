@@ -50,6 +50,8 @@ class AlphaStep {
   /// Energy [J] that the scheme has taken in the step kept last, of length h; 0 where it met walls
   /// as impacts, which the balance leaves out.
   double dissipated(const State& from, const State& to, double h) const;
+  /// Whether points met walls as impacts in both of the last two steps. Collective.
+  bool restsOnImpacts() const;
   const ImplicitStep& equation() const { return equation_; }
   /// After start().
   const MassFactor& mass() const { return *mass_; }

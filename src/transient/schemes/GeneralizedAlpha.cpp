@@ -154,6 +154,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   std::string dampingAdvice() const override {
     return "Set Transient/Generalized-alpha/Spectral Radius nearer to 1, or reduce Transient/Step.";
   }
+  bool hasUnresolvedContact() const override { return scheme_->restsOnImpacts(); }
   void checkParameters(double step) const override;
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <limits>
+#include <string>
 
 #include "Models.hpp"
 #include "common/Error.hpp"
@@ -60,7 +62,7 @@ TEST(StepComparison, isThePhaseThatStepsLoseMoreThanHalves) {
     }
     const auto model = oscillator(1.0, 0.0, w * w, 0.3, 0.0);
     Compared run(model, wh, 1.0, false);
-    const auto found = run.comparison.withHalves();
+    const auto found = run.comparison.withShorter();
     ASSERT_TRUE(found) << wh;
     EXPECT_NEAR(found->size, std::sqrt(apart / moved), 1e-3 * std::sqrt(apart / moved)) << wh;
     EXPECT_NEAR(found->speeds, std::sqrt(speed / other), 1e-3) << wh;
@@ -82,7 +84,7 @@ TEST(StepComparison, showsWhatTheSchemeTakes) {
       mean += (std::pow(samples.q[i][0] / 0.3, 2) + std::pow(samples.v[i][0] / (0.3 * w), 2)) /
               static_cast<double>(samples.q.size() - samples.q.size() / 2);
     Compared run(model, 0.3, radius, true);
-    const auto found = run.comparison.withHalves();
+    const auto found = run.comparison.withShorter();
     ASSERT_TRUE(found);
     EXPECT_LT(std::sqrt(mean), 0.95) << radius;
     EXPECT_NEAR(found->speeds, std::sqrt(mean), 0.03) << radius;
@@ -105,11 +107,42 @@ TEST(StepComparison, tellsChaosFromVibration) {
   EXPECT_GT(wild->size, 0.1);
 }
 
+/// A mass that rests on a floor with (w h / 2)^2 = 6, which halves take for an impact, too, beside
+/// one that swings freely. A negative damper makes vibration of the contact grow by exp(10 t); steps
+/// and halves hold it down, and S is that of the other mass.
+TEST(StepComparison, seesContactThatHalvesHoldDownToo) {
+  const auto said = [](double damper, double floor) {
+    const Vector both = (Vector(2) << 0, w * w).finished(),
+                 first = (Vector(2) << damper, 0).finished();
+    auto model = denseModel(Matrix::Identity(2, 2), first.asDiagonal(), both.asDiagonal());
+    model.loads.push_back({"weight", (Vector(2) << -9.81, w * w).finished(), 0});
+    model.initialDisplacement << -9.81e-6, 1 + 3e-4;
+    model.initialVelocity << 1e-5, 0;
+    addFloor(model, 1e6, floor, 7e11);
+    auto o = options("Generalized-alpha", 2.0, 5e-3, 0.05);
+    o.own.set("Resolve Impacts", false);
+    o.energyResidualLimit = std::numeric_limits<double>::infinity();
+    Keep samples;
+    log::clearWarnings();
+    try {
+      integrate(model, o, samples);
+    } catch (const ConvergenceError& e) {
+      return std::string(e.what());
+    }
+    return log::warnings().empty() ? std::string() : log::warnings().front();
+  };
+  const auto refused = said(-20, 0);
+  EXPECT_NE(refused.find("too large: step error 0"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("from that in steps of 0.0013 s"), std::string::npos) << refused;
+  EXPECT_EQ(said(-20, 1e3), "");  // the floor takes more than the damper makes
+  EXPECT_EQ(said(0, 0), "");
+}
+
 TEST(StepComparison, endsWhenItIsStopped) {
   const auto model = oscillator(1.0, 0.0, w * w, 0.3, 0.0);
   int looks = 0;
   Compared run(model, 0.1, 1.0, true, [&] { return ++looks > 10; });
-  EXPECT_FALSE(run.comparison.withHalves());
+  EXPECT_FALSE(run.comparison.withShorter());
   EXPECT_EQ(looks, 11);
 }
 
