@@ -19,7 +19,7 @@ constexpr long disturbances = 16;
 /// part of the motion is rest.
 constexpr double rounding = 1e-6, rest = 1e-3;
 /// Shorter steps cost more than they tell: contact that they do not resolve is warned of.
-constexpr int mostParts = 16;
+constexpr int mostParts = 32;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ StepComparison::StepComparison(CompiledModel& model,
 
 bool StepComparison::shorten() {
   if (parts_ >= mostParts) return false;
-  parts_ *= 2;
+  parts_ *= 4;
   return true;
 }
 

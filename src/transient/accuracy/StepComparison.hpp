@@ -42,7 +42,7 @@ class StepComparison {
   /// \param stop    true when the user has asked for an end
   StepComparison(CompiledModel& model, std::function<std::unique_ptr<Integrator>()> make,
                  const Window& window, double span, const State& start, std::function<bool()> stop);
-  /// The other steps become half as long; false where they are a sixteenth already.
+  /// The other steps become a quarter as long; false where they are a 32nd of a step already.
   bool shorten();
   double shorterStep() const { return window_.step / parts_; }
   /// Beside the shorter steps without numerical damping; nothing where these have no solution.

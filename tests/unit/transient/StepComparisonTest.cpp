@@ -133,7 +133,7 @@ TEST(StepComparison, seesContactThatHalvesHoldDownToo) {
   };
   const auto refused = said(-20, 0);
   EXPECT_NE(refused.find("too large: step error 0"), std::string::npos) << refused;
-  EXPECT_NE(refused.find("from that in steps of 0.0013 s"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("from that in steps of 0.00063 s"), std::string::npos) << refused;
   EXPECT_EQ(said(-20, 1e3), "");  // the floor takes more than the damper makes
   EXPECT_EQ(said(0, 0), "");
 }
