@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cases/nodes/NodeDofs.hpp"
+#include "linalg/ComplexProduct.hpp"
 
 namespace tooljoint::response {
 
@@ -76,11 +77,7 @@ Ellipses::Ellipses(const model::SecondOrderModel& model, const std::vector<cases
 
 ComplexMatrix Ellipses::axes(const Eigen::VectorXcd& q) const {
   ComplexMatrix out(rows_[0].rows(), 2);
-  for (int axis : {0, 1}) {
-    const auto& rows = rows_[static_cast<std::size_t>(axis)];
-    out.col(axis).real() = rows * Vector(q.real());
-    out.col(axis).imag() = rows * Vector(q.imag());
-  }
+  for (int axis : {0, 1}) out.col(axis) = linalg::times(rows_[static_cast<std::size_t>(axis)], q);
   return out;
 }
 

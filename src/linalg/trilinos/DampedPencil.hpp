@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "linalg/ComplexProduct.hpp"
 #include "linalg/DynamicStiffness.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
@@ -50,8 +51,6 @@ struct DampedModes {
   std::vector<Complex> values;
   std::vector<ComplexVector> vectors;
 };
-
-ComplexVector times(const Sparse& A, const ComplexVector& x);
 
 /// |s| at which s is zero but for the rounding of K: |s|^2 phi'|M|phi + |s| phi'|C|phi of the size
 /// of what rounding leaves of phi'K phi.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "response/ModeSearch.hpp"
+#include "response/campbell/ModeSearch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "response/Campbell.hpp"
+#include "response/campbell/Campbell.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 #include "common/Index.hpp"
 #include "estimate/ModeMatching.hpp"
 #include "linalg/DynamicStiffness.hpp"
-#include "response/ModeSearch.hpp"
 #include "response/SweepParameters.hpp"
 #include "response/SweepProgress.hpp"
+#include "response/campbell/ModeSearch.hpp"
 
 namespace tooljoint::response {
 

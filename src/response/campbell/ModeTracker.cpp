@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "response/ModeTracker.hpp"
+#include "response/campbell/ModeTracker.hpp"
 
 #include <algorithm>
 #include <utility>

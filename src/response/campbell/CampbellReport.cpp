@@ -10,8 +10,8 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
-#include "response/Campbell.hpp"
 #include "response/Columns.hpp"
+#include "response/campbell/Campbell.hpp"
 
 namespace tooljoint::response {
 
