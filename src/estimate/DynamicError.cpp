@@ -14,9 +14,6 @@ namespace tooljoint::estimate {
 
 namespace {
 
-using Complex = std::complex<double>;
-using ComplexMatrix = Eigen::MatrixXcd;
-using ComplexVector = Eigen::VectorXcd;
 using linalg::times;
 
 ComplexMatrix rows(const ComplexMatrix& x, const std::vector<int>& positions) {

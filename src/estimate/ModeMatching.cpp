@@ -11,9 +11,6 @@ namespace tooljoint::estimate {
 
 namespace {
 
-using Complex = std::complex<double>;
-using ComplexMatrix = Eigen::MatrixXcd;
-using ComplexVector = Eigen::VectorXcd;
 using linalg::times;
 
 /// Of a unit vector, what is left beside the others below this is rounding: shapes of a Jordan

@@ -13,8 +13,6 @@ namespace tooljoint::response {
 
 namespace {
 
-using ComplexMatrix = Eigen::MatrixXcd;
-
 /// Nodes that are open at rest, with their gaps.
 std::vector<AlongString::Node> openNodes(const RotatingCase& rotating, const std::string& axis) {
   const auto& model = rotating.model();

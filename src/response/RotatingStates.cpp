@@ -25,7 +25,7 @@ std::unique_ptr<cases::Case> turningAt(const cases::Case& one, double speed) {
   throw DeckError(one.deck().error(
       "Campbell/Static State",
       "is \"Each Speed\", but the state at rest of this scene is the same at all speeds. Leave it "
-      "out; the state of a string with the list Rotary Speed follows the speed."));
+      "out; only the state of a string with the list Rotary Speed depends on the speed."));
 }
 
 }  // namespace

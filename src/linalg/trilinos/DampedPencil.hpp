@@ -16,9 +16,6 @@
 
 namespace tooljoint::linalg {
 
-using Complex = std::complex<double>;
-using ComplexVector = Eigen::VectorXcd;
-
 /// Relative error of s - sigma, sigma the shift, that is accepted beside the rounding of K: the
 /// last of the eight digits that are printed. Values of a Krylov space that has converged are
 /// better by some orders; what is above this bound is not rounding but a space that is too small.

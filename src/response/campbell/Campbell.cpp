@@ -19,8 +19,6 @@ namespace tooljoint::response {
 
 namespace {
 
-using Complex = std::complex<double>;
-
 /// Relative distance of two values that are one repeated value: the whirl of its modes is
 /// arbitrary.
 constexpr double repeated = 1e-6;

@@ -12,8 +12,6 @@ namespace tooljoint::response {
 
 namespace {
 
-using Complex = std::complex<double>;
-
 /// Of |s|: a mode with less Im s does not vibrate.
 constexpr double noVibration = 1e-6;
 /// Modes looked at beyond those followed: the next ones may come below them.
