@@ -175,7 +175,7 @@ class Run {
   transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {
     const auto estimator = motionEstimator(*rest_, reduced_);
     TeeSink both(*recorder_, *estimator);
-    const auto report = files_.integrate(model, case_.transient(), *recorder_, both);
+    auto report = files_.integrate(model, case_.transient(), *recorder_, both);
     const auto error = estimator->result();
     log::info(describeMotionError(error));
     summarise(error, files_.summary());

@@ -143,7 +143,7 @@ std::string RunFiles::findSamples() const {
   for (const std::string& name :
        {std::string(io::resultsName) + ".part", std::string(io::resultsName),
         std::string(io::checkpointSamplesName)}) {
-    const auto file = (fs::path(options_.restart) / name).string();
+    auto file = (fs::path(options_.restart) / name).string();
     reasons.push_back(whyNot(file));
     if (reasons.back().empty()) return file;
   }
@@ -159,7 +159,7 @@ std::string RunFiles::keepSamples(const std::string& samples) const {
       fs::path(samples).filename() == io::resultsName && folder_->hasFinishedResults();
   if (!samePlace_ || finished || fs::path(samples).filename() == io::checkpointSamplesName)
     return samples;
-  const auto kept = at(io::checkpointSamplesName);
+  auto kept = at(io::checkpointSamplesName);
   std::error_code error;
   fs::rename(samples, kept, error);
   if (error)
