@@ -229,7 +229,7 @@ def bad_files(times):
     refused("no file", "The measured log", None, file="nowhere.csv")
     refused("an empty file", "is empty", "")
     refused("another column", 'bad.csv:1: the header has no column "BIT_RPM". Did you mean "BIT RPM2"? Columns: "Time", "BIT RPM2".', good.replace("BIT_RPM", "BIT RPM2"))
-    refused("a column twice", 'stands more than once', "Time [s], BIT_RPM [rpm], bit_rpm [rpm]\n0, 1, 1\n1, 1, 1\n")
+    refused("a column twice", 'occurs more than once', "Time [s], BIT_RPM [rpm], bit_rpm [rpm]\n0, 1, 1\n1, 1, 1\n")
     refused("no unit", 'bad.csv:1: the column "BIT_RPM" has no unit.', good.replace("BIT_RPM [rpm]", "BIT_RPM"))
     refused("another quantity", 'has the unit "kN", which is not a unit of the compared quantity (rad/s)', good.replace("[rpm]", "[kN]"))
     refused("two units", 'has the unit "rpm", the deck gives "rad/s". Leave out the one of the deck.', good, "--set", "Measured Log/Columns/bit/Unit=rad/s")
