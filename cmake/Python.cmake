@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The Python package tooljoint: python/core/*.cpp become its module tooljoint._core, python/tooljoint/ holds the rest. The build tree has a
+# The Python package tooljoint: python/core/ becomes its module tooljoint._core, python/tooljoint/ holds the rest. The build tree has a
 # package that can be imported, ${PROJECT_BINARY_DIR}/python.
 find_program(TOOLJOINT_PYTHON_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)  # the distribution's, to which its numpy and scipy belong
 find_program(TOOLJOINT_PYTHON_EXECUTABLE python3)
@@ -25,7 +25,7 @@ if(NOT python_found)
 endif()
 message(STATUS "Python package: yes (pybind11 ${pybind11_VERSION}, Python ${Python_VERSION}, ${Python_EXECUTABLE})")
 
-file(GLOB core CONFIGURE_DEPENDS python/core/*.cpp)
+file(GLOB_RECURSE core CONFIGURE_DEPENDS python/core/*.cpp)
 pybind11_add_module(tooljoint_python MODULE NO_EXTRAS ${core})
 set(package_in_build ${PROJECT_BINARY_DIR}/python/tooljoint)
 file(MAKE_DIRECTORY ${package_in_build})

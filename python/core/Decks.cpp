@@ -18,8 +18,8 @@
 #include "common/report/Log.hpp"
 #include "deck/Deck.hpp"
 #include "deck/Manual.hpp"
-#include "response/Campbell.hpp"
 #include "response/Response.hpp"
+#include "response/campbell/Campbell.hpp"
 #include "study/engine/Study.hpp"
 #include "study/map/Map.hpp"
 

@@ -74,7 +74,7 @@ bool InputFile::fill() {
 std::string InputFile::all(std::uint64_t most) {
   const auto refuse = [&] {
     throw FileError(path_ + " is larger than " + formatNumber(static_cast<double>(most)) +
-                    " bytes, the most that is read of such a file.");
+                    " bytes, the limit for a file of this kind.");
   };
   if (size_ > most) refuse();
   std::string text;
@@ -95,7 +95,7 @@ bool InputFile::line(std::string& text, std::size_t longest) {
     const std::size_t count = feed != nullptr ? static_cast<std::size_t>(feed - begin) : end_ - at_;
     if (text.size() + count > longest)
       throw FileError(path_ + " has a line of more than " + std::to_string(longest) +
-                      " characters, which cannot be one of such a file.");
+                      " characters, the limit for a file of this kind.");
     text.append(begin, count);
     at_ += count + (feed != nullptr ? 1 : 0);
     if (feed != nullptr) return true;

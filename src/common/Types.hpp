@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <complex>
 #include <vector>
 
 namespace tooljoint {
@@ -15,6 +16,9 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
+using Complex = std::complex<double>;
+using ComplexVector = Eigen::VectorXcd;
+using ComplexMatrix = Eigen::MatrixXcd;
 using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 using Triplet = Eigen::Triplet<double, int>;
 using Triplets = std::vector<Triplet>;

@@ -65,7 +65,7 @@ std::vector<char> spuriousShapes(const model::SecondOrderModel& model,
       all += x.dot(Mx);
       forces += x.dot(ofForces.cwiseProduct(Mx));
     }
-    spurious[static_cast<std::size_t>(j)] = forces > 0.5 * all;
+    spurious[static_cast<std::size_t>(j)] = forces > 0.5 * all ? 1 : 0;
   }
   return spurious;
 }

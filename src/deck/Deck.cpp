@@ -141,7 +141,7 @@ std::string Deck::resolve(const std::string& name) const {
 
 std::string Deck::relative(const std::string& path) const {
   const bool absolute = !path.empty() && path[0] == '/';
-  const std::string bare = absolute ? path.substr(1) : path;
+  std::string bare = absolute ? path.substr(1) : path;
   const std::string prefix = name_ + "/";
   const bool named = bare == name_ || bare.compare(0, prefix.size(), prefix) == 0;
   if (!named || (!absolute && places_->places.count(bare) != 0)) return bare;

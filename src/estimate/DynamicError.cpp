@@ -5,7 +5,7 @@
 
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
-#include "estimate/ComplexProduct.hpp"
+#include "linalg/ComplexProduct.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "model/DofNames.hpp"
 #include "reduction/part/Partition.hpp"
@@ -14,9 +14,7 @@ namespace tooljoint::estimate {
 
 namespace {
 
-using Complex = std::complex<double>;
-using ComplexMatrix = Eigen::MatrixXcd;
-using ComplexVector = Eigen::VectorXcd;
+using linalg::times;
 
 ComplexMatrix rows(const ComplexMatrix& x, const std::vector<int>& positions) {
   ComplexMatrix part(static_cast<Eigen::Index>(positions.size()), x.cols());

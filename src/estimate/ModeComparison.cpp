@@ -22,9 +22,6 @@ namespace tooljoint::estimate {
 
 namespace {
 
-using Complex = std::complex<double>;
-using ComplexMatrix = Eigen::MatrixXcd;
-using ComplexVector = Eigen::VectorXcd;
 using constants::twoPi;
 /// Full modes computed beyond those compared, so that a repeated value is not cut, and coupled
 /// modes beyond the full ones, among which a shape is looked for: the rigid-body motions of one

@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <complex>
 
-#include "estimate/ComplexProduct.hpp"
+#include "linalg/ComplexProduct.hpp"
 #include "linalg/DenseDecompositions.hpp"
 
 namespace tooljoint::estimate {
 
 namespace {
 
-using Complex = std::complex<double>;
-using ComplexMatrix = Eigen::MatrixXcd;
-using ComplexVector = Eigen::VectorXcd;
+using linalg::times;
 
 /// Of a unit vector, what is left beside the others below this is rounding: shapes of a Jordan
 /// chain agree.

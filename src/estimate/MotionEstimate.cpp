@@ -268,12 +268,11 @@ void MotionEstimator::Impl::evaluatePoints(double t, double h, const Vector& at,
     batch.evaluateWithTangent(t, at.data(), rate.data());
   }
 } catch (const ConvergenceError& error) {  // most often of a delay line: it ends at the last sample
-  throw ConvergenceError(
-      "The error of the motion cannot be estimated: at t = " + formatNumber(t) +
-      " s a point law cannot be evaluated, most often since it looks back by less than the time "
-      "between two samples. Reduce Transient/Sampling Interval, or set \"Error Estimate\" to "
-      "\"Frequencies\". " +
-      error.what());
+  throw ConvergenceError("The error of the motion cannot be estimated: at t = " + formatNumber(t) +
+                         " s a point law cannot be evaluated, usually because its delay is shorter "
+                         "than the sampling interval. Reduce Transient/Sampling Interval, or set "
+                         "\"Error Estimate\" to \"Frequencies\". " +
+                         error.what());
 }
 
 /// R' f of the points of a part, as last evaluated.

@@ -43,8 +43,9 @@ void Csv::row(const std::vector<double>& values) {
   requireCount(values.size(), columns_.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) {
-      throw Error(ExitCode::Internal, "The table column \"" + columns_[i].name + "\" was given " +
-                                          formatNumber(values[i]) + ", which is never written.");
+      throw Error(ExitCode::Internal, "The table column \"" + columns_[i].name +
+                                          "\" was given the value " + formatNumber(values[i]) +
+                                          "; tables hold finite numbers only.");
     }
     text_ += (i > 0 ? "," : "") + formatNumber(values[i]);
   }

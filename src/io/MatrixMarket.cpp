@@ -241,8 +241,8 @@ void requireDense(const std::string& who, const Sparse& matrix, std::uint64_t fi
   if (numbers > std::max(smallDense, fileSize))
     throw MatrixFileError(
         who + " is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()) +
-        ", too large for a matrix that is needed with all its zeros: " +
-        std::to_string(smallDense) + " numbers, or as many as the file has bytes, are the most.");
+        ", too large for a dense matrix: the limit is " + std::to_string(smallDense) +
+        " numbers, or the number of bytes of the file when that is larger.");
 }
 
 std::string matrixMarketText(const Sparse& matrix) {

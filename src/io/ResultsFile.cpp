@@ -334,7 +334,7 @@ TimeSeries& ResultsFile::series(const std::string& path, const Shape& rowShape,
     const std::size_t count = std::min(result.chunkRows_, carried - first);
     const auto rows = earlier_->rows(path, first, count);
     if (rows.size() != count * result.rowSize_)
-      throw FileError("The results to go on from have another " + path + ".");
+      throw FileError("The results before the checkpoint have another size of " + path + ".");
     for (std::size_t i = 0; i < count; ++i) result.append(rows.data() + i * result.rowSize_);
   }
   return result;

@@ -93,7 +93,7 @@ void ResultsReader::fail(const std::string& what) const {
 std::size_t ResultsReader::count(const std::string& path, std::int64_t dataset) const {
   if (isElsewhere(dataset))
     throw FileError("The results file " + path_ + " has the values of " + path +
-                    " in other files; they must stand in itself.");
+                    " in other files, which are not read. Copy them into it.");
   const double values = valuesOf(extents(dataset));
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const double bytes = values * static_cast<double>(H5Tget_size(type.get()));

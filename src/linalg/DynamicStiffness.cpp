@@ -7,8 +7,6 @@ namespace tooljoint::linalg {
 
 namespace {
 
-using Complex = std::complex<double>;
-
 /// Relative change of an eigenvalue that ends its refinement, and the iterations allowed.
 constexpr double refined = 1e-9;
 constexpr int mostRefinements = 20;

@@ -19,14 +19,14 @@ class SharedSparse : public Eigen::Map<const Sparse> {
 
  public:
   SharedSparse() : SharedSparse(empty()) {}
-  SharedSparse(Sparse matrix) : SharedSparse(compressed(std::move(matrix))) {}
+  SharedSparse(Sparse&& matrix) : SharedSparse(taken(matrix)) {}
   template <class Derived>
   SharedSparse(const Eigen::EigenBase<Derived>& expression)
       : SharedSparse(Sparse(expression.derived())) {}
   SharedSparse(const SharedSparse& other)
       : View(static_cast<const View&>(other)), matrix_(other.matrix_) {}
   SharedSparse& operator=(const SharedSparse& other) {
-    look(other.matrix_);
+    if (this != &other) look(other.matrix_);
     return *this;
   }
   ~SharedSparse() = default;
@@ -43,12 +43,12 @@ class SharedSparse : public Eigen::Map<const Sparse> {
   void setFromTriplets(Iterator begin, Iterator end) {
     Sparse matrix(rows(), cols());
     matrix.setFromTriplets(begin, end);
-    *this = std::move(matrix);
+    look(taken(matrix));
   }
   void setIdentity() {
     Sparse matrix(rows(), cols());
     matrix.setIdentity();
-    *this = std::move(matrix);
+    look(taken(matrix));
   }
   SharedSparse& operator*=(double factor) { return *this = *this * factor; }
   /// Entry (i, j) for writing, until this matrix is copied; made if there is none.
@@ -73,9 +73,12 @@ class SharedSparse : public Eigen::Map<const Sparse> {
     static const Storage none = std::make_shared<Sparse>();
     return none;
   }
-  static Storage compressed(Sparse matrix) {
-    matrix.makeCompressed();
-    return std::make_shared<Sparse>(std::move(matrix));
+  /// The entries of a matrix, which is empty then: Eigen 3.4 moves sparse matrices by swap() alone.
+  static Storage taken(Sparse& matrix) {
+    auto storage = std::make_shared<Sparse>();
+    storage->swap(matrix);
+    storage->makeCompressed();
+    return storage;
   }
   /// A Map is made to look elsewhere by building it anew (Eigen's own advice).
   void look(Storage matrix) {

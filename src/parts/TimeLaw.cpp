@@ -204,7 +204,6 @@ model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list,
     throw DeckError(list.name() + "/Form is " + inQuotes(form) + ", but the list " +
                     inQuotes(form) + " with its parameters is missing.");
   const std::shared_ptr<const TimeLaw> law = TimeLaws::instance().make(form, list.sublist(form));
-  using Complex = std::complex<double>;
   if (law->ofSpeed()) {
     if (!speed)
       throw DeckError(list.name() + "/Form is " + inQuotes(form) +

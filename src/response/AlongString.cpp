@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "cases/nodes/NodeDofs.hpp"
+#include "linalg/ComplexProduct.hpp"
 
 namespace tooljoint::response {
 
 namespace {
-
-using ComplexMatrix = Eigen::MatrixXcd;
 
 /// Nodes that are open at rest, with their gaps.
 std::vector<AlongString::Node> openNodes(const RotatingCase& rotating, const std::string& axis) {
@@ -76,11 +75,7 @@ Ellipses::Ellipses(const model::SecondOrderModel& model, const std::vector<cases
 
 ComplexMatrix Ellipses::axes(const Eigen::VectorXcd& q) const {
   ComplexMatrix out(rows_[0].rows(), 2);
-  for (int axis : {0, 1}) {
-    const auto& rows = rows_[static_cast<std::size_t>(axis)];
-    out.col(axis).real() = rows * Vector(q.real());
-    out.col(axis).imag() = rows * Vector(q.imag());
-  }
+  for (int axis : {0, 1}) out.col(axis) = linalg::times(rows_[static_cast<std::size_t>(axis)], q);
   return out;
 }
 

@@ -20,9 +20,6 @@ namespace tooljoint::response {
 
 namespace {
 
-using Complex = std::complex<double>;
-using ComplexMatrix = Eigen::MatrixXcd;
-
 constexpr Complex imaginary{0.0, 1.0};
 /// Points of a golden section between two neighbours of a largest amplitude: the place of a peak is
 /// known to 1e-4 of their distance.
@@ -186,8 +183,8 @@ class Sweep {
   static void requireInverse(const linalg::DynamicStiffness& Q, const ResponsePoint& point) {
     if (Q.singular())
       throw ModelError("The dynamic stiffness at " + formatNumber(point.frequency) +
-                       " Hz is singular: the model resonates there without damping, or nothing "
-                       "holds it. Add damping or supports, or leave this frequency out.");
+                       " Hz is singular: the model has an undamped resonance there, or it is not "
+                       "supported. Add damping or supports, or leave this frequency out.");
   }
 
   /// The outputs of the deck and the extremes along the string in any model of the case.

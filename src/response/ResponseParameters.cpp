@@ -89,7 +89,7 @@ void requireSense(const ParameterList& list, const ResponseSettings& settings) {
                     "\" needs. Add a list with Node and Component.");
   if (unbalance && !settings.bySpeed())
     throw DeckError(list.name() +
-                    "/Highest Frequency has no sense for an unbalance, whose frequency is the "
+                    "/Highest Frequency has no meaning for an unbalance, whose frequency is the "
                     "rotary speed. Give Highest Speed.");
   if (unbalance && settings.order != 1.0)
     throw DeckError(list.name() + "/Order is " + formatNumber(settings.order) +

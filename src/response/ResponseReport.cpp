@@ -22,7 +22,6 @@ namespace tooljoint::response {
 namespace {
 
 using constants::rpmPerRadianPerSecond;
-using constants::twoPi;
 
 /// Responses in the words of the settings.
 class Report {

@@ -106,7 +106,7 @@ void RotatingCase::announceLaws() const {
   const auto followed = model::matrixLaws(model(), true), held = model::matrixLaws(model(), false);
   if (followed.empty())
     log::warn(
-        "No matrix of this scene follows the rotary speed, so its modes are the same at all "
+        "No matrix of this scene depends on the rotary speed, so its modes are the same at all "
         "speeds. A string needs the list Rotary Speed, parts need terms with the law \"Omega\".");
   else
     log::info("speed       the matrices follow the laws " + quotedList(followed));

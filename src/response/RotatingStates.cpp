@@ -8,20 +8,16 @@
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "linalg/ComplexProduct.hpp"
 
 namespace tooljoint::response {
 
 namespace {
 
+using linalg::times;
+
 /// States that are kept: a step over which shapes turn comes back to its end.
 constexpr std::size_t kept = 4;
-
-Eigen::MatrixXcd times(const Sparse& matrix, const Eigen::MatrixXcd& shapes) {
-  Eigen::MatrixXcd product(matrix.rows(), shapes.cols());
-  product.real() = matrix * Matrix(shapes.real());
-  product.imag() = matrix * Matrix(shapes.imag());
-  return product;
-}
 
 std::unique_ptr<cases::Case> turningAt(const cases::Case& one, double speed) {
   auto turning = one.turningAt(speed);
@@ -29,7 +25,7 @@ std::unique_ptr<cases::Case> turningAt(const cases::Case& one, double speed) {
   throw DeckError(one.deck().error(
       "Campbell/Static State",
       "is \"Each Speed\", but the state at rest of this scene is the same at all speeds. Leave it "
-      "out; the state of a string with the list Rotary Speed follows the speed."));
+      "out; only the state of a string with the list Rotary Speed depends on the speed."));
 }
 
 }  // namespace
@@ -98,7 +94,7 @@ Eigen::VectorXcd RotatingStates::own(const RotatingCase& rotating,
 }
 
 Eigen::VectorXcd RotatingStates::recovered(const Eigen::VectorXcd& shape) const {
-  return ofEachSpeed_ ? shape : Eigen::VectorXcd(times(recovery_, shape));
+  return ofEachSpeed_ ? shape : times(recovery_, shape);
 }
 
 }  // namespace tooljoint::response

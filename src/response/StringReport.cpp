@@ -64,8 +64,8 @@ void StringReport::print() const {
   }
   if (const auto* touching = firstTouch())
     log::warn(fmt::format(
-        "From {:.2f} rpm and {:.4f} Hz on node {} would reach the wall: what is open at rest "
-        "stays open in a linear response, so larger amplitudes are no longer those of the scene.",
+        "From {:.2f} rpm and {:.4f} Hz on, node {} reaches the wall. The linear response does not "
+        "include this contact: larger amplitudes are not those of the scene.",
         touching->speed * rpmPerRadianPerSecond, touching->frequency,
         response_.nodes[touching->along.margin->place].number));
 }

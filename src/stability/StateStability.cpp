@@ -23,8 +23,6 @@ namespace tooljoint::stability {
 
 namespace {
 
-using Complex = std::complex<double>;
-
 /// Modes of the symmetric tangent that the damped equations are projected on: so many beyond those
 /// of negative pivots, and at most.
 constexpr int modesBeyond = 12, mostModes = 60;

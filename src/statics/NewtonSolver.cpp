@@ -244,7 +244,7 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
   report.residual = scaledResidual(problem, scale, x, &worst);
   if (problem.size() == 0) {
     report.converged = true;
-    report.message = "converged: there is nothing to solve.";
+    report.message = "converged: no unknowns to solve for.";
     return report;
   }
   if (!std::isfinite(report.residual)) {

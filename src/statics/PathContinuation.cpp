@@ -170,15 +170,13 @@ void check(const model::ParametricProblem& problem, const Vector& start,
                      " unknowns cannot begin with a state of " + std::to_string(start.size()) +
                      ".");
   if (!(options.from < options.to))
-    throw ModelError(
-        "A path has to end at a larger parameter than it begins with: it is asked to "
-        "lead from " +
-        formatNumber(options.from) + " to " + formatNumber(options.to) + ".");
+    throw ModelError("The end parameter of a path must be larger than its first one. Given: from " +
+                     formatNumber(options.from) + " to " + formatNumber(options.to) + ".");
   const bool sizes = options.smallestStep > 0.0 && options.smallestStep <= options.firstStep &&
                      options.firstStep <= options.largestStep;
   if (!sizes)
     throw ModelError(
-        "The steps of a path have to obey 0 < smallest <= first <= largest: they are " +
+        "The steps of a path must satisfy 0 < smallest <= first <= largest: they are " +
         formatNumber(options.smallestStep) + ", " + formatNumber(options.firstStep) + " and " +
         formatNumber(options.largestStep) + ".");
 }
@@ -196,12 +194,12 @@ void conclude(const PathOptions& options, bool began, bool stopped, const std::s
     report.explanation = "The path reached its end" + at + ".";
   } else if (report.steps > 0 && std::abs(report.parameter - options.from) <= same) {
     report.end = PathEnd::Returned;
-    report.explanation = "The path turned and came back to its beginning" + at + ".";
+    report.explanation = "The path turned and returned to its start" + at + ".";
   } else if (thrown.empty() && report.steps + report.failedSteps >= options.maxSteps) {
     report.end = PathEnd::Steps;
     report.explanation = "The path ended" + at + " after " + std::to_string(report.steps) +
                          " steps (" + std::to_string(report.failedSteps) +
-                         " more were tried again in half): no more were allowed.";
+                         " more were repeated with half the length), the number allowed.";
   } else {
     report.end = PathEnd::Failed;
     const std::string why = thrown.empty()

@@ -49,7 +49,7 @@ double bandDifference(const MotionStatistics& a, const MotionStatistics& b) {
 }  // namespace
 
 double quantile(std::vector<double> values, double fraction) {
-  if (values.empty()) throw Error(ExitCode::Internal, "No numbers have no quantile.");
+  if (values.empty()) throw Error(ExitCode::Internal, "A quantile needs at least one number.");
   std::sort(values.begin(), values.end());
   const double place = fraction * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -61,9 +61,8 @@ MotionStatistics statisticsOf(const HistoryView& history, const std::vector<doub
                               const std::vector<double>& clearance, const Window& window) {
   if ((!bitSpeed.empty() && bitSpeed.size() != history.samples) ||
       clearance.size() != history.nodes)
-    throw Error(
-        ExitCode::Internal,
-        "Bit speeds or clearances do not belong to the history whose statistics are asked for.");
+    throw Error(ExitCode::Internal,
+                "The bit speeds or clearances do not match the history of the statistics.");
   std::vector<std::size_t> samples;
   for (std::size_t i = 0; i < history.samples; ++i)
     if (history.time[i] >= window.begin - 1e-9 && history.time[i] <= window.end + 1e-9)

@@ -51,8 +51,8 @@ std::string limitOf(const Group& group, double reference) {
   for (const auto* row : reduced) sizes.insert(row->dofs);
   if (sizes.size() < 3 || error(*largest) > alike * error(*least)) return "";
   return rows + fmt::format(
-                    ", with {} as with {} dofs: something beside the basis limits them, most "
-                    "likely the step. Reduce Transient/Step, or add the full model with this step.",
+                    ", with {} as with {} dofs: not the basis limits them, but most likely the "
+                    "step. Reduce Transient/Step, or add the full model with this step.",
                     *sizes.begin(), *sizes.rbegin());
 }
 

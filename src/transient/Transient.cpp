@@ -180,8 +180,8 @@ class Run {
     if (point.state.q.size() != model_.wholeSize() || point.state.x.size() != model_.stateSize() ||
         point.model != identity())
       throw DeckError(
-          "The checkpoint belongs to another model, or to other steps, than this deck describes. "
-          "Restart with the same deck.");
+          "The model or the steps of the checkpoint differ from those of this deck. Restart with "
+          "the same deck.");
   }
 
   /// Ranks with a memory of their own.
@@ -194,9 +194,10 @@ class Run {
       return n == 0 ? std::string("undivided") : "divided among " + std::to_string(n) + " ranks";
     };
     log::warn("The motion of the checkpoint is " + text(point.shares.size()) + ", this one is " +
-              text(shares()) + ": it begins anew at t = " + formatNumber(point.state.t) +
-              " s, with another error of its first steps than a run that is not stopped, and its "
-              "energy and step error are those from there on.");
+              text(shares()) +
+              ". The integration starts anew at t = " + formatNumber(point.state.t) +
+              " s: the error of its first steps differs from that of an uninterrupted run, and "
+              "energy and step error count from there.");
     setState(point.state);
     model_.setTime(state_.t);
   }
@@ -402,8 +403,9 @@ class Run {
       const double missed = missedPart(law, options_.start, state_.t, c.maxStep);
       if (missed > unresolved)
         log::warn("The time step (" + formatNumber(c.maxStep) + " s) is too large for the law \"" +
-                  law.name + "\": the steps miss " + formatNumber(std::round(1e3 * missed) / 10.0) +
-                  " % of its integral over time. " + integrator_->advice() + ".");
+                  law.name + "\". The steps do not resolve " +
+                  formatNumber(std::round(1e3 * missed) / 10.0) + " % of its integral over time. " +
+                  integrator_->advice() + ".");
     }
   }
 
@@ -417,7 +419,7 @@ class Run {
          << (made > 0 ? "the integration is unstable" : "the steps are too large for the motion")
          << ". "
          << (made > 0 ? integrator_->advice()
-                      : "Take shorter steps: Transient/Step, or the tolerance of the integrator")
+                      : "Reduce Transient/Step, or the tolerance of the integrator")
          << ".";
     return text.str();
   }
@@ -456,12 +458,12 @@ void refuseForcesWithMass(const model::SecondOrderModel& model) {
   const Vector mass = model.mass.diagonal();
   for (std::size_t i = 0; i < model.dofs.size(); ++i)
     if (model.dofs[i].force != 0 && mass[static_cast<Eigen::Index>(i)] != 0.0)
-      throw ModelError("The model has no bounded motion: " +
-                       model::describe(model.dofs[i], model.componentNames) +
-                       " has a mass, that of the residual flexibility of the dual Craig-Bampton "
-                       "basis, and so a negative eigenvalue. Such a model is good for "
-                       "frequencies only; for motion set \"Residual Mass\" of \"Dual "
-                       "Craig-Bampton\" to false, or take \"Rubin\".");
+      throw ModelError(
+          "The motion of the model is unbounded: " +
+          model::describe(model.dofs[i], model.componentNames) +
+          " has the mass of the residual flexibility of the dual Craig-Bampton basis, which gives "
+          "a negative eigenvalue. Such a model serves for frequencies only. For motion set "
+          "\"Residual Mass\" of \"Dual Craig-Bampton\" to false, or choose \"Rubin\".");
 }
 
 void refuseLoadsOnNothing(const model::SecondOrderModel& model) {

@@ -84,10 +84,9 @@ void requireCounts(const TransientOptions& options) {
     const double count = duration / interval;
     if (count <= most) return;
     throw DeckError(std::string("Transient/") + what + " is " + formatNumber(interval) +
-                    " s, which makes " + countText(count) + " of them in the " +
-                    formatNumber(duration) + " s from Start Time to End Time; at most " +
-                    countText(most) +
-                    " can be computed. Take a longer one, or an earlier End Time.");
+                    " s, which gives " + countText(count) + " intervals in the " +
+                    formatNumber(duration) + " s from Start Time to End Time. The limit is " +
+                    countText(most) + ". Give a longer one, or an earlier End Time.");
   };
   if (options.step > 0.0) require("Step", options.step, mostSteps);
   require("Sampling Interval", options.sampling, mostSamples);

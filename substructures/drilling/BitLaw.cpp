@@ -74,11 +74,11 @@ double feedFor(const BitSettings& bit, const loads::RotarySpeed& rotary, double 
   };
   double low = 0.0, high = fastest;
   if (!lacks(low) || lacks(high))
-    throw DeckError("is not reached by the law " + inQuotes(bit.name) + " of Bit at " +
-                    deck::printed(rotary.speed(t), "rpm", 4) + " of the start and up to " +
-                    deck::printed(fastest, "m/s") +
-                    " of the block. Give another weight, a Rotary Speed that turns at the start, "
-                    "or Top Drive/Block Speed.");
+    throw DeckError(
+        "is not reached with the law " + inQuotes(bit.name) + " of Bit at " +
+        deck::printed(rotary.speed(t), "rpm", 4) + " at the start and a block speed of up to " +
+        deck::printed(fastest, "m/s") +
+        ". Give another weight, a Rotary Speed above zero at the start, or Top Drive/Block Speed.");
   for (int i = 0; i < halvings && high > low; ++i) {
     const double middle = 0.5 * (low + high);
     (lacks(middle) ? low : high) = middle;

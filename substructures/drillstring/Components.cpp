@@ -204,10 +204,9 @@ class ComponentReader {
       try {
         component.parts.push_back(parseEntry(text));
         if (component.parts.back().fill)
-          throw DeckError(
-              inQuotes(text) +
-              " stands in a component, but only the first entry of an Assembly can fill "
-              "the string up to the surface.");
+          throw DeckError(inQuotes(text) +
+                          " is in a component, but only the first entry of an Assembly can fill "
+                          "the string up to the surface.");
       } catch (const DeckError& error) {
         fail(name + "/Parts", error.what());
       }

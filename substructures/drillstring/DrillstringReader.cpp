@@ -58,7 +58,7 @@ std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit) {
   if (!assembly.empty() && assembly.front().fill) {
     const double below = whole - lengths.front();
     if (!(bit > below))
-      throw DeckError(settings.assemblyWhere + ": what hangs below " +
+      throw DeckError(settings.assemblyWhere + ": the string below " +
                       inQuotes("fill*" + assembly.front().name) + " is " + formatNumber(below) +
                       " m long, but the bit is at " + formatNumber(bit) +
                       " m. Give a deeper Bit Depth, or leave components out.");
@@ -129,10 +129,9 @@ StringSettings readDrillstring(const deck::Deck& deck) {
     try {
       settings.assembly.push_back(parseEntry(text));
       if (settings.assembly.back().fill && settings.assembly.size() > 1)
-        throw DeckError(
-            inQuotes(text) +
-            " is not the first entry. Only what stands uppermost can fill the string up "
-            "to the surface.");
+        throw DeckError(inQuotes(text) +
+                        " is not the first entry. Only the uppermost component can fill the string "
+                        "up to the surface.");
     } catch (const DeckError& error) {
       faults.push_back(settings.assemblyWhere + ": " + error.what());
     }

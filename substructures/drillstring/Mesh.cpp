@@ -294,8 +294,8 @@ class Mesher {
       if (at < 0) continue;
       if (at == 0 || at == out_.elementCount())
         fault(place.component->where,
-              "The bend stands at the end of the string, where it bends nothing. Give a Position "
-              "above the bit and below the top.");
+              "The bend is at an end of the string, where it has no effect. Give a Position above "
+              "the bit and below the top.");
       out_.bends.push_back({at, place.component->bend->size, place.component->bend->direction});
     }
   }
@@ -320,12 +320,11 @@ class Mesher {
       distance = std::abs(s - place.s);
       nearest = s - start;
     }
-    fault(place.component->where,
-          std::string("The ") + parameter + " " +
-              formatNumber(std::round(place.position * 1e9) / 1e9) +
-              " m is not at a node of the component; the nearest stands at " +
-              formatNumber(std::round(nearest * 1e9) / 1e9) +
-              " m. Move it or change the number of Elements.");
+    fault(place.component->where, std::string("The ") + parameter + " " +
+                                      formatNumber(std::round(place.position * 1e9) / 1e9) +
+                                      " m is not at a node of the component; the nearest is at " +
+                                      formatNumber(std::round(nearest * 1e9) / 1e9) +
+                                      " m. Move it or change the number of Elements.");
     return -1;
   }
 
@@ -336,8 +335,8 @@ class Mesher {
         return node.s >= interval.from - samePlace && node.s <= interval.to + samePlace;
       });
       if (!seen)
-        log::warn("No node of the string stands in the bore interval " + inQuotes(interval.name) +
-                  ", so contact does not see it; use shorter elements there.");
+        log::warn("No node of the string lies in the bore interval " + inQuotes(interval.name) +
+                  ", so the interval has no effect on contact. Use shorter elements there.");
     }
   }
 

@@ -90,7 +90,7 @@ SupportSettings readSupports(const Teuchos::ParameterList& list) {
   const std::vector<bool> families =
       flags(list.get<std::string>("Dofs"), familyNames, list.name() + "/Dofs", "family of dofs");
   if (std::find(families.begin(), families.end(), true) == families.end())
-    throw DeckError(list.name() + "/Dofs: no family of dofs is left to model. Available: " +
+    throw DeckError(list.name() + "/Dofs: every family of dofs is left out. Available: " +
                     quotedList(familyNames) + ".");
   settings.lateral = families[0];
   settings.axial = families[1];

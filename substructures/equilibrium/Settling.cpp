@@ -125,10 +125,10 @@ SettlingReport settle(const StaticInput& input, StaticProblem& problem, const Un
         resting ? std::max(finalShare * first, 0.1 * alpha) : std::max(first, alpha / convexity);
   }
   throw ConvergenceError(
-      "From an unstable static state the string did not come to rest on the wall: the residual "
+      "The string left an unstable static state and did not come to rest on the wall: the residual "
       "is " +
       formatNumber(report.residual) + " of the largest load where " + formatNumber(tolerance) +
-      " is asked for. Reduce the loads, or take Static/Unstable State \"Warn\".");
+      " is allowed. Reduce the loads, or set Static/Unstable State to \"Warn\".");
 }
 
 }  // namespace tooljoint::equilibrium

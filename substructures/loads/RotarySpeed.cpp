@@ -68,7 +68,6 @@ struct Form {
 /// constant speed m e Omega^2 Re((1, -i) exp(i phi))
 const std::map<std::string, Form>& forms() {
   using Rotary = const RotarySpeed&;
-  using Complex = std::complex<double>;
   static const std::map<std::string, Form> known{
       {"Omega",
        {[](Rotary r, double t) { return r.speed(t); }, [](double w) { return Complex(w); }}},

@@ -71,8 +71,8 @@ class Unbalance final : public Load {
     if (masses_.empty()) return out;
     if (!rotary.present()) {
       log::warn(
-          "The deck has mass unbalances but no list \"Rotary Speed\": nothing turns, so they load "
-          "nothing and are left out.");
+          "The deck has mass unbalances but no list \"Rotary Speed\": the string does not turn, so "
+          "they have no effect.");
       return out;
     }
     // With A = Omega^2 cos Phi + dOmega/dt sin Phi, B = Omega^2 sin Phi - dOmega/dt cos Phi and phi

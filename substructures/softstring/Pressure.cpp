@@ -14,16 +14,15 @@ namespace {
 
 /// Of both flows per length [Pa/m]; nothing flows in a bar, or where the string fills the hole.
 double lossPerLength(const beam::Section& pipe, double hole, const Circulation& mud) {
-  const double pi = 0.5 * constants::twoPi;
-  const double factor = mud.frictionCoefficient * mud.density / pi;
+  const double factor = mud.frictionCoefficient * mud.density / constants::pi;
   const double inner = pipe.innerRadius(), outer = pipe.outerRadius();
   double loss = 0.0;
   if (inner > 0.0) {
-    const double speed = mud.flowRate / (pi * inner * inner);
+    const double speed = mud.flowRate / (constants::pi * inner * inner);
     loss += factor * speed * speed / inner;
   }
   if (hole > outer) {
-    const double speed = mud.flowRate / (pi * (hole * hole - outer * outer));
+    const double speed = mud.flowRate / (constants::pi * (hole * hole - outer * outer));
     loss += factor * speed * speed / (hole - outer);
   }
   return loss;

@@ -25,7 +25,7 @@ double sideForce(const well::WellPoint& point, double tension, double weight) {
 double mudDrag(const beam::Section& section, double holeRadius, const Circulation& mud) {
   const double outer = section.outerRadius(), area = holeRadius * holeRadius - outer * outer;
   if (!mud.axialDrag || !(area > 0.0)) return 0.0;
-  const double speed = mud.flowRate / (0.5 * constants::twoPi * area);
+  const double speed = mud.flowRate / (constants::pi * area);
   return mud.frictionCoefficient * mud.density * outer * speed * std::abs(speed);
 }
 

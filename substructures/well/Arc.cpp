@@ -58,8 +58,7 @@ std::unique_ptr<Trajectory> arc(const ArcShape& shape) {
   if (!(turn > 0.0))
     throw DeckError(
         "The arc starts and ends at the same inclination, so it has no length; give two "
-        "inclinations, or take the "
-        "trajectory Vertical with an Inclination.");
+        "inclinations, or use the trajectory Vertical with an Inclination.");
   auto chain = std::make_unique<ArcChain>(direction(shape.startInclination, shape.azimuth));
   chain->addStraight(shape.kickOffDepth);
   chain->addArc(shape.radius * turn, direction(shape.endInclination, shape.azimuth));

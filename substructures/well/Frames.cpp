@@ -82,7 +82,7 @@ std::vector<Matrix3> bishopFrames(const Trajectory& trajectory, const std::vecto
   for (const double target : s) {
     if (target < depth - 1e-9)
       throw ModelError(
-          "Frames are asked for at decreasing depths along the well, or above the surface.");
+          "Frames are requested at decreasing depths along the well, or above the surface.");
     while (nextBreak != breaks.end() && *nextBreak < target) {
       if (*nextBreak > depth) {
         transport(trajectory, depth, *nextBreak, point, x);

@@ -195,7 +195,7 @@ class SurveyReader {
       }
       const auto k = static_cast<std::size_t>(which);
       if (seen[k])
-        fault(std::string("the column ") + kinds[k].name + " stands twice in the header.");
+        fault(std::string("the column ") + kinds[k].name + " occurs twice in the header.");
       seen[k] = true;
       position_[k] = i;
       if (end != std::string::npos)

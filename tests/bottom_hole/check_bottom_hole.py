@@ -302,7 +302,7 @@ def missing():
     expect("bha ends well without one of its rows", done.returncode == 0, done.stderr)
     found = rows("missing", "bha.csv")
     expect("the rows of 10 kN are there", {row["weight_on_bit"] for row in found} == {1e4} and len(found) == 2, found)
-    expect("those of 2000 kN are told", done.stderr.count("Without an equilibrium, and in no table: 2000.0 kN on the bit") == 2, done.stderr)
+    expect("those of 2000 kN are told", done.stderr.count("No equilibrium was found, so no table has this state: 2000.0 kN on the bit") == 2, done.stderr)
     with open("missing/summary.json", encoding="utf-8") as file:
         expect("and counted", json.load(file)["bha"]["missing"] == 2)
     done = tooljoint("bha", scene, "--output", "missing_all", *settings[2:], "--set", "Bottom-Hole Assembly/Weight On Bit={2000 kN}")
@@ -314,12 +314,12 @@ def refused():
     good = deck("good", {2.0: gauge(0.107), 4.0: bend(0.5)})
     survey = "Bottom-Hole Assembly/Survey Tool"
     for wanted, settings, without in (
-            ("leans on the wall of its hole. Add the list Contact", [], ["Contact"]),
+            ("needs contact with the wall of the hole. Add the list Contact", [], ["Contact"]),
             ("needs its weight. Add the list Loads", [], ["Loads"]),
             ("needs its weight", ["Loads/Gravity=0"], []),
             ("the string is 60 m long. Give a distance on the string", [f"{survey}=70 m"], []),
             ("beyond the Length of 30 m", [f"{survey}=40 m", "Bottom-Hole Assembly/Length=30 m"], []),
-            ("is that of the holes of Inclination, which is absent", ["Bottom-Hole Assembly/Build Rate=1 deg/30m"], []),
+            ("applies to the holes of Inclination, which is not given", ["Bottom-Hole Assembly/Build Rate=1 deg/30m"], []),
             ("leaves out dofs that a bottom-hole assembly needs", ["Supports/Dofs=lateral"], []),
             ("modelled at rest alone. Leave Transient out, or a bend", ["Transient/End Time=1", "Transient/Step=0.01", "Transient/Sampling Interval=0.1", "Transient/Integrator=Generalized-alpha"], []),
             ("turns by 200 deg over the 30 m", ["Bottom-Hole Assembly/Inclination={40 deg}", "Bottom-Hole Assembly/Build Rate=200 deg/30m"], []),
@@ -329,11 +329,11 @@ def refused():
         expect(f"refused with: {wanted}", done.returncode == 2 and wanted in " ".join(done.stderr.split()), (done.returncode, done.stderr))
     force = listed("Forces", listed("push", '<Parameter name="Node" type="int" value="5"/>', parameter("Component", "u"), parameter("Value", "10 N")))
     support = listed("Supports", listed("packer", '<Parameter name="Node" type="int" value="7"/>', parameter("Dofs", "u v")))
-    for wanted, file in (("acts at nodes, which `tooljoint bha` counts anew", deck("forces", {}, loads=force)), ("holds node 7, which `tooljoint bha` cannot", deck("packer", {}, more=support))):
+    for wanted, file in (("acts at numbered nodes, and `tooljoint bha` renumbers the nodes", deck("forces", {}, loads=force)), ("holds node 7, which `tooljoint bha` does not support", deck("packer", {}, more=support))):
         done = tooljoint("bha", file, "--output", "refused")
         expect(f"refused with: {wanted}", done.returncode == 2 and wanted in " ".join(done.stderr.split()), (done.returncode, done.stderr))
     done = tooljoint("bha", str(SOURCES / "xml/frame.xml"), "--output", "refused")
-    expect("a scene of parts has no bottom-hole assembly", done.returncode == 2 and "part of a string in its well" in done.stderr, done.stderr)
+    expect("a scene of parts has no bottom-hole assembly", done.returncode == 2 and "needs a string in its well" in done.stderr, done.stderr)
 
 
 def documented():

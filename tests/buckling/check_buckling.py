@@ -172,7 +172,7 @@ def followed():
     for folder, ranks in (("out_followed", 1), ("out_ranks", 2)):
         done = tooljoint("buckling", file, "--output", folder, *settings, ranks=ranks)
         expect("a path that does not reach its end has the exit code 4", done.returncode == 4, done.returncode)
-        expect("and says where it ended", "could be followed up to" in done.stderr, done.stderr)
+        expect("and says where it ended", "were computed up to" in done.stderr, done.stderr)
     one, two, said = rows("out_followed"), rows("out_ranks"), summary("out_followed")
     expect("unstable states are counted", said["unstable_from"] > 0 and any(row["negative_pivots"] > 0 for row in one))
     expect("the path turns", any(b["weight_on_bit"] < a["weight_on_bit"] for a, b in zip(one, one[1:])))
@@ -190,10 +190,10 @@ def refusals():
     good = deck("good", 20.0, 20, 1e5)
     refused("no wall", "Add the list Contact", 2, deck("no_wall", 20.0, 20, 1e5, contact=False))
     refused("a bit that is held", "cannot move the bit", 2, deck("held", 20.0, 20, 1e5, bit="u v w"))
-    refused("no last weight", "nothing says how far the weight on bit grows", 2, deck("no_weight", 20.0, 20, 0))
+    refused("no last weight", "the last weight on bit is not given", 2, deck("no_weight", 20.0, 20, 0))
     refused("steps the wrong way round", "has to lie between Smallest Step", 2, good, "--set", "Buckling/First Step=1")
     refused("a string without geometric stiffness", "nothing buckles", 2, good, "--set", "Static/Geometric Stiffness=false")
-    refused("parts", "what buckles is a string in its well", 2, str(SOURCES / "xml/frame.xml"))
+    refused("parts", "buckling needs a string in its well", 2, str(SOURCES / "xml/frame.xml"))
     refused("a path of two steps", "no more were allowed", 4, good, "--output", "out_short", "--set", "Buckling/Max Steps=2")
     refused("steps that cannot be halved", "does not converge", 4, good, "--output", "out_long_steps", "--set", "Loads/Gravity=0", "--set", "Buckling/Smallest Step=0.01",
             "--set", "Buckling/At A Limit=Follow")

@@ -105,7 +105,7 @@ def zsh(names):
 
 def refusals():
     for words, sentence in ((("doc", "nonsense", "--format", "man"), 'There is no command "nonsense". Available: "run", '),
-                            (("doc", "run", "--format", "bash"), "The completion of bash is one for all commands")):
+                            (("doc", "run", "--format", "bash"), "The completion for bash covers all commands")):
         done = tooljoint(*words)
         expect(f"{' '.join(words)}: exit code 1", done.returncode == 1 and sentence in done.stderr, done.stderr)
 

@@ -156,7 +156,7 @@ def announced_sizes():
         pathlib.Path(f"{what}.mtx").write_text(text, encoding="utf-8")
         refused(f"matrix that announces {what}", 2, sentence, "check", deck_of(part("matrix", stiffness=str(pathlib.Path(f"{what}.mtx").resolve()))))
     pathlib.Path("wide.mtx").write_text(head + "10000000 1000000 1\n1 1 1\n", encoding="utf-8")
-    refused("wide positions", 2, "too large for a matrix that is needed with all its zeros", "check",
+    refused("wide positions", 2, "too large for a dense matrix", "check",
             deck_of(part("positions", positions=str(pathlib.Path("wide.mtx").resolve()))))
 
 
@@ -177,7 +177,7 @@ def check_refuses_what_run_refuses():
     rows = [
         (STRING, ["--set", "Supports/Top=u v theta_z"], "The string floats: w is free at all of its"),
         (STRING, ["--set", "Supports/Top=w"], "The string floats: theta_z is free at all of its"),
-        (STRING, ["--set", "Supports/Top=none", "--set", "Well/Trajectory=Vertical", "--set", "Well/Vertical/Length=60"], "The string floats: nothing holds it."),
+        (STRING, ["--set", "Supports/Top=none", "--set", "Well/Trajectory=Vertical", "--set", "Well/Vertical/Length=60"], "The string floats: it has no support."),
         (FRAME, [*macneal, *calm, *explicit], "is \"MacNeal\", which has a singular mass matrix, but the integrator \"RK4\" needs a nonsingular one"),
         (FRAME, [*dual, *calm, *explicit], "is \"Dual Craig-Bampton\", which has a singular mass matrix"),
         (FRAME, [*macneal, "--set", "Reduction/Error Estimate=Frequencies"], "Error Estimate needs an error estimate, but the basis \"MacNeal\""),
@@ -189,7 +189,7 @@ def check_refuses_what_run_refuses():
         (FRAME, ["--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set", "Reduction/Error Estimate=Both"], "estimates the error of the motion, which is not available with"),
         (FRAME, ["--set", "Coupling/Assembly=Dual", "--set", "Reduction/Error Estimate=Transient"], "which is not available with Coupling/Assembly \"Dual\""),
         (FRAME, ["--set", "Reduction/Load Vectors=Points", "--set", "Reduction/Load Vector Nodes={9999}"], "names node 9999, but no substructure has a point law there"),
-        (FRAME, ["--set", "Transient/Step=1e-300"], "which makes 2e+300 of them"),
+        (FRAME, ["--set", "Transient/Step=1e-300"], "which gives 2e+300 intervals"),
         (FRAME, ["--set", "Transient/Sampling Interval=1e-300"], "which makes"),
         (deck_of(part("strange", positions=[[1, 0, 0, 0], [9, 0, 0, 0]]), "strange.xml"), [], "names node 9 in row 2, which the part does not have"),
         (deck_of(part("number", name=7), "number.xml"), [], "\"name\" must be a text"),

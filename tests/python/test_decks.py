@@ -129,7 +129,7 @@ class Runs(unittest.TestCase):
     def test_warnings_are_those_of_the_last_call(self):
         for run in range(2):  # of every call anew
             results = tj.run(FRAME, SHORT, output="warned")
-            self.assertIn("start of the motion is not in the basis", "".join(results.warnings))
+            self.assertIn("basis does not represent the initial state", "".join(results.warnings))
             self.assertEqual(tj.warnings(), results.warnings)
         tj.couple([tj.part("quiet", [[1.0]], [[1.0]])])
         self.assertEqual(tj.warnings(), [])

@@ -223,7 +223,7 @@ def refusals():
         expect(f"refused: {name}", done.returncode == 2 and words in done.stderr, f"{done.returncode} {done.stderr[-400:]}")
     for name, words, settings in (
         ("no unbalance", "no mass off its axis", ["!Response/Unbalance"]),
-        ("unbalance by frequency", "no sense for an unbalance", ["!Response/Highest Speed", "Response/Highest Frequency=10"]),
+        ("unbalance by frequency", "no meaning for an unbalance", ["!Response/Highest Speed", "Response/Highest Frequency=10"]),
         ("order of an unbalance", "has the order 1", ["Response/Order=2"]),
         ("speed of the other sweep", "has no effect in a sweep by speed", ["Response/Rotary Speed=3"]),
         ("no load", "Loads holds no load", ["Response/Excitation=Harmonic"]),

@@ -238,7 +238,7 @@ def two_runs_in_one_folder():
         expect(f"{title}: run B fails later", failing.returncode == 5, str(failing.returncode))
         expect(f"{title}: and says where A is now", "shared/interrupted; that run goes on with --restart shared/interrupted" in failing.stdout + failing.stderr, failing.stderr[-300:])
         joined = run("run", deck, "--restart", "shared", *LONG)
-        expect(f"{title}: A does not go on from B", joined.returncode == 2 and "belongs to another run" in joined.stderr, f"{joined.returncode} {joined.stderr[-300:]}")
+        expect(f"{title}: A does not go on from B", joined.returncode == 2 and "does not belong to the run of this deck" in joined.stderr, f"{joined.returncode} {joined.stderr[-300:]}")
         done = run("run", deck, "--restart", "shared/interrupted", *LONG)
         wrong = differences(whole, "shared/interrupted") if done.returncode == 0 else [done.stderr[-300:]]
         expect(f"{title}: A goes on from where it is now", not wrong, "; ".join(wrong[:6]))

@@ -113,7 +113,7 @@ def refusals():
         ("no line", table, "no measurement follows"),
         ("too deep", table + "9400,Trip in,100,\n800,Trip in,120,\n900,Trip in,120,\n", "longer string"),
         ("too few", table + "400,Trip in,100,\n", "do not suffice"),
-        ("not told apart", table + "1000,Trip out,500,\n1000,Trip out,501,\n1000,Trip out,502,\n", "do not tell friction from block weight"),
+        ("not told apart", table + "1000,Trip out,500,\n1000,Trip out,501,\n1000,Trip out,502,\n", "cannot distinguish friction from block weight"),
     )):
         file = pathlib.Path(f"bad_{number}.csv").resolve()
         file.write_text(text, encoding="utf-8")

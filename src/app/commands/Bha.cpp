@@ -11,10 +11,9 @@ void bha(const RunOptions& options) {
   const auto one = cases::readCase(options.deck, options.overrides);
   const auto* string = dynamic_cast<const drillstring::DrillstringCase*>(one.get());
   if (string == nullptr)
-    throw DeckError(
-        options.deck +
-        ": a bottom-hole assembly is part of a string in its well. Give a deck with the "
-        "lists Well and Drillstring.");
+    throw DeckError(options.deck +
+                    ": a bottom-hole assembly needs a string in its well. Give a deck with the "
+                    "lists Well and Drillstring.");
   drillstring::reportBottomHole(*string, options.output);
   reportAtEnd(cases::analysisFolder(*one, options.output, "bha"), one->output().report);
 }

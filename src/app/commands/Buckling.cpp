@@ -11,9 +11,9 @@ void buckling(const RunOptions& options) {
   const auto one = cases::readCase(options.deck, options.overrides);
   const auto* string = dynamic_cast<const drillstring::DrillstringCase*>(one.get());
   if (string == nullptr)
-    throw DeckError(options.deck +
-                    ": what buckles is a string in its well. Give a deck with the lists Well and "
-                    "Drillstring.");
+    throw DeckError(
+        options.deck +
+        ": buckling needs a string in its well. Give a deck with the lists Well and Drillstring.");
   drillstring::reportBuckling(*string, options.output);
   reportAtEnd(cases::analysisFolder(*one, options.output, "buckling"), one->output().report);
 }

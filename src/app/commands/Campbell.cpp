@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "response/Campbell.hpp"
+#include "response/campbell/Campbell.hpp"
 
 #include "app/commands/Commands.hpp"
 #include "cases/CaseKinds.hpp"

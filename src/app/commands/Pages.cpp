@@ -271,7 +271,7 @@ std::string zshCompletion(const CLI::App& program) {
 std::string page(const CLI::App& program, const std::string& command, const std::string& format) {
   if (format == "man") return manPage(program, command);
   if (!command.empty())
-    throw UsageError("The completion of " + format + " is one for all commands. Leave " +
+    throw UsageError("The completion for " + format + " covers all commands. Leave " +
                      inQuotes(command) + " out.");
   return format == "bash" ? bashCompletion(program) : zshCompletion(program);
 }

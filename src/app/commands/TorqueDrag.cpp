@@ -14,7 +14,7 @@ void torqueDrag(const RunOptions& options) {
   const auto* string = dynamic_cast<const drillstring::DrillstringCase*>(one.get());
   if (string == nullptr)
     throw DeckError(options.deck +
-                    ": torque and drag is of a string in its well. Give a deck with the lists Well "
+                    ": torque and drag needs a string in its well. Give a deck with the lists Well "
                     "and Drillstring.");
   drillstring::reportTorqueDrag(*string, options.output, options.fresh);
   reportAtEnd(cases::analysisFolder(*one, options.output, "torque_drag"), one->output().report);

@@ -96,7 +96,8 @@ SignalComparison compareSignals(const SampledSignal& computed, const SampledSign
   out.end = std::min({end, computed.time.back(), measured.time.back()});
   auto mine = within(computed, out.begin, out.end), theirs = within(measured, out.begin, out.end);
   if (mine.time.size() < 2 || theirs.time.size() < 2)
-    throw Error(ExitCode::Internal, "Signals that are compared need two samples in their window.");
+    throw Error(ExitCode::Internal,
+                "A comparison of signals needs at least two samples in its window.");
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < theirs.time.size(); ++i) {
     const double difference = valueAt(computed, theirs.time[i]) - theirs.value[i];

@@ -121,7 +121,7 @@ void ImportedDeck::requireMass(const parts::PartsScene& scene,
         deck.error("Transient/Integrator",
                    "is \"" + deck.list().sublist("Transient").get<std::string>("Integrator") +
                        "\", which needs a mass at every dof, but " + who +
-                       " has none. Take Generalized-alpha, or give that dof a mass."));
+                       " has none. Use Generalized-alpha, or give that dof a mass."));
   }
 }
 

@@ -71,7 +71,7 @@ MeasuredColumn readColumn(const ParameterList& list, const std::string& name) {
   for (const char* needed : {"Node", "Component"})
     if (ofNode != list.isParameter(needed))
       throw DeckError(list.name() + "/Quantity is " + inQuotes(wanted) + ", which " +
-                      (ofNode ? std::string("needs the ") + needed + " it is measured at. Give it."
+                      (ofNode ? std::string("needs the ") + needed + " of the measurement. Give it."
                               : std::string("has no ") + needed + ". Leave it out."));
   if (!ofNode) return column;
   column.dof = readNode(list);
@@ -79,7 +79,8 @@ MeasuredColumn readColumn(const ParameterList& list, const std::string& name) {
   column.quantity.usual = column.quantity.si == "m" ? "mm" : column.quantity.si;
   if (column.quantity.si.empty() || column.quantity.si[0] == '/')
     throw DeckError(list.name() + "/Component is " + inQuotes(column.dof.component) +
-                    ", neither a translation nor a rotation: nothing measures it.");
+                    ", which is neither a translation nor a rotation and cannot be compared with a "
+                    "measurement.");
   return column;
 }
 
@@ -92,8 +93,8 @@ void requireComputed(const Case& one, const MeasuredColumn& column) {
   };
   if (one.list().isSublist("Parts"))
     refuse(
-        "which a scene of parts does not compute. Take Displacement, Velocity or Acceleration "
-        "of a node.");
+        "which a scene of parts does not compute. Use Displacement, Velocity or Acceleration of a "
+        "node.");
   if ((column.quantity.source == "weight_on_bit" || column.quantity.source == "torque_on_bit") &&
       !one.list().isSublist("Bit"))
     refuse("which is constant without a law of the bit. Add the list Bit.");
@@ -190,8 +191,8 @@ MeasuredLog loadMeasuredLog(const Case& one) {
   if (!one.moves())
     throw DeckError(
         one.deck().error(measuredLogName,
-                         "is compared with a motion, and the deck has no Transient list. Add one, "
-                         "or leave this list out (--without \"Measured Log\")."));
+                         "needs a motion to compare with, but the deck has no Transient list. Add "
+                         "one, or leave this list out (--without \"Measured Log\")."));
   log.settings = readMeasuredLog(one.list().sublist(measuredLogName));
   const auto& settings = log.settings;
   const auto& transient = one.transient();
@@ -222,13 +223,13 @@ MeasuredLog loadMeasuredLog(const Case& one) {
     if (inside.size() < 2 || inside.back() - inside.front() < 2.0 * interval)
       throw DeckError(one.deck().error(
           measuredLogName,
-          fmt::format("has {} samples of the column {} from {} to {} s, where the motion is "
-                      "compared; with the Time Offset the column lasts from {} to {} s, and two "
-                      "samples at least two Sampling Intervals apart are needed. Change Time "
-                      "Offset, Begin or End.",
-                      inside.size(), inQuotes(column.column), formatNumber(log.begin),
-                      formatNumber(log.end), formatNumber(signal.time.front()),
-                      formatNumber(signal.time.back()))));
+          fmt::format(
+              "has {} samples of the column {} from {} to {} s, the window of the comparison. With "
+              "the Time Offset the column lasts from {} to {} s. The comparison needs two samples "
+              "at least two Sampling Intervals apart. Change Time Offset, Begin or End.",
+              inside.size(), inQuotes(column.column), formatNumber(log.begin),
+              formatNumber(log.end), formatNumber(signal.time.front()),
+              formatNumber(signal.time.back()))));
     log.signals.push_back(std::move(signal));
   }
   return log;

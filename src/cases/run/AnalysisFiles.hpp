@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cases/Case.hpp"
+#include "cases/run/Run.hpp"
 #include "common/Error.hpp"
 #include "common/report/Stopwatch.hpp"
 #include "io/OutputFolder.hpp"
@@ -54,5 +55,28 @@ class AnalysisFiles {
   io::Summary summary_;
   bool beside_ = false;  ///< results of another command
 };
+
+/// An analysis from its results to its files: announces the case, computes the results, prints and
+/// writes the report of them, and returns them. `reportOf(results)` has print(),
+/// write(OutputFolder&, ResultsFile&) and summarise(Summary&). Errors: those of
+/// AnalysisFiles::complete. Collective.
+template <class Compute, class ReportOf>
+auto completeReport(const Case& one, const std::string& given, const std::string& analysis,
+                    const Compute& compute, const ReportOf& reportOf) {
+  AnalysisFiles files(one, given, analysis);
+  decltype(compute()) results;
+  files.complete(
+      [&] {
+        announce(one);
+        results = compute();
+        reportOf(results).print();
+      },
+      [&](io::ResultsFile& file) {
+        const auto report = reportOf(results);
+        report.write(files.folder(), file);
+        report.summarise(files.summary());
+      });
+  return results;
+}
 
 }  // namespace tooljoint::cases

@@ -49,11 +49,11 @@ constexpr double startLoss = 0.01;
 void warnOfStart(const std::vector<reduction::ReducedSubstructure>& parts) {
   const double loss = startMisfit(parts);
   if (loss > startLoss)
-    log::warn("The start of the motion is not in the basis: the misfit has " +
+    log::warn("The basis does not represent the initial state: the misfit has " +
               formatNumber(std::round(1e3 * loss) / 10.0) +
-              " % of its kinetic and strain energy, so the reduced motion starts in another state "
-              "than the full one. Set Reduction/Start State Vectors, keep more modes, or retain "
-              "the dofs that move.");
+              " % of its kinetic and strain energy, so the initial state of the reduced motion "
+              "differs from that of the full motion. Set Reduction/Start State Vectors, keep more "
+              "modes, or retain the dofs that move.");
 }
 
 /// One run of one case into one folder.
@@ -139,8 +139,7 @@ class Run {
         TimeSpan{list.get<double>("Start Time"), list.get<double>("End Time")}, files_.results());
     if (log_.isCompared()) compareWithLog();
     if (estimates_ && files_.goesOn())
-      log::warn(
-          "The error of the motion is not estimated in a run that goes on from a checkpoint.");
+      log::warn("The error of the motion is not estimated in a run restarted from a checkpoint.");
     const auto report = estimates_ && !files_.goesOn()
                             ? integrateEstimating(model)
                             : files_.integrate(model, list, *recorder_, *recorder_);
@@ -176,7 +175,7 @@ class Run {
   transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {
     const auto estimator = motionEstimator(*rest_, reduced_);
     TeeSink both(*recorder_, *estimator);
-    const auto report = files_.integrate(model, case_.transient(), *recorder_, both);
+    auto report = files_.integrate(model, case_.transient(), *recorder_, both);
     const auto error = estimator->result();
     log::info(describeMotionError(error));
     summarise(error, files_.summary());

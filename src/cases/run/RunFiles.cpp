@@ -71,7 +71,7 @@ RunFiles::RunFiles(const RunOptions& options, const Case& one)
     if (!fs::exists(fs::path(options_.restart) / io::checkpointName))
       throw FileError(
           "\"" + options_.restart + "\" holds no " + io::checkpointName +
-          ". --restart goes on from the folder of an interrupted run" +
+          ". --restart needs the folder of an interrupted run" +
           (fs::exists(fs::path(options_.restart) / "interrupted")
                ? "; an earlier one is in " + (fs::path(options_.restart) / "interrupted").string()
                : "") +
@@ -107,13 +107,14 @@ void RunFiles::readCheckpoint(const std::string& folderName) {
   parallel::agree([&] { checkpoint_ = transient::Checkpoint::decode(bytes, file); });
   if (checkpoint_->run != identity_)
     throw DeckError("The checkpoint in " + options_.restart +
-                    " belongs to another run than this deck describes: " +
+                    " does not belong to the run of this deck: " +
                     identityDifferences(checkpoint_->run, identity_) +
-                    ". Give the deck, --set and --without of the run that was interrupted.");
+                    ". Use the deck, --set and --without of the interrupted run.");
   const auto program = programVersion() + " " + gitHash();
   if (checkpoint_->program != program)
-    log::warn("The checkpoint was written by the program " + checkpoint_->program + ", this is " +
-              program + ": the numbers may differ from those of one run.");
+    log::warn("The checkpoint was written by program version " + checkpoint_->program +
+              "; this is version " + program +
+              ". Results may differ from those of an uninterrupted run.");
   log::info("restart     from t = " + formatNumber(checkpoint_->state.t) + " s of " +
             options_.restart + (folderName == options_.restart ? "" : " into " + folderName));
 }
@@ -142,7 +143,7 @@ std::string RunFiles::findSamples() const {
   for (const std::string& name :
        {std::string(io::resultsName) + ".part", std::string(io::resultsName),
         std::string(io::checkpointSamplesName)}) {
-    const auto file = (fs::path(options_.restart) / name).string();
+    auto file = (fs::path(options_.restart) / name).string();
     reasons.push_back(whyNot(file));
     if (reasons.back().empty()) return file;
   }
@@ -158,12 +159,12 @@ std::string RunFiles::keepSamples(const std::string& samples) const {
       fs::path(samples).filename() == io::resultsName && folder_->hasFinishedResults();
   if (!samePlace_ || finished || fs::path(samples).filename() == io::checkpointSamplesName)
     return samples;
-  const auto kept = at(io::checkpointSamplesName);
+  auto kept = at(io::checkpointSamplesName);
   std::error_code error;
   fs::rename(samples, kept, error);
   if (error)
-    throw FileError("The samples to go on from, " + samples + ", cannot be renamed to " + kept +
-                    ": " + error.message() + ".");
+    throw FileError("The samples before the checkpoint, " + samples + ", cannot be renamed to " +
+                    kept + ": " + error.message() + ".");
   return kept;
 }
 
@@ -197,8 +198,8 @@ transient::TransientReport RunFiles::integrate(const model::SecondOrderModel& mo
 void RunFiles::requireComplete(const transient::TransientReport& report) const {
   if (!report.interrupted) return;
   throw InterruptedError("Interrupted at " + formatNumber(report.end) +
-                         " s. What was computed so far is in " + folder_->folder() +
-                         "; go on with: tooljoint run " + deck_ + " --restart " +
+                         " s. The results so far are in " + folder_->folder() +
+                         "; continue with: tooljoint run " + deck_ + " --restart " +
                          folder_->folder());
 }
 

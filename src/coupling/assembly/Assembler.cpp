@@ -282,7 +282,7 @@ class Coupler {
     DualModel dualModel = addMultipliers(alignedParts_, labelled_, elimination);
     out_.model = std::move(dualModel.model);
     out_.multipliers = std::move(dualModel.multipliers);
-    map_ = std::move(dualModel.map);
+    map_.swap(dualModel.map);
   }
 
   /// The narrow numbering, and the coordinates of every part in it.

@@ -14,7 +14,7 @@ namespace {
 
 /// z of the state q: its entries where the dependent coordinates agree, else (S' M S) z = S' M q.
 Vector fit(const Sparse& M, const Sparse& S, const Vector& q, const std::vector<int>& others) {
-  const Vector z = q(others);
+  Vector z = q(others);
   if ((S * z - q).cwiseAbs().maxCoeff() <= 1e-12 * q.cwiseAbs().maxCoeff()) return z;
   const Sparse weighted = M * S;
   return Matrix(S.transpose() * weighted).ldlt().solve(weighted.transpose() * q);

@@ -72,7 +72,8 @@ class Builder {
     column_ = keepOnly(labelled_.model, keep, entries, count(), s);
     coordinates_ = sizeOf(s.dofs);
     for (const auto& solved : solved_)
-      for (const std::int8_t which : {1, 2}) s.dofs.push_back(labelOf(solved.unknown, which));
+      for (const auto which : {std::int8_t{1}, std::int8_t{2}})
+        s.dofs.push_back(labelOf(solved.unknown, which));
     substitute(out_.model, s);
     out_.map = s.map;
   }
@@ -242,7 +243,7 @@ class Builder {
     std::vector<char> bare(at(n), 0);
     for (const auto& multiplier : out_.multipliers)
       for (int i : {multiplier.first, multiplier.second})
-        bare[at(i)] = mass[i] == 0.0 && stiffness[i] == 0.0;
+        bare[at(i)] = mass[i] == 0.0 && stiffness[i] == 0.0 ? 1 : 0;
     Vector r = m.loadAt(0.0) + m.pointForce(0.0, m.initialDisplacement, m.initialVelocity) -
                m.dampingAt(0.0) * m.initialVelocity - m.stiffnessAt(0.0) * m.initialDisplacement;
     double fastest = 0;

@@ -19,7 +19,6 @@ namespace tooljoint::coupling {
 
 namespace {
 
-using deck::Range;
 using Teuchos::ParameterList;
 
 /// Axes of a frame may be this far from perpendicular.

@@ -226,9 +226,10 @@ class Planner {
     connector.law = one.law(1 + static_cast<int>(tangents.size()));
     const auto width = at(connector.law->width());
     if (width > 1 + tangents.size())
-      throw DeckError(one.path + " has a law of " + std::to_string(width) + " coordinates, but " +
+      throw DeckError(one.path + " has a law of " + std::to_string(width) +
+                      " coordinates, but the connection has " +
                       std::to_string(1 + tangents.size()) +
-                      " exist there: the separation and, with a Direction, what lies across it.");
+                      ": the separation and, with a Direction, the motion across it.");
     for (std::size_t t = 0; t + 1 < width; ++t)
       connector.rows.push_back(row(one, first, second, tangents[t]));
     connector.offset = Vector::Zero(static_cast<Eigen::Index>(connector.rows.size()));

@@ -54,7 +54,7 @@ class Reducer {
               if (value != 0.0) loaded[at(column)] = 1;
             });
     std::vector<char> joined(model_.dofs.size(), 0);
-    for (int i : coupling_.interface) joined[at(i)] = !loaded[at(i)];
+    for (int i : coupling_.interface) joined[at(i)] = loaded[at(i)] != 0 ? 0 : 1;
     for (int i = 0; i < model_.size(); ++i) (joined[at(i)] ? reduced_ : others_).push_back(i);
   }
 

@@ -369,7 +369,7 @@ std::optional<double> toSi(std::string_view text, const std::string& si, std::st
     return std::nullopt;
   }
   if (unit->dimension != wanted->dimension) {
-    fault = "has the unit " + inQuotes(rest) + ", which does not measure what is asked for here (" +
+    fault = "has the unit " + inQuotes(rest) + ", which is not a unit of the expected quantity (" +
             si + "); expected is " + expected;
     return std::nullopt;
   }

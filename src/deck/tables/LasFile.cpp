@@ -61,7 +61,7 @@ class Parser {
                       ", a LAS file begins with \"~Version\". Put it in front.");
     if (section_ == 'A')
       fail(line_, "the section " + inQuotes(content) +
-                      " stands behind the data; ~A is the last one of a LAS file.");
+                      " comes after the data; ~A is the last section of a LAS file.");
     if (section == 'A') beforeData();
     if (section == 'C') las_.curveLine = line_;
     section_ = section;

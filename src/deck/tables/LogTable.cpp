@@ -135,7 +135,7 @@ class Reader {
     if (places.empty()) return missing(column.wanted, names);
     if (places.size() > 1)
       return fault(headerLine_, "the column " + inQuotes(names[places[0]]) +
-                                    " stands more than once in the header. Rename one.");
+                                    " occurs more than once in the header. Rename one.");
     column.place = places[0];
     if (column.wanted.name.empty()) column.wanted.name = names[places[0]];
     unit(column, headings_[column.place].unit);
@@ -165,12 +165,12 @@ class Reader {
                                     known);
     if (!given.empty() && !ofFile)
       return fault(headerLine_, name + " has the unit " + inQuotes(given) +
-                                    ", which does not measure what it is compared with (" +
-                                    wanted.si + "). Expected is one of " + known);
+                                    ", which is not a unit of the compared quantity (" + wanted.si +
+                                    "). Expected is one of " + known);
     if (!wanted.unit.empty() && !ofDeck)
       return fault(headerLine_, "the unit " + inQuotes(wanted.unit) + " that the deck gives for " +
-                                    name + " does not measure what it is compared with (" +
-                                    wanted.si + "). Expected is one of " + known);
+                                    name + " is not a unit of the compared quantity (" + wanted.si +
+                                    "). Expected is one of " + known);
     if (ofFile && ofDeck && *ofFile != *ofDeck)
       return fault(headerLine_, name + " has the unit " + inQuotes(given) + ", the deck gives " +
                                     inQuotes(wanted.unit) + ". Leave out the one of the deck.");

@@ -37,8 +37,9 @@ Json skeleton() {
 
 void requireFinite(const std::string& path, double value) {
   if (!std::isfinite(value)) {
-    throw Error(ExitCode::Internal, "The summary key \"" + path + "\" was given " +
-                                        formatNumber(value) + ", which is never written.");
+    throw Error(ExitCode::Internal, "The summary key \"" + path + "\" was given the value " +
+                                        formatNumber(value) +
+                                        "; summary.json holds finite numbers only.");
   }
 }
 

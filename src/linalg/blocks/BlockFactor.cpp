@@ -163,8 +163,8 @@ void BlockFactor::pack() {
   const auto take = [](std::size_t& next, int rows, int columns) {
     if (next > std::numeric_limits<Offset>::max())
       throw ModelError(
-          "The factors of the matrix would take more than 32 GB. Take a coarser mesh, fewer modes "
-          "or fewer kept nodes.");
+          "The factors of the matrix would take more than 32 GB. Use a coarser mesh, fewer modes "
+          "or fewer retained nodes.");
     const auto here = static_cast<Offset>(next);
     next += (at(rows) * at(columns) + 3) / 4 * 4;
     return here;

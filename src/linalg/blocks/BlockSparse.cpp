@@ -201,8 +201,8 @@ BlockProduct::BlockProduct(const BlockPattern& pattern,
                            const BlockProduct* like) {
   if (pattern.storage() > std::numeric_limits<std::uint32_t>::max())
     throw ModelError(
-        "A matrix of the model would take more than 32 GB. Take a coarser mesh, fewer modes or "
-        "fewer kept nodes.");
+        "A matrix of the model would take more than 32 GB. Use a coarser mesh, fewer modes or "
+        "fewer retained nodes.");
   far_ = pattern.storage() > kernel::nearCache;
   findSymmetry(pattern, samples);
   int widest = 0;

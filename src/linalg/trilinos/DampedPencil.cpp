@@ -54,13 +54,6 @@ ScaledPencil::ScaledPencil(const Sparse& m, const Sparse& c, const Sparse& k,
   };
 }
 
-ComplexVector times(const Sparse& A, const ComplexVector& x) {
-  ComplexVector y(x.size());
-  y.real() = A * Vector(x.real());
-  y.imag() = A * Vector(x.imag());
-  return y;
-}
-
 bool isZero(const ScaledPencil& pencil, Complex s, const ComplexVector& phi) {
   const double work = std::norm(s) * std::abs(phi.dot(times(pencil.M, phi))) +
                       std::abs(s) * std::abs(phi.dot(times(pencil.C, phi))) +

@@ -8,15 +8,13 @@
 #include <optional>
 #include <vector>
 
+#include "linalg/ComplexProduct.hpp"
 #include "linalg/DynamicStiffness.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
 
 namespace tooljoint::linalg {
-
-using Complex = std::complex<double>;
-using ComplexVector = Eigen::VectorXcd;
 
 /// Relative error of s - sigma, sigma the shift, that is accepted beside the rounding of K: the
 /// last of the eight digits that are printed. Values of a Krylov space that has converged are
@@ -50,8 +48,6 @@ struct DampedModes {
   std::vector<Complex> values;
   std::vector<ComplexVector> vectors;
 };
-
-ComplexVector times(const Sparse& A, const ComplexVector& x);
 
 /// |s| at which s is zero but for the rounding of K: |s|^2 phi'|M|phi + |s| phi'|C|phi of the size
 /// of what rounding leaves of phi'K phi.

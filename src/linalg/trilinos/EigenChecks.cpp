@@ -211,7 +211,7 @@ std::vector<char> areRounding(const Vector& values, const Matrix& shapes, const 
       shapes.cwiseAbs().cwiseProduct(absoluteProduct(K, shapes)).colwise().sum().transpose();
   std::vector<char> small(static_cast<std::size_t>(values.size()));
   for (Eigen::Index j = 0; j < values.size(); ++j)
-    small[static_cast<std::size_t>(j)] = std::abs(values[j]) <= bound[j];
+    small[static_cast<std::size_t>(j)] = std::abs(values[j]) <= bound[j] ? 1 : 0;
   return small;
 }
 

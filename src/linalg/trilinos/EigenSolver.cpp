@@ -355,7 +355,7 @@ EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options)
 
 EigenPairs lowestModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
   if (count < 0 || count > K.rows())
-    throw ModelError(std::to_string(count) + " modes were asked for, but the eigenproblem has " +
+    throw ModelError(std::to_string(count) + " modes were requested, but the eigenproblem has " +
                      std::to_string(K.rows()) + " dofs.");
   return modesOf(Pencil(K, M, options.name), count, options);
 }

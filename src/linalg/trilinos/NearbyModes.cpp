@@ -16,8 +16,6 @@ namespace tooljoint::linalg {
 
 namespace {
 
-using ComplexMatrix = Eigen::MatrixXcd;
-
 /// Residual of a Ritz pair that has converged: Newton's method does the rest.
 constexpr double convergedNearby = 1e-10;
 /// Vectors of a space at most: room for some 150 modes.
@@ -69,7 +67,7 @@ std::unique_ptr<ComplexInverse> inverseNear(const ScaledPencil& pencil, Complex 
     if (!inverse->singular()) return inverse;
     if (attempt == attempts)
       throw ModelError("The dynamic stiffness at " + scientific(std::abs(shift)) +
-                       " rad/s is singular: nothing holds or moves a dof.");
+                       " rad/s is singular: a dof has neither stiffness nor mass.");
   }
 }
 
@@ -170,10 +168,10 @@ QuadraticModes dampedModesNear(const Sparse& M, const Sparse& C, const Sparse& K
       columns = std::min(all, columns + controlSteps * startColumns);
     } else {
       if (columns >= limit)
-        throw ConvergenceError("More damped modes lie near " + scientific(std::abs(target.centre)) +
-                               " rad/s than a Krylov space of " + std::to_string(limit) +
-                               " vectors shows. Ask for fewer modes, or for a narrower window of "
-                               "frequencies.");
+        throw ConvergenceError(
+            "More damped modes lie near " + scientific(std::abs(target.centre)) +
+            " rad/s than a Krylov space of " + std::to_string(limit) +
+            " vectors can resolve. Request fewer modes, or a narrower window of frequencies.");
       columns = std::min(limit, columns + std::max(2 * startColumns, columns / 2));
     }
   }

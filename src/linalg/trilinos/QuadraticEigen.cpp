@@ -203,8 +203,8 @@ std::string placeOf(const ScaledPencil& pencil, Complex s, const ComplexVector& 
   if (fastest >= 0)
     return " No mass acts at " + nameOf(name, fastest) + ", and damping (" +
            scientific(c[fastest] / (pencil.scale[fastest] * pencil.scale[fastest])) +
-           ") so small that it relaxes far faster than all vibrations. Leave that damping out, or "
-           "give the dof more of it, or a mass.";
+           ") is so small that the dof relaxes far faster than all vibrations. Remove this "
+           "damping, increase it, or give the dof a mass.";
   Eigen::Index largest = 0;
   pencil.scale.cwiseProduct(phi.cwiseAbs()).maxCoeff(&largest);
   return " It moves most at " + nameOf(name, static_cast<int>(largest)) + ".";
@@ -274,7 +274,7 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
         throw ConvergenceError("The " + std::to_string(count) + " damped modes nearest zero of " +
                                std::to_string(pencil.size()) +
                                " dofs were not found in a Krylov space of " +
-                               std::to_string(limit) + " vectors. Ask for fewer or more of them.");
+                               std::to_string(limit) + " vectors. Request fewer or more modes.");
       columns = std::min(limit, columns + std::max(2 * startColumns, columns / 4));
       continue;
     }
@@ -303,7 +303,7 @@ QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse&
   const auto n = M.rows();
   if (count < 0 || count > n)
     throw ModelError(std::to_string(count) +
-                     " damped modes were asked for, but the eigenproblem has " + std::to_string(n) +
+                     " damped modes were requested, but the eigenproblem has " + std::to_string(n) +
                      " dofs.");
   QuadraticModes modes;
   if (count == 0) {

@@ -55,7 +55,7 @@ Matrix root(const Sparse& M, const DofNamer& name) {
   if (values[0] < -1e-9 * values[n - 1]) {
     Eigen::Index worst = 0;
     spectrum.vectors.col(0).cwiseAbs().maxCoeff(&worst);
-    throw ModelError("The mass matrix is indefinite, most of all in " +
+    throw ModelError("The mass matrix is indefinite, most strongly in " +
                      nameOf(name, static_cast<int>(massive[static_cast<std::size_t>(worst)])) +
                      ".");
   }
@@ -84,9 +84,8 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
   const DenseLu factor(K - sigma * Matrix(M));
   if (!(factor.reciprocalCondition() > 1e-18))
     throw ModelError(
-        "Stiffness and mass are singular together: some dof has neither mass nor stiffness, or a "
-        "constraint stands in the model "
-        "twice.");
+        "Stiffness and mass are singular together: some dof has neither mass nor stiffness, or the "
+        "model has the same constraint twice.");
   Matrix answer = factor.solve(W);
   answer += factor.solve(Matrix(W - (K * answer - sigma * (M * answer))));
   Matrix H = W.transpose() * answer;

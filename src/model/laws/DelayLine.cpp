@@ -26,7 +26,7 @@ DelayLine::DelayLine(int values, double span, int samples, Shape shape)
   if (!(span > 0) || samples < fewest || values < 1)
     throw ModelError("A delay line of " + std::to_string(values) + " values over " +
                      formatNumber(span) + " s with " + std::to_string(samples) +
-                     " samples cannot be: it needs a value, a positive span and at least " +
+                     " samples is not valid: it needs a value, a positive span and at least " +
                      std::to_string(fewest) + " samples.");
   spacing_ = span / (samples - 2);
 }

@@ -27,8 +27,8 @@ struct SpeedControl : Formula<1, 1, 2> {
                                              : std::numeric_limits<double>::infinity()) {
     if (ki > 0.0 && kp == 0.0 && std::isfinite(Fmax))
       throw DeckError(list.name() +
-                      "/Force Limit needs a positive Proportional Gain where there is an Integral "
-                      "Gain: it holds the integral within the limit.");
+                      "/Force Limit with an Integral Gain needs a positive Proportional Gain, "
+                      "which keeps the integral within the limit.");
   }
 
   void initial(double t, const double* d, const double*, double* x) const {

@@ -137,8 +137,7 @@ std::unique_ptr<PointLaw> makeStop(const Teuchos::ParameterList& own, const Poin
   const std::vector<StopParameters> points(static_cast<std::size_t>(place.points), stop);
   if (!(stop.friction > 0)) return stops(points);
   if (place.coordinates < 2)
-    throw DeckError(own.name() +
-                    "/Friction needs a Direction, across which it slides, but there is none.");
+    throw DeckError(own.name() + "/Friction needs a Direction: friction acts across it. Give one.");
   return slidingStops(points, place.coordinates - 1);
 }
 
@@ -171,7 +170,7 @@ std::unique_ptr<PointLaw> stops(const std::vector<StopParameters>& points) {
 std::unique_ptr<PointLaw> slidingStops(const std::vector<StopParameters>& points, int tangents) {
   if (tangents < 1 || tangents > 2)
     throw ModelError("A sliding stop has one or two tangential coordinates; " +
-                     std::to_string(tangents) + " were asked for.");
+                     std::to_string(tangents) + " were requested.");
   return std::make_unique<Stops>(points, tangents);
 }
 

@@ -21,7 +21,6 @@ namespace tooljoint::reduction {
 
 namespace {
 
-using Complex = std::complex<double>;
 /// Smallest fraction of a real or imaginary part (mass norm) that is independent of the other
 /// vectors; a lightly damped mode has one independent part.
 constexpr double independent = 1e-6;

@@ -36,8 +36,10 @@ class RowFiller {
   }
 
   Sparse result() {
-    matrix_.makeCompressed();
-    return std::move(matrix_);
+    Sparse filled;
+    filled.swap(matrix_);
+    filled.makeCompressed();
+    return filled;
   }
 
  private:

@@ -43,7 +43,7 @@ LinearMap::LinearMap(Sparse A) {
   if (static_cast<double>(A.nonZeros()) > 0.1 * static_cast<double>(A.size()))
     dense_ = A;
   else
-    sparse_ = std::move(A);
+    sparse_.swap(A);
 }
 
 TOOLJOINT_CLONES Vector LinearMap::operator()(const Vector& x) const {

@@ -94,7 +94,7 @@ void addLoadVectors(const PartView& part, const LoadVectorOptions& options, Basi
                                     "start state", options.independence, orthonormal, basis);
     if (added > 0)
       basis.remarks.push_back(std::to_string(added) +
-                              " vectors of the start state stand beside its modes");
+                              " vectors of the start state are added to its modes");
   }
   if (!options.loads && !options.points) return;
   const Matrix F = forces(part.part(), options);

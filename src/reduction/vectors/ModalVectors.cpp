@@ -20,8 +20,8 @@ constexpr double massless = 1e-14;
 
 }  // namespace
 
-OrthonormalSet::OrthonormalSet(Sparse mass, double tolerance, std::string who)
-    : mass_(std::move(mass)),
+OrthonormalSet::OrthonormalSet(const Sparse& mass, double tolerance, std::string who)
+    : mass_(mass),
       absolute_(mass_.cwiseAbs()),
       tolerance_(tolerance),
       who_(std::move(who)),

@@ -23,7 +23,7 @@ class OrthonormalSet {
  public:
   /// `tolerance`: a vector whose mass norm falls by more than this factor is dependent on those
   /// before it. `who` begins error messages.
-  OrthonormalSet(Sparse mass, double tolerance, std::string who);
+  OrthonormalSet(const Sparse& mass, double tolerance, std::string who);
 
   /// Adds what is new in `vector` (Gram-Schmidt, twice); false when nothing is, or when it moves no
   /// mass. ModelError when the mass is indefinite.

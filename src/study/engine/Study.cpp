@@ -9,9 +9,9 @@
 #include "cases/run/AnalysisFiles.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
-#include "common/RankGroups.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
+#include "common/ranks/RankGroups.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/Stopwatch.hpp"
 #include "study/engine/StudyFiles.hpp"
@@ -68,9 +68,9 @@ class Study {
   void go() {
     if (groups_.beside() > 0 && !options_.sharedTiming)
       throw UsageError(std::to_string(groups_.beside() + 1) +
-                       " rows would run on one machine at a time, so that their CPU times are not "
-                       "those of a run alone. Accept that with --timing shared, or give each group "
-                       "of ranks a machine.");
+                       " rows would run on one machine at the same time, so their CPU times would "
+                       "not be those of a single run. Accept that with --timing shared, or give "
+                       "each group of ranks a machine.");
     open();
     try {
       groups_.apart([&] { first(); });
@@ -183,7 +183,7 @@ class Study {
     const auto count = missing.size();
     missing.resize(std::min(count, mostNamed));
     log::warn(std::to_string(count) + " of " + std::to_string(plan_.runs.size()) +
-              " runs are missing or not timed as often as asked for: " + join(missing, ", ") +
+              " runs are missing or have fewer timings than requested: " + join(missing, ", ") +
               (count > mostNamed ? " ..." : "") + ".");
   }
 

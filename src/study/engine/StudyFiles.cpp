@@ -216,7 +216,7 @@ std::string describeReference(const StudyResult& result) {
   std::string text;
   const auto* same = result.find(RunKind::Check);
   if (same != nullptr && same->errors && same->errors->vibration == 0.0)
-    return "reference   its check has the same motion to the last digit: it says nothing of the "
+    return "reference   its check has the same motion to the last digit: it does not measure the "
            "error of the reference. Change Study/Check/Set.";
   if (const auto* check = result.find(RunKind::Check); check != nullptr && check->errors) {
     std::snprintf(

@@ -10,8 +10,8 @@
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
-#include "common/RankGroups.hpp"
 #include "common/Text.hpp"
+#include "common/ranks/RankGroups.hpp"
 #include "common/report/Stopwatch.hpp"
 #include "coupling/CoupledModes.hpp"
 

@@ -30,7 +30,7 @@ void MassNorm::bind(const CompiledModel& model) {
   const auto components = static_cast<Eigen::Index>(source.componentNames.size());
   std::vector<char> moves;
   for (const auto& name : source.componentNames)
-    moves.push_back(coupling::kindOf(name) == coupling::ComponentKind::Translation);
+    moves.push_back(coupling::kindOf(name) == coupling::ComponentKind::Translation ? 1 : 0);
   double moved = 0;
   for (Eigen::Index row = 0; row < source.recovery.rows(); ++row) {
     if (!moves[static_cast<std::size_t>(row % components)]) continue;

@@ -104,7 +104,7 @@ void ContactBroadPhase::deactivate(const double* q, const double* clearance) {
     group.steps = group.reached = 0;
     for (std::size_t j = 0; j < group.columns.size(); ++j) group.reference[j] = q[group.columns[j]];
     for (int p : group.points) {
-      isActive_[at(p)] = !(clearance[p] > margin);
+      isActive_[at(p)] = clearance[p] > margin ? 0 : 1;
       if (!isActive_[at(p)]) group.least = std::min(group.least, clearance[p]);
     }
   }

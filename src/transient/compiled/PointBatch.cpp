@@ -189,7 +189,7 @@ void PointBatch::look(double t, double h, const double* q) {
   for (int p : active_) isActive_[at(p)] = 0;
   for (int p : watch_.active()) {
     const double closing = std::max(0.0, lastGap_[at(p)] - gap_[at(p)]);
-    isActive_[at(p)] = !(gap_[at(p)] > reach * closing);
+    isActive_[at(p)] = gap_[at(p)] > reach * closing ? 0 : 1;
   }
   // What stands in a factored matrix has to be looked at as long as it stands there.
   for (int p : frozen_) isActive_[at(p)] = 1;

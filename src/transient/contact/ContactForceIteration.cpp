@@ -284,7 +284,7 @@ void ContactForceIteration::measure(Set& set, PointBatch& batch, double small, d
       }
       if (set.moved[at(p)] && wrong > small && wrong > Tuned::slowestRate * set.error[at(p)] &&
           !set.exact[at(p)])
-        set.exact[at(p)] = strategies_->use(Strategy::PointsAlone);
+        set.exact[at(p)] = strategies_->use(Strategy::PointsAlone) ? 1 : 0;
       set.error[at(p)] = wrong;
     }
   });
@@ -461,7 +461,9 @@ bool ContactForceIteration::correct(double t, double c, double small, bool all) 
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
     if (few) {
-      const auto isRight = [&](int p) { return (set.moved[at(p)] = isWrong(set, p, small)) == 0; };
+      const auto isRight = [&](int p) {
+        return (set.moved[at(p)] = isWrong(set, p, small) ? 1 : 0) == 0;
+      };
       set.points.erase(std::remove_if(set.points.begin(), set.points.end(), isRight),
                        set.points.end());
     } else {
@@ -482,9 +484,9 @@ bool ContactForceIteration::sweepEveryFourth(double t, double c, double small, i
     Set& set = sets_[b];
     set.points.clear();
     for (int p : model_->points()[b].active()) {
-      set.moved[at(p)] = place++ % Tuned::colours == colour && isWrong(set, p, small);
+      set.moved[at(p)] = place++ % Tuned::colours == colour && isWrong(set, p, small) ? 1 : 0;
       if (!set.moved[at(p)]) continue;
-      set.exact[at(p)] = strategies_->has(Strategy::PointsAlone);
+      set.exact[at(p)] = strategies_->has(Strategy::PointsAlone) ? 1 : 0;
       set.points.push_back(p);
       move(set, model_->points()[b], p, t, c);
       ++moved;

@@ -102,7 +102,7 @@ BlockShares divide(const BlockGraph& graph, const std::vector<int>& width,
   for (int b = 0; b < static_cast<int>(graph.size()); ++b) {
     const auto next = std::lower_bound(cuts.begin(), cuts.end(), levelOf[at(b)]);
     shares.rank.push_back(static_cast<int>(next - cuts.begin()));
-    shares.cut.push_back(next != cuts.end() && *next == levelOf[at(b)] && isCut(b));
+    shares.cut.push_back(next != cuts.end() && *next == levelOf[at(b)] && isCut(b) ? 1 : 0);
   }
   return shares;
 }

@@ -206,7 +206,7 @@ linalg::BlockPattern Division::pattern(int rank, const model::SecondOrderModel& 
   for (int b : cut)
     for (int i = 0; i < pattern_.width(b); ++i) {
       number.push_back(numberOf[at(b)] + i);
-      own.push_back(shares_.rank[at(b)] == rank);
+      own.push_back(shares_.rank[at(b)] == rank ? 1 : 0);
     }
   auto result = modelPattern(share, partition);
   result.divide(

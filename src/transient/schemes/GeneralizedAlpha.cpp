@@ -338,9 +338,8 @@ std::string GeneralizedAlpha::describeFailure(double t, double h) const {
 void GeneralizedAlpha::giveUp(const State& from, double h) const {
   throw ConvergenceError(
       describeFailure(from.t, h) +
-      " Reduce Transient/Step, allow more Transient/Generalized-alpha/Max Halvings, or "
-      "look at what "
-      "happens at that node (contact stiffness, regularisation, friction velocity).");
+      " Reduce Transient/Step, allow more Transient/Generalized-alpha/Max Halvings, or check that "
+      "node (contact stiffness, regularisation, friction velocity).");
 }
 
 void GeneralizedAlpha::giveUpAccuracy(const State& from, double h) {

@@ -183,7 +183,7 @@ void requireDetermined(const Model& model, const std::vector<std::size_t>& which
   for (std::size_t j = 0; j < which.size(); ++j)
     if (std::abs(mixed[static_cast<Eigen::Index>(j)]) > 0.1)
       names.push_back(model.unknowns()[which[j]].name);
-  throw DeckError(file + ": the measurements do not tell " + join(names, " from ") +
+  throw DeckError(file + ": the measurements cannot distinguish " + join(names, " from ") +
                   ". Measure at more depths, or with \"Rotate off bottom\" too.");
 }
 

@@ -62,7 +62,7 @@ class Reader {
       if (kind == measuredColumns.end()) continue;
       const auto k = static_cast<std::size_t>(kind - measuredColumns.begin());
       if (position_[k] >= 0)
-        fault(row.line, "the column " + std::string(kind->name) + " stands twice in the header.");
+        fault(row.line, "the column " + std::string(kind->name) + " occurs twice in the header.");
       position_[k] = static_cast<int>(i);
       if (*kind->si == '\0') continue;
       const std::string& unit = heading.unit;

@@ -63,14 +63,14 @@ void check(const Scene& scene) {
   };
   if (!scene.contact || scene.contactPoints.size() == 0)
     throw DeckError(scene.deck.file() +
-                    ": a string buckles into the wall of its hole. Add the list Contact.");
+                    ": buckling needs contact with the wall of the hole. Add the list Contact.");
   if (!scene.list().isSublist("Loads"))
-    throw DeckError(scene.deck.file() +
-                    ": the string has no loads. Add the list Loads; Gravity 0 is one without "
-                    "weight.");
+    throw DeckError(
+        scene.deck.file() +
+        ": the string has no loads. Add the list Loads; with Gravity 0 it has no weight.");
   if (!scene.statics.geometricStiffness)
     refuse("Static/Geometric Stiffness",
-           "is false, but without geometric stiffness nothing buckles. Leave it out.");
+           "is false, but buckling needs geometric stiffness. Leave it out.");
   if (scene.held[at(nodal::perNode * (scene.string.nodeCount() - 1) + nodal::w)] != 0)
     refuse("Supports/Bit",
            "holds w, so that the weight on bit cannot move the bit. Release w of the bit and hold "
@@ -267,7 +267,7 @@ class Branches {
       if (ended || settings_.atLimit == LimitRule::Follow) return;
       if (branch_ == mostJumps)
         return fail("The string has jumped " + std::to_string(mostJumps) +
-                    " times: no more are looked for.");
+                    " times, the most that are computed.");
       if (!jump(report)) return;
       if (options_.from >= options_.to) return end();
     }
@@ -308,8 +308,9 @@ class Branches {
       }
     }
     fail((report.end == statics::PathEnd::Stopped
-              ? fmt::format("The state becomes unstable under {}, and no other was found up to {}.",
-                            deck::printed(most, "kN", 6), deck::printed(options_.from, "kN", 6))
+              ? fmt::format(
+                    "The state becomes unstable under {}, and no other state was found up to {}.",
+                    deck::printed(most, "kN", 6), deck::printed(options_.from, "kN", 6))
               : report.explanation) +
          why);
     return false;
@@ -351,8 +352,8 @@ BucklingSettings bucklingSettings(const Scene& scene) {
                      [&](const auto& list) { settings = readBuckling(list); });
   if (!settings.lastWeight && scene.weightOnBit() > 0.0) settings.lastWeight = scene.weightOnBit();
   if (!settings.lastWeight)
-    throw DeckError(scene.deck.file() + ": nothing says how far the weight on bit grows. Give " +
-                    listName + "/Last Weight On Bit or Loads/Weight On Bit.");
+    throw DeckError(scene.deck.file() + ": the last weight on bit is not given. Give " + listName +
+                    "/Last Weight On Bit or Loads/Weight On Bit.");
   return settings;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "cases/run/AnalysisFiles.hpp"
-#include "cases/run/Run.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/report/Log.hpp"
@@ -215,8 +214,8 @@ class Report {
     const auto* first = firstUnstable();
     if (first != nullptr && settings_.atLimit == LimitRule::Follow)
       log::warn(
-          fmt::format("From {} on the bit on there are unstable states on the path, which a "
-                      "string leaves. \"At A Limit\" \"Jump\" finds where to.",
+          fmt::format("The path has unstable states from {} on the bit on; a real string does not "
+                      "stay in them. Set \"At A Limit\" to \"Jump\" to find the stable states.",
                       quantity(first->weight, "kN", 2)));
   }
 
@@ -268,27 +267,16 @@ class Report {
 void reportBuckling(const DrillstringCase& one, const std::string& folder) {
   const Scene& scene = one.scene();
   const auto settings = bucklingSettings(scene);
-  cases::AnalysisFiles files(one, folder, "buckling");
-  BucklingPath path;
-  files.complete(
-      [&] {
-        cases::announce(one);
-        path = bucklingPath(scene, settings);
-        Report(settings, path).print();
-      },
-      [&](io::ResultsFile& file) {
-        const Report report(settings, path);
-        report.write(files.folder(), file);
-        report.summarise(files.summary());
-      });
+  const BucklingPath path = cases::completeReport(
+      one, folder, "buckling", [&] { return bucklingPath(scene, settings); },
+      [&](const BucklingPath& states) { return Report(settings, states); });
   if (path.report.end != statics::PathEnd::Reached)
     throw ConvergenceError(
-        fmt::format("The states of the string could be followed up to {} on the bit only. ",
+        fmt::format("The states of the string were computed up to {} on the bit only. ",
                     quantity(path.report.parameter, "kN", 2)) +
         path.report.explanation +
-        " The tables have the states before. Give a smaller Largest Step, a "
-        "larger Crookedness, more Max Steps or a smaller Last Weight On Bit in "
-        "the list Buckling.");
+        " The tables have the states up to there. Give a smaller Largest Step, a larger "
+        "Crookedness, more Max Steps or a smaller Last Weight On Bit in the list Buckling.");
 }
 
 }  // namespace tooljoint::drillstring

@@ -157,8 +157,9 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
   const auto& drive = scene.topDrive;
   const bool feeds = scene.bit && scene.bit->law->givesWeight();
   if (!drive.turnsFreely() && drive.blockSpeed == 0.0 && !drive.movesFreely())
-    faults.add("Top Drive",
-               "is stiff and stands, as without the list. Choose a Control, or leave it out.");
+    faults.add(
+        "Top Drive",
+        "is stiff and does not move, as without the list. Choose a Control, or leave it out.");
   if (drive.turnsFreely() && scene.held[nodal::thetaZ] != 0)
     faults.add("Top Drive/Control",
                "turns the top of the string, but the Supports hold theta_z of node 1. Leave "
@@ -195,7 +196,7 @@ void checkSidedFeatures(const Scene& scene, Faults& faults) {
   if (scene.moves()) refuse("an eccentric gauge", string.eccentricGauges.front().node);
   if (scene.contact && model::PointLawRegistry::instance().entries().count(scene.contact->lawName))
     faults.add("Contact/Law", "is " + inQuotes(scene.contact->lawName) +
-                                  ", a point law, for which no gauge can be eccentric. Take "
+                                  ", a point law, which does not support an eccentric gauge. Use "
                                   "\"Clamped\", or leave Gauge Offset out.");
 }
 
@@ -207,9 +208,8 @@ void crossCheck(const Scene& scene, Faults& faults) {
                "has no effect without a Reduction list. Add one, or leave Substructures out.");
   if (list.isSublist("Parts"))
     faults.add("Parts",
-               "makes a scene of its own and cannot stand beside Well and Drillstring. Reduce and "
-               "export the string (tooljoint "
-               "export), and import it there.");
+               "is a scene of its own and cannot be combined with Well and Drillstring. Reduce and "
+               "export the string (tooljoint export), and import it there.");
   if (scene.output.exportFormat != io::ExportFormat::None && !(scene.reduces() && scene.moves()))
     faults.add("Output/Export Parts",
                "has no effect without Reduction and Transient. Add them, or use tooljoint export.");

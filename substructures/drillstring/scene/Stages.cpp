@@ -163,7 +163,7 @@ void requireHeld(const Scene& scene, StringModel& equations) {
       return model::describe(model.dofs[static_cast<std::size_t>(dof)], model.componentNames);
     });
   } catch (const ModelError& error) {
-    throw ModelError(std::string("The string floats: nothing holds it. ") + error.what() +
+    throw ModelError(std::string("The string floats: it has no support. ") + error.what() +
                      " Hold that dof in the Supports list.");
   }
 }
@@ -187,8 +187,8 @@ void explainFailure(const Scene& scene, const ConvergenceError& error) {
                    [&](const FreeMotion& one) { return one.component == free.front(); });
   const std::string dof = componentNames()[static_cast<std::size_t>(motion->component)];
   throw ModelError("The string floats: " + dof + " is free at all of its " +
-                   std::to_string(scene.string.nodeCount()) + " nodes, so that it " + motion->does +
-                   ", which walls and bending cannot hold. Hold " + dof +
+                   std::to_string(scene.string.nodeCount()) + " nodes, so the string " +
+                   motion->does + ", and walls and bending cannot hold it. Hold " + dof +
                    " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
 }
 
@@ -262,7 +262,7 @@ StaticStage findEquilibrium(const Scene& scene) {
       throw ConvergenceError(
           "After " + std::to_string(mostPerturbations) +
           " perturbations the static state is still unstable: " + describeStability(stage) +
-          " Reduce the loads, or take Static/Unstable State \"Warn\".");
+          " Reduce the loads, or set Static/Unstable State to \"Warn\".");
     stage.state = equilibrium::leaveUnstable(input, scene.statics, solver, stage.state,
                                              unstableMode(scene, stage));
     finish();
@@ -315,14 +315,13 @@ void judgeStretch(const Scene& scene, const StaticStage& stage) {
   }
   if (turn <= worthAWarning) return;
   const deck::PrintedUnit length("m");
-  log::warn("Loads move the string by " +
-            formatNumber(std::round(10 * std::abs(length(shift))) / 10) + " " + length.name() +
-            " along the well at " + formatNumber(std::round(length(depth))) + " " + length.name() +
-            ", where the well turns by " +
-            formatNumber(std::round(10 * turn / constants::degree) / 10) +
-            " deg over that length. Displacements are small ones about the nodes as they were "
-            "meshed, so that side forces and friction are too large there. Set Static/Reference "
-            "to \"Hanging\".");
+  log::warn(
+      "Loads move the string by " + formatNumber(std::round(10 * std::abs(length(shift))) / 10) +
+      " " + length.name() + " along the well at " + formatNumber(std::round(length(depth))) + " " +
+      length.name() + ", where the well turns by " +
+      formatNumber(std::round(10 * turn / constants::degree) / 10) +
+      " deg over that length. The model assumes small displacements about the meshed nodes, so "
+      "side forces and friction are too large there. Set Static/Reference to \"Hanging\".");
 }
 
 namespace {

@@ -83,7 +83,7 @@ void judgeStability(const Scene& scene, const StaticStage& stage) {
   log::warn(found + (s.diverges()
                          ? " Set Static/Unstable State to \"Perturb\" to find the state on the "
                            "wall, or to \"Refuse\"."
-                         : " A small disturbance becomes a vibration without a load."));
+                         : " A small disturbance grows into a vibration without an excitation."));
 }
 
 }  // namespace tooljoint::drillstring

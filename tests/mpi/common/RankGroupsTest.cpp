@@ -2,7 +2,7 @@
 /// \file
 /// Groups of ranks: who is in which, that each number goes to one group, and that an error of one
 /// is that of all.
-#include "common/RankGroups.hpp"
+#include "common/ranks/RankGroups.hpp"
 
 #include <gtest/gtest.h>
 #include <numeric>

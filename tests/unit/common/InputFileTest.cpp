@@ -69,8 +69,7 @@ TEST_F(InputFiles, ALineWithoutEndIsRefusedWhileItIsRead) {
   std::string line;
   EXPECT_THROW(file.line(line, 1024), FileError);
   EXPECT_LE(line.size(), 1024U);
-  EXPECT_EQ(refusal(path),
-            path + " is larger than 1000 bytes, the most that is read of such a file.");
+  EXPECT_EQ(refusal(path), path + " is larger than 1000 bytes, the limit for a file of this kind.");
 }
 
 // Without the check the open of a FIFO waits for ever, and /dev/zero is read until the memory is

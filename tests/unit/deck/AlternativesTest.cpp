@@ -114,12 +114,12 @@ TEST(UnitBy, RefusesTheUnitOfAnotherKind) {
                  parameter("Value", "string", text));
   };
   EXPECT_EQ(refusal("u", "2 kN m")
-                .find("deck.xml:5: /s/a/Value: value=\"2 kN m\" has the unit \"kN m\", which does "
-                      "not measure what is asked for here (N)"),
+                .find("deck.xml:5: /s/a/Value: value=\"2 kN m\" has the unit \"kN m\", which is "
+                      "not a unit of the expected quantity (N)"),
             0U);
   EXPECT_EQ(refusal("theta", "2 kN")
-                .find("deck.xml:5: /s/a/Value: value=\"2 kN\" has the unit \"kN\", which does not "
-                      "measure what is asked for here (N m)"),
+                .find("deck.xml:5: /s/a/Value: value=\"2 kN\" has the unit \"kN\", which is not a "
+                      "unit of the expected quantity (N m)"),
             0U);
   EXPECT_EQ(refusal("x", "2 kN"),
             "deck.xml:5: /s/a/Value: value=\"2 kN\" stands where a plain number is expected.");

@@ -157,10 +157,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadSet{"Transient/Step=1,5",
                "/well/Transient/Step: value=\"1,5\" has a decimal comma; write a decimal point."},
         BadSet{"Transient/Step=1 mm",
-               "/well/Transient/Step: value=\"1 mm\" has the unit \"mm\", which does not measure "
-               "what is asked for here (s); "
-               "expected is a number and a unit such as "
-               "\"s\", \"ms\", \"min\", \"h\"."},
+               "/well/Transient/Step: value=\"1 mm\" has the unit \"mm\", which is not a unit of "
+               "the expected quantity (s); expected is a number and a unit such as \"s\", \"ms\", "
+               "\"min\", \"h\"."},
         BadSet{
             "Contact/Friction=0.5 m",
             "/well/Contact/Friction: value=\"0.5 m\" is not a number: this parameter has no unit."},

@@ -228,10 +228,9 @@ INSTANTIATE_TEST_SUITE_P(
             "expected is a number and a unit "
             "such as \"N/m\", \"kN/m\", \"MN/m\"."},
         Row{parameter("Stiffness", "string", "5 kN"), "",
-            "deck.xml:3: /well/Contact/Stiffness: value=\"5 kN\" has the unit \"kN\", which does "
-            "not measure what is asked for "
-            "here (N/m); expected is a number and a unit "
-            "such as \"N/m\", \"kN/m\", \"MN/m\"."},
+            "deck.xml:3: /well/Contact/Stiffness: value=\"5 kN\" has the unit \"kN\", which is not "
+            "a unit of the expected quantity (N/m); expected is a number and a unit such as "
+            "\"N/m\", \"kN/m\", \"MN/m\"."},
         Row{s + parameter("Friction", "string", "0.3"), "",
             "deck.xml:4: /well/Contact/Friction must be type=\"double\", not type=\"string\": "
             "write type=\"double\" "
@@ -285,9 +284,8 @@ INSTANTIATE_TEST_SUITE_P(
             "type=\"string\" value=\"5\". "
             "It is a remark."},
         Row{"", e + parameter("Speed", "string", "2 Hz"),
-            "deck.xml:7: /well/Transient/Speed: value=\"2 Hz\" has the unit \"Hz\", which does not "
-            "measure what is asked for "
-            "here (rad/s); expected is a number and a unit such as "
+            "deck.xml:7: /well/Transient/Speed: value=\"2 Hz\" has the unit \"Hz\", which is not a "
+            "unit of the expected quantity (rad/s); expected is a number and a unit such as "
             "\"rpm\", \"rad/s\", \"deg/s\"."}));
 
 INSTANTIATE_TEST_SUITE_P(

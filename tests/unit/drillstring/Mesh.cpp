@@ -254,8 +254,8 @@ TEST(MeshErrors, Gauges) {
            array("Assembly", "2*stab");
   };
   has(errorOf(gauged("0.9", "0.1")),
-      "The Gauge Position 0.9 m is not at a node of the component; the nearest stands at 1 m.");
-  has(errorOf(gauged("3", "0.1")), "is not at a node of the component; the nearest stands at 2 m.");
+      "The Gauge Position 0.9 m is not at a node of the component; the nearest is at 1 m.");
+  has(errorOf(gauged("3", "0.1")), "is not at a node of the component; the nearest is at 2 m.");
   has(errorOf(gauged("1", "0.11")),
       "The gauge radius 0.11 m does not fit into the hole of radius 0.108 m at 1 m (node 2).");
   has(errorOf(gauged("1", "0.07")), "is below the outer radius of the body");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Modes with known shapes: tracks through crossings, veerings, jumps and new modes.
-#include "response/ModeTracker.hpp"
+#include "response/campbell/ModeTracker.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -134,15 +134,15 @@ TEST(Transient, refusesCountsOfStepsAndSamplesThatNobodyCanCompute) {
   list.set("End Time", 1e6);
   list.set("Step", 1e-9);
   EXPECT_NE(errorText([&] { readOptions(list); })
-                .find("Transient/Step is 1e-09 s, which makes 1e+15 of them in the 1e+06 s from "
-                      "Start Time to End Time; at most 1e+12"),
+                .find("Transient/Step is 1e-09 s, which gives 1e+15 intervals in the 1e+06 s from "
+                      "Start Time to End Time. The limit is 1e+12"),
             std::string::npos)
       << errorText([&] { readOptions(list); });
   list.set("Step", 1e-3);
   list.set("Sampling Interval", 1e-3);
   EXPECT_NE(errorText([&] {
               readOptions(list);
-            }).find("Transient/Sampling Interval is 0.001 s, which makes 1e+09 of them"),
+            }).find("Transient/Sampling Interval is 0.001 s, which gives 1e+09 intervals"),
             std::string::npos);
   list.set("Sampling Interval", 1.0);
   EXPECT_EQ(readOptions(list).sampling, 1.0);

@@ -135,7 +135,7 @@ void check(const Scene& scene, const BottomHoleSettings& settings, double whole)
   if (!scene.contact)
     throw DeckError(
         scene.deck.file() +
-        ": a bottom-hole assembly leans on the wall of its hole. Add the list Contact.");
+        ": a bottom-hole assembly needs contact with the wall of the hole. Add the list Contact.");
   if (!(loads::acceleration(scene.loads).norm() > 0.0))
     throw DeckError(scene.deck.file() +
                     ": a bottom-hole assembly needs its weight. Add the list Loads.");
@@ -145,11 +145,12 @@ void check(const Scene& scene, const BottomHoleSettings& settings, double whole)
   if (!scene.supports.named.empty())
     refuse(scene, "Supports",
            "holds node " + std::to_string(scene.supports.named.front().node) +
-               ", which `tooljoint bha` cannot: it divides the elements anew and models the lower "
-               "part of the string alone. Hold Top and Bit only.");
+               ", which `tooljoint bha` does not support: it remeshes the string and models its "
+               "lower part only. Hold Top and Bit only.");
   if (scene.list().sublist("Loads").isSublist("Forces"))
     refuse(scene, "Loads/Forces",
-           "acts at nodes, which `tooljoint bha` counts anew. Give a Pad to a component instead.");
+           "acts at numbered nodes, and `tooljoint bha` renumbers the nodes. Give a component a "
+           "Pad instead.");
   requireWithin(scene, "Length", settings.length, whole);
   requireWithin(scene, "Survey Tool", settings.surveyTool, whole);
   if (settings.length && settings.surveyTool && *settings.surveyTool > *settings.length)
@@ -159,8 +160,8 @@ void check(const Scene& scene, const BottomHoleSettings& settings, double whole)
   for (const char* rate : {"Build Rate", "Turn Rate"})
     if (settings.inclinations.empty() && scene.deck.gives(here + "/" + rate))
       refuse(scene, here + "/" + rate,
-             "is that of the holes of Inclination, which is absent: the hole is that of the list "
-             "Well. Give Inclination, or leave it out.");
+             "applies to the holes of Inclination, which is not given: the hole is that of the "
+             "list Well. Give Inclination, or leave it out.");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "cases/run/AnalysisFiles.hpp"
-#include "cases/run/Run.hpp"
 #include "common/Constants.hpp"
 #include "common/Index.hpp"
 #include "common/report/Log.hpp"
@@ -120,7 +119,7 @@ class Report {
           "{}",
           100.0 * length.change, metres(length.checkedAgainst), metres(length.length),
           settings_.length ? "Give a larger Length, or none."
-                           : "The string of the deck ends there. Give more of it."));
+                           : "The string of the deck ends there. Give a longer string."));
     double force = 0.0, moment = 0.0;
     int unstable = 0;
     for (const auto& row : sweep_.rows) {
@@ -134,12 +133,12 @@ class Report {
                     force, moment));
     if (std::max(force, moment) > largestDefect)
       log::warn(fmt::format(
-          "Forces or moments do not balance: {:.1f} % and {:.1f} %. Displacements are taken as "
-          "small; use smaller bends, or a smaller Element Length.",
+          "Forces or moments do not balance: {:.1f} % and {:.1f} %. The analysis assumes small "
+          "displacements. Use smaller bends, or a smaller Element Length.",
           100.0 * force, 100.0 * moment));
     for (const auto& one : sweep_.missing)
       log::warn(fmt::format(
-          "Without an equilibrium, and in no table: {:.1f} {} on the bit{}{}. {}",
+          "No equilibrium was found, so no table has this state: {:.1f} {} on the bit{}{}. {}",
           force_(one.point.weight), force_.name(),
           one.point.inclination
               ? fmt::format(", inclination {:.1f} deg", *one.point.inclination / constants::degree)
@@ -339,19 +338,9 @@ class Report {
 void reportBottomHole(const DrillstringCase& one, const std::string& folder) {
   const Scene& scene = one.scene();
   const auto settings = bottomHoleSettings(scene);
-  cases::AnalysisFiles files(one, folder, "bha");
-  BottomHoleSweep sweep;
-  files.complete(
-      [&] {
-        cases::announce(one);
-        sweep = bottomHoleSweep(scene, settings);
-        Report(scene, settings, sweep).print();
-      },
-      [&](io::ResultsFile& file) {
-        const Report report(scene, settings, sweep);
-        report.write(files.folder(), file);
-        report.summarise(files.summary());
-      });
+  cases::completeReport(
+      one, folder, "bha", [&] { return bottomHoleSweep(scene, settings); },
+      [&](const BottomHoleSweep& sweep) { return Report(scene, settings, sweep); });
 }
 
 }  // namespace tooljoint::drillstring

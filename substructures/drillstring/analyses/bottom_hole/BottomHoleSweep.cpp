@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/DealtRows.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
+#include "common/ranks/DealtRows.hpp"
 #include "substructures/drillstring/analyses/bottom_hole/BottomHole.hpp"
 
 namespace tooljoint::drillstring {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PythonLaw.hpp"
+#include "laws/PythonLaw.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "response/ModeTracker.hpp"
+#include "response/campbell/ModeTracker.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -24,8 +24,7 @@ Eigen::MatrixXcd columns(const Eigen::MatrixXcd& all, const std::vector<int>& wh
 
 }  // namespace
 
-ModeTracker::ModeTracker(Modes modes, Sparse mass)
-    : modes_(std::move(modes)), mass_(std::move(mass)) {}
+ModeTracker::ModeTracker(Modes modes, const Sparse& mass) : modes_(std::move(modes)), mass_(mass) {}
 
 void ModeTracker::advance(double speed) {
   for (auto& mode : now_) mode.mac = 1.0;

@@ -39,7 +39,7 @@ class ModeTracker {
   using Modes = std::function<VibratingModes(double speed, int followed)>;
 
   /// \param mass   of the shapes
-  ModeTracker(Modes modes, Sparse mass);
+  ModeTracker(Modes modes, const Sparse& mass);
 
   /// Goes on to this speed, by |s| at the first call.
   void advance(double speed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "response/ModeSearch.hpp"
+#include "response/campbell/ModeSearch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,6 @@
 namespace tooljoint::response {
 
 namespace {
-
-using Complex = std::complex<double>;
 
 /// Of |s|: a mode with less Im s does not vibrate.
 constexpr double noVibration = 1e-6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "response/Campbell.hpp"
+#include "response/campbell/Campbell.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,13 @@
 #include "common/Index.hpp"
 #include "estimate/ModeMatching.hpp"
 #include "linalg/DynamicStiffness.hpp"
-#include "response/ModeSearch.hpp"
 #include "response/SweepParameters.hpp"
 #include "response/SweepProgress.hpp"
+#include "response/campbell/ModeSearch.hpp"
 
 namespace tooljoint::response {
 
 namespace {
-
-using Complex = std::complex<double>;
 
 /// Relative distance of two values that are one repeated value: the whirl of its modes is
 /// arbitrary.

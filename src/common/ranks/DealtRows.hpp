@@ -8,7 +8,7 @@
 
 #include "common/Message.hpp"
 #include "common/Parallel.hpp"
-#include "common/RankGroups.hpp"
+#include "common/ranks/RankGroups.hpp"
 
 namespace tooljoint::parallel {
 

@@ -7,8 +7,8 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "response/Campbell.hpp"
 #include "response/SweepParameters.hpp"
+#include "response/campbell/Campbell.hpp"
 
 namespace tooljoint::response {
 

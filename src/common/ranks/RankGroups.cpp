@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/RankGroups.hpp"
+#include "common/ranks/RankGroups.hpp"
 
 #include <algorithm>
 #include <exception>

@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "response/Campbell.hpp"
-#include "response/ModeTracker.hpp"
 #include "response/RotatingStates.hpp"
+#include "response/campbell/Campbell.hpp"
+#include "response/campbell/ModeTracker.hpp"
 
 namespace tooljoint::response {
 

@@ -11,8 +11,8 @@
 #include "Bind.hpp"
 #include "Calls.hpp"
 #include "Lists.hpp"
-#include "PythonLaw.hpp"
 #include "common/Index.hpp"
+#include "laws/PythonLaw.hpp"
 #include "model/laws/PointLawRegistry.hpp"
 #include "model/laws/StatefulPointLaw.hpp"
 

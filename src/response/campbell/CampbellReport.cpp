@@ -10,8 +10,8 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
-#include "response/Campbell.hpp"
 #include "response/Columns.hpp"
+#include "response/campbell/Campbell.hpp"
 
 namespace tooljoint::response {
 
@@ -110,8 +110,8 @@ const char* whirlWord(double whirl) {
 void warnOfEmptiness(const CampbellDiagram& diagram) {
   if (diagram.rows.empty())
     log::warn(
-        "No mode vibrates in the window of frequencies, or its resonance is wider than the window. "
-        "Give a wider one (Campbell/Lowest Frequency, Highest Frequency).");
+        "The window of frequencies contains no vibrating mode, or its resonance is wider than the "
+        "window. Give a wider one (Campbell/Lowest Frequency, Highest Frequency).");
 }
 
 void print(const CampbellDiagram& diagram, const CampbellSettings& settings, bool estimated) {
@@ -163,11 +163,11 @@ void warnOfGrowth(const CampbellDiagram& diagram) {
   if (worst == diagram.rows.end() || worst->damping() >= growing) return;
   const auto first = std::find_if(diagram.rows.begin(), diagram.rows.end(),
                                   [](const auto& row) { return row.damping() < growing; });
-  log::warn(fmt::format(
-      "Modes grow, from {:.2f} rpm on (mode {}); the least damping ratio is {:.2e}, of mode {} at "
-      "{:.2f} rpm.",
-      first->speed * rpmPerRadianPerSecond, first->mode, worst->damping(), worst->mode,
-      worst->speed * rpmPerRadianPerSecond));
+  log::warn(
+      fmt::format("Modes are unstable from {:.2f} rpm on (mode {}). The lowest damping ratio is "
+                  "{:.2e}: mode {} at {:.2f} rpm.",
+                  first->speed * rpmPerRadianPerSecond, first->mode, worst->damping(), worst->mode,
+                  worst->speed * rpmPerRadianPerSecond));
 }
 
 void writeLines(const CampbellSettings& settings, io::ResultsFile& file) {
