@@ -24,7 +24,9 @@ path::PathState bendIntoWell(const Scene& scene) {
   path::PathInput input;
   input.elements = scene.string.formulations();
   input.trajectory = &scene.well.trajectory();
-  return path::computePath(input, scene.path, statics::noxSolver(listOrEmpty(scene, "Path")));
+  // depths carry the rounding of the whole well, which E S/l turns into forces
+  return path::computePath(input, scene.path,
+                           statics::noxSolver(listOrEmpty(scene, "Path"), statics::RankWork::Rows));
 }
 
 PathEquations equationsOnPath(const Scene& scene, const path::PathState& path) {
@@ -56,6 +58,7 @@ equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& 
   input.geometricStiffness = scene.statics.geometricStiffness;
   std::vector<double> pretension;
   if (reference == equilibrium::Reference::Hanging) pretension = hangingTension(equations);
+  input.elements.reserve(at(equations.model.elements()));
   for (int e = 0; e < equations.model.elements(); ++e) {
     const auto i = at(e);
     const auto& section = scene.string.elements[i].section();
