@@ -30,15 +30,14 @@ void throwAlike(const std::exception_ptr& error) {
 
 }  // namespace
 
-std::unique_ptr<DividedProblem> DividedProblem::of(const model::NonlinearProblem& problem,
-                                                   RankWork work) {
+std::unique_ptr<DividedProblem> DividedProblem::of(const model::NonlinearProblem& problem) {
   const auto* chain = dynamic_cast<const model::ChainProblem*>(&problem);
   if (chain == nullptr || parallel::size() == 1) return nullptr;
   auto first = chain->firstOfNodes();
   if (first.empty()) return nullptr;
   auto share = linalg::ChainShare::of(std::move(first), fewestRows);
   if (!share) return nullptr;
-  return std::unique_ptr<DividedProblem>(new DividedProblem(*chain, std::move(share), work));
+  return std::unique_ptr<DividedProblem>(new DividedProblem(*chain, std::move(share)));
 }
 
 void DividedProblem::residual(const Vector& x, Vector& r) const {

@@ -13,19 +13,11 @@
 
 namespace tooljoint::statics {
 
-/// What ranks divide.
-enum class RankWork {
-  RowsAndSolutions,
-  Rows  ///< where results feel the rounding of a linear solution: it is then that of one rank, bit
-        ///< by bit
-};
-
 class DividedProblem final : public model::NonlinearProblem {
  public:
   /// Null on one rank, where the problem is no chain, and where it is too short to divide. The same
   /// decision on all ranks of parallel::communicator(), which all have the same problem.
-  static std::unique_ptr<DividedProblem> of(const model::NonlinearProblem& problem,
-                                            RankWork work = RankWork::RowsAndSolutions);
+  static std::unique_ptr<DividedProblem> of(const model::NonlinearProblem& problem);
 
   int size() const override { return problem_.size(); }
   /// Bit by bit as on one rank. Collective; what the problem throws on one of the ranks is thrown
@@ -44,18 +36,16 @@ class DividedProblem final : public model::NonlinearProblem {
   }
   std::string unknownName(int i) const override { return problem_.unknownName(i); }
 
-  bool dividesSolutions() const { return work_ == RankWork::RowsAndSolutions; }
   const linalg::ChainShare& share() const { return *share_; }
   const std::shared_ptr<const linalg::ChainShare>& sharedShare() const { return share_; }
 
  private:
   DividedProblem(const model::ChainProblem& problem,
-                 std::shared_ptr<const linalg::ChainShare> share, RankWork work)
-      : problem_(problem), share_(std::move(share)), work_(work) {}
+                 std::shared_ptr<const linalg::ChainShare> share)
+      : problem_(problem), share_(std::move(share)) {}
 
   const model::ChainProblem& problem_;
   std::shared_ptr<const linalg::ChainShare> share_;
-  RankWork work_;
 };
 
 }  // namespace tooljoint::statics

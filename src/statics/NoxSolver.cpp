@@ -9,7 +9,7 @@
 
 namespace tooljoint::statics {
 
-model::NonlinearSolver noxSolver(const Teuchos::ParameterList& list, RankWork work) {
+model::NonlinearSolver noxSolver(const Teuchos::ParameterList& list) {
   const auto sublist = [&list](const char* name) {
     return list.isSublist(name) ? std::make_shared<const Teuchos::ParameterList>(list.sublist(name))
                                 : nullptr;
@@ -17,14 +17,14 @@ model::NonlinearSolver noxSolver(const Teuchos::ParameterList& list, RankWork wo
   const auto nox = sublist("NOX");
   const auto belos = sublist("Belos");
   const auto memory = std::make_shared<NewtonMemory>();
-  return [nox, belos, memory, work](const model::NonlinearProblem& problem, Vector& x,
-                                    const model::SolveRequest& request) {
+  return [nox, belos, memory](const model::NonlinearProblem& problem, Vector& x,
+                              const model::SolveRequest& request) {
     NewtonOptions options;
     options.tolerance = request.tolerance;
     options.updateTolerance = request.updateTolerance > 0.0 ? request.updateTolerance : 1.0;
     options.maxIterations = request.maxIterations;
     options.lineSearch = lineSearch(request.search);
-    const auto divided = DividedProblem::of(problem, work);
+    const auto divided = DividedProblem::of(problem);
     const auto report =
         solve(divided ? *divided : problem, x, options, nox.get(), belos.get(), memory.get());
     return model::SolveOutcome{report.converged, report.iterations, report.residual, report.update,

@@ -37,7 +37,7 @@ inline void fromEigenVector(const Vector& from, const Teuchos::RCP<Thyra::Vector
 }
 
 /// F(x) = S r(x) with S the residual scale of the problem, W = S dr/dx, and a factor of W. Of a
-/// problem whose solutions are divided every rank has its rows of W and its share of the factor.
+/// divided problem every rank has its rows of W and its share of the factor.
 class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
  public:
   /// \param residual  at the start
@@ -45,7 +45,6 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
                NewtonMemory& memory)
       : problem_(problem),
         divided_(dynamic_cast<const DividedProblem*>(&problem)),
-        shared_(divided_ != nullptr && divided_->dividesSolutions()),
         memory_(memory),
         scale_(problem.residualScale()),
         map_(linalg::serialMap(problem.size())),
@@ -79,7 +78,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
 
   Teuchos::RCP<Thyra::LinearOpBase<double>> create_W_op() const override {
     Teuchos::RCP<tpetra::Operator> matrix;
-    if (shared_)
+    if (divided_ != nullptr)
       matrix = Teuchos::rcp(new linalg::FunctionOperator(map_, [this](const Matrix& x) {
         return isWhole_ ? Matrix(jacobian_ * x) : memory_.chain->multiply(jacobian_, x);
       }));
@@ -92,7 +91,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   Teuchos::RCP<Thyra::PreconditionerBase<double>> create_W_prec() const override {
     const Teuchos::RCP<tpetra::Operator> inverse =
         Teuchos::rcp(new linalg::FunctionOperator(map_, [this](const Matrix& b) {
-          return shared_ && !isWhole_ ? memory_.chain->solve(b) : memory_.factors->apply(b);
+          return !isWhole_ ? memory_.chain->solve(b) : memory_.factors->apply(b);
         }));
     const Teuchos::RCP<const Thyra::LinearOpBase<double>> op =
         Thyra::tpetraLinearOp<double>(space_, space_, inverse);
@@ -125,7 +124,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     if (out.get_f().get() != nullptr)
       fromEigenVector(scale_.cwiseProduct(residual(x)), out.get_f());  // F = S r
     if (!out.get_W_op().is_null()) updateJacobian(x);
-    if (!out.get_W_op().is_null() && !shared_) {
+    if (!out.get_W_op().is_null() && divided_ == nullptr) {
       const auto op = Teuchos::rcp_dynamic_cast<
           Thyra::TpetraLinearOp<double, tpetra::LocalOrdinal, tpetra::GlobalOrdinal, tpetra::Node>>(
           out.get_W_op(), true);
@@ -152,16 +151,15 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
         problem_.jacobian(x, jacobian_);
     });
     jacobian_.makeCompressed();
-    if (divided_ != nullptr && !shared_) divided_->share().gatherRows(jacobian_);
-    isWhole_ = !shared_;
-    const RowRange rows = shared_ ? divided_->share().around() : RowRange{0, problem_.size()};
+    isWhole_ = divided_ == nullptr;
+    const RowRange rows = isWhole_ ? RowRange{0, problem_.size()} : divided_->share().around();
     for (int row = rows.begin; row < rows.end; ++row)
       for (Sparse::InnerIterator it(jacobian_, row); it; ++it) it.valueRef() *= scale_[row];
   }
 
   void updateFactors(const Vector& x) const {
     updateJacobian(x);
-    if (shared_ && !updateSharedFactors()) {
+    if (!isWhole_ && !updateSharedFactors()) {
       divided_->share().gatherRows(jacobian_);
       isWhole_ = true;
     }
@@ -192,7 +190,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
       chain = std::make_unique<linalg::DividedChain>(divided_->sharedShare(), jacobian_);
       memory_.pattern = jacobian_;
     }
-    if (!chain->factor(jacobian_)) return false;
+    if (!chain->suits() || !chain->factor(jacobian_)) return false;
     return factorisations_ > 0 ||
            chain->resistance(jacobian_) > linalg::DirectSolverOptions().singularTolerance;
   }
@@ -210,7 +208,6 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
 
   const model::NonlinearProblem& problem_;
   const DividedProblem* divided_;  ///< null: not divided
-  bool shared_;                    ///< products and solutions are divided too
   NewtonMemory& memory_;
   Vector scale_;
   Teuchos::RCP<const tpetra::Map> map_;

@@ -2,6 +2,8 @@
 #include "linalg/blocks/ChainShare.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <mpi.h>
 #include <utility>
 
@@ -65,6 +67,46 @@ bool ChainShare::gather(double* columns, int count, bool failed) const {
         std::copy_n(from, range.end - range.begin, columns + at(j) * at(size()) + range.begin);
     any = any || *from != 0.0;
   }
+  return any;
+}
+
+void ChainShare::gatherEnds(double* columns, int count, int row) const {
+  const int last = ranks() - 1;
+  const std::array lengths{at(count * row), at(count * (size() - row))};
+  mine_.clear();
+  for (int j = 0; j < count && (rank_ == 0 || rank_ == last); ++j) {
+    const double* column = columns + at(j) * at(size());
+    mine_.insert(mine_.end(), column + (rank_ == 0 ? 0 : row),
+                 column + (rank_ == 0 ? row : size()));
+  }
+  exchangeEnds(mine_, lengths, all_);
+  for (int j = 0; j < count; ++j) {
+    double* column = columns + at(j) * at(size());
+    if (rank_ != 0) std::copy_n(all_.data() + at(j * row), row, column);
+    if (rank_ != last)
+      std::copy_n(all_.data() + lengths[0] + at(j * (size() - row)), size() - row, column + row);
+  }
+}
+
+/// A number that says whether a rank has failed follows what it has.
+bool ChainShare::exchangeEnds(const std::vector<double>& mine, std::array<std::size_t, 2> lengths,
+                              std::vector<double>& all, bool failed) const {
+  std::fill(counts_.begin(), counts_.end(), 1);
+  counts_.front() += static_cast<int>(lengths[0]);
+  counts_.back() += static_cast<int>(lengths[1]);
+  places_[0] = 0;
+  for (std::size_t r = 1; r < counts_.size(); ++r) places_[r] = places_[r - 1] + counts_[r - 1];
+  send_.assign(mine.begin(), mine.end());
+  send_.push_back(failed ? 1.0 : 0.0);
+  receive_.resize(at(places_.back() + counts_.back()));
+  MPI_Allgatherv(send_.data(), counts_[at(rank_)], MPI_DOUBLE, receive_.data(), counts_.data(),
+                 places_.data(), MPI_DOUBLE, parallel::communicator());
+  bool any = false;
+  for (std::size_t r = 0; r < counts_.size(); ++r)
+    any = any || receive_[at(places_[r] + counts_[r] - 1)] != 0.0;
+  all.assign(receive_.begin(), receive_.begin() + static_cast<std::ptrdiff_t>(lengths[0]));
+  const auto second = receive_.begin() + places_.back();
+  all.insert(all.end(), second, second + static_cast<std::ptrdiff_t>(lengths[1]));
   return any;
 }
 

@@ -4,6 +4,8 @@
 /// all ranks, rows are computed by the rank that has their node, and brought together.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -35,6 +37,13 @@ class ChainShare {
   /// Columns of `size()` rows, of which each rank has its own -> whole columns. Whether one of the
   /// ranks says that it has failed; the columns are then of no use.
   bool gather(double* columns, int count, bool failed = false) const;
+  /// Columns of which the first rank has the rows before `row` and the last one those from there
+  /// on.
+  void gatherEnds(double* columns, int count, int row) const;
+  /// What the first and the last rank have, `lengths` numbers of each, one after the other. Whether
+  /// one of the ranks says that it has failed.
+  bool exchangeEnds(const std::vector<double>& mine, std::array<std::size_t, 2> lengths,
+                    std::vector<double>& all, bool failed = false) const;
   /// The values of all rows of a compressed matrix, whose pattern is that of the chain.
   void gatherRows(Sparse& A) const;
   double largest(double value) const;
@@ -46,7 +55,7 @@ class ChainShare {
 
   int rank_ = 0;
   std::vector<int> first_, begin_;
-  mutable std::vector<double> mine_, all_;  ///< messages
+  mutable std::vector<double> mine_, all_, send_, receive_;  ///< messages
   mutable std::vector<int> counts_, places_;
 };
 

@@ -2,153 +2,113 @@
 #include "linalg/blocks/DividedChain.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "common/Index.hpp"
 #include "linalg/Deterministic.hpp"
 
 namespace tooljoint::linalg {
-namespace {
-
-/// Nodes of one rank, and the positions of their rows: those between the cuts, then the cut to the
-/// rank before, which is that one's last node, then the cut to the rank behind, its own last node.
-class Positions {
- public:
-  explicit Positions(const ChainShare& share) : first_(share.first()), rank_(share.rank()) {
-    begin_ = share.begin(rank_);
-    end_ = share.begin(rank_ + 1);
-    if (rank_ + 1 < share.ranks()) --end_;
-    isFirst_ = rank_ == 0, isLast_ = rank_ + 1 == share.ranks();
-  }
-
-  int interior() const { return row(end_) - row(begin_); }
-  int before() const { return isFirst_ ? 0 : row(begin_) - row(begin_ - 1); }
-  int behind() const { return isLast_ ? 0 : row(end_ + 1) - row(end_); }
-  int size() const { return interior() + before() + behind(); }
-  int firstInterior() const { return row(begin_); }
-  /// -1 for a row that another rank holds.
-  int of(int r) const {
-    if (r >= row(begin_) && r < row(end_)) return r - row(begin_);
-    if (!isFirst_ && r >= row(begin_ - 1) && r < row(begin_))
-      return interior() + r - row(begin_ - 1);
-    if (!isLast_ && r >= row(end_) && r < row(end_ + 1))
-      return interior() + before() + r - row(end_);
-    return -1;
-  }
-  /// Whether an entry of the matrix is this rank's: that between the cut nodes themselves is of the
-  /// rank whose last node it is.
-  bool owns(int r, int column) const {
-    const int i = of(r), j = of(column);
-    return i >= 0 && j >= 0 && !(isBefore(i) && isBefore(j));
-  }
-  std::vector<int> blockStarts() const {
-    std::vector<int> starts;
-    for (int node = begin_; node < end_; ++node) starts.push_back(row(node) - row(begin_));
-    if (!isFirst_) starts.push_back(interior());
-    if (!isLast_) starts.push_back(interior() + before());
-    starts.push_back(size());
-    return starts;
-  }
-
- private:
-  int row(int node) const { return first_[at(node)]; }
-  bool isBefore(int position) const {
-    return position >= interior() && position < interior() + before();
-  }
-
-  const std::vector<int>& first_;
-  int rank_, begin_, end_;
-  bool isFirst_, isLast_;
-};
-
-RankCut cutOf(const ChainShare& share, const Positions& positions) {
-  std::vector<int> number;
-  std::vector<char> own;
-  int total = 0;
-  for (int r = 0; r + 1 < share.ranks(); ++r) {
-    const int node = share.begin(r + 1) - 1;
-    const int width = share.first()[at(node + 1)] - share.first()[at(node)];
-    if (r + 1 == share.rank() || r == share.rank())
-      for (int i = 0; i < width; ++i) {
-        number.push_back(total + i);
-        own.push_back(r == share.rank());
-      }
-    total += width;
-  }
-  return {positions.interior(), std::move(number), total, std::move(own)};
-}
-
-}  // namespace
 
 DividedChain::DividedChain(std::shared_ptr<const ChainShare> share, const Sparse& A)
     : share_(std::move(share)) {
-  const Positions positions(*share_);
-  interior_ = positions.interior();
-  before_ = positions.before();
-  behind_ = positions.behind();
-  local_.resize(positions.size());
-  BlockPartition partition;
-  partition.start = positions.blockStarts();
-  partition.position.resize(at(positions.size()));
-  std::iota(partition.position.begin(), partition.position.end(), 0);
-  partition.dof = partition.position;
-
-  const auto around = share_->around();
-  const auto forEachOwn = [&](const auto& visit) {
-    for (int row = around.begin; row < around.end; ++row)
-      for (int k = A.outerIndexPtr()[row]; k < A.outerIndexPtr()[row + 1]; ++k)
-        if (positions.owns(row, A.innerIndexPtr()[k]))
-          visit(positions.of(row), positions.of(A.innerIndexPtr()[k]), k);
-  };
-  Triplets ones;
-  forEachOwn([&](int i, int j, int) { ones.emplace_back(i, j, 1.0); });
-  Sparse pattern(positions.size(), positions.size());
-  pattern.setFromTriplets(ones.begin(), ones.end());
-  BlockPattern blocks(std::move(partition), {&pattern});
-  blocks.divide(cutOf(*share_, positions));
-  factor_ = BlockFactor(blocks);
-  storage_ = blocks.storage() + factor_.fill();
-  entries_.reserve(ones.size());
-  forEachOwn([&](int i, int j, int k) { entries_.push_back({blocks.address(i, j), k}); });
+  if (!ChainFactor::isChain(A)) return;
+  chain_ = ChainFactor(A);
+  if (!chain_.hasTwoSweeps()) return;
+  auto sweeps = std::make_unique<BlockFactor::TwoSweeps>(chain_.blocks());
+  // two ranks have the rows of their sweeps without a message
+  const int before = share_->first()[at(share_->begin(1))];
+  if (share_->ranks() == 2 && sweeps->meetingBegin() != before) return;
+  sweeps_ = std::move(sweeps);
 }
 
-bool DividedChain::factor(const Sparse& A, bool failed) {
-  double* values = factor_.values();
-  std::fill(values, values + storage_, 0.0);
-  double zero = 0.0;  // not a number where an entry is none, or infinite
-  for (const Entry& entry : entries_) {
-    values[entry.address] = A.valuePtr()[entry.from];
-    zero += 0.0 * values[entry.address];
+int DividedChain::sweep() const {
+  return share_->rank() == 0 ? 0 : share_->rank() + 1 == share_->ranks() ? 1 : -1;
+}
+
+bool DividedChain::factor(Sparse& A, bool failed) {
+  if (share_->ranks() > 2) share_->gatherRows(A);
+  const int mine = sweep(), rows = static_cast<int>(A.rows());
+  if (mine >= 0) {
+    chain_.fill(A, mine == 0 ? 0 : sweeps_->meetingBegin(),
+                mine == 0 ? sweeps_->meetingEnd() : rows);
+    sweeps_->keepMeeting();
+    failed = !sweeps_->factorSweep(mine) || failed;
+  } else {
+    chain_.fill(A, sweeps_->meetingBegin(), sweeps_->meetingEnd());
+    sweeps_->keepMeeting();
   }
-  if (failed || zero != 0.0) std::fill(values, values + storage_, NAN);
-  return factor_.factor() < 0;
+  const auto lengths = std::array{sweeps_->factorsLength(0), sweeps_->factorsLength(1)};
+  mine_.assign(mine < 0 ? 0 : lengths[at(mine)], 0.0);
+  if (mine >= 0) sweeps_->copyFactors(mine, mine_.data());
+  failed = share_->exchangeEnds(mine_, lengths, all_, failed);
+  if (failed) return false;
+  sweeps_->takeFactors(0, all_.data());
+  sweeps_->takeFactors(1, all_.data() + lengths[0]);
+  return sweeps_->factorMeeting();
 }
 
 Matrix DividedChain::solve(const Matrix& b) const {
-  Matrix x(b.rows(), b.cols());
-  const auto own = share_->own();
-  for (Eigen::Index j = 0; j < b.cols(); ++j) {
-    local_.head(interior_) = b.col(j).segment(own.begin, interior_);
-    local_.segment(interior_, before_).setZero();  // counted by the rank before
-    local_.tail(behind_) = b.col(j).segment(own.begin + interior_, behind_);
-    factor_.solve(local_.data());
-    x.col(j).segment(own.begin, interior_) = local_.head(interior_);
-    x.col(j).segment(own.begin + interior_, behind_) = local_.tail(behind_);
+  Matrix x = b;
+  const int mine = sweep(), columns = static_cast<int>(b.cols());
+  const auto lengths =
+      std::array{at(columns * sweeps_->lastWidth(0)), at(columns * sweeps_->lastWidth(1))};
+  mine_.clear();
+  if (mine >= 0)
+    for (int j = 0; j < columns; ++j) {
+      sweeps_->down(mine, x.col(j).data());
+      const double* last = x.col(j).data() + sweeps_->lastBegin(mine);
+      mine_.insert(mine_.end(), last, last + sweeps_->lastWidth(mine));
+    }
+  share_->exchangeEnds(mine_, lengths, all_);
+  const double* from = all_.data();
+  for (int side = 0; side < 2; ++side)
+    for (int j = 0; j < columns; ++j, from += sweeps_->lastWidth(side))
+      std::copy_n(from, sweeps_->lastWidth(side), x.col(j).data() + sweeps_->lastBegin(side));
+  for (int j = 0; j < columns; ++j) {
+    sweeps_->meet(x.col(j).data());
+    if (mine >= 0) sweeps_->up(mine, x.col(j).data());
   }
-  share_->gather(x.data(), static_cast<int>(x.cols()));
+  share_->gatherEnds(x.data(), columns, sweeps_->meetingEnd());
   return x;
 }
 
+/// Row by row in four partial sums, as Tpetra forms it on one rank.
 Matrix DividedChain::multiply(const Sparse& A, const Matrix& x) const {
-  Matrix y(x.rows(), x.cols());
   const auto own = share_->own();
-  const int length = own.end - own.begin;
-  for (Eigen::Index j = 0; j < x.cols(); ++j)
-    y.col(j).segment(own.begin, length) = A.middleRows(own.begin, length) * x.col(j);
+  const int *start = A.outerIndexPtr(), *column = A.innerIndexPtr();
+  const double* value = A.valuePtr();
+  Matrix y(x.rows(), x.cols());
+  for (Eigen::Index j = 0; j < x.cols(); ++j) {
+    const double* from = x.col(j).data();
+    double* to = y.col(j).data();
+    for (int row = own.begin; row < own.end; ++row) {
+      double sum[4] = {0.0, 0.0, 0.0, 0.0};
+      int k = start[row];
+      for (; k + 4 <= start[row + 1]; k += 4)
+        for (int part = 0; part < 4; ++part) sum[part] += value[k + part] * from[column[k + part]];
+      for (; k < start[row + 1]; ++k) sum[0] += value[k] * from[column[k]];
+      to[row] = sum[0] + sum[1] + sum[2] + sum[3];
+    }
+  }
   share_->gather(y.data(), static_cast<int>(y.cols()));
   return y;
+}
+
+void DividedChain::multiplyOwn(const Sparse& A, const Matrix& x, Matrix& y) const {
+  const auto own = share_->own();
+  const int *start = A.outerIndexPtr(), *column = A.innerIndexPtr();
+  const double* value = A.valuePtr();
+  for (Eigen::Index j = 0; j < x.cols(); ++j) {
+    const double* from = x.col(j).data();
+    double* to = y.col(j).data();
+    for (int row = own.begin; row < own.end; ++row) {
+      double sum = 0.0;
+      for (int k = start[row]; k < start[row + 1]; ++k) sum += value[k] * from[column[k]];
+      to[row] = sum;
+    }
+  }
 }
 
 double DividedChain::resistance(const Sparse& A) const {

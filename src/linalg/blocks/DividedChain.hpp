@@ -1,32 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// LU of a chain of nodes whose rows are divided among ranks: each rank eliminates the nodes
-/// between its cuts, what is left at the cuts is factored by all of them (BlockFactor).
+/// LU of a chain of nodes by ranks: the first rank eliminates from the first node, the last rank
+/// from the last one, and all of them have the node where they meet. Factors and solutions are
+/// those of ChainFactor, bit by bit, whatever the number of ranks.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "common/Types.hpp"
-#include "linalg/blocks/BlockFactor.hpp"
+#include "linalg/blocks/ChainFactor.hpp"
 #include "linalg/blocks/ChainShare.hpp"
 
 namespace tooljoint::linalg {
 
-/// Matrices have the whole pattern on every rank; values are read in the rows ChainShare::around()
-/// alone. Vectors are whole and alike on all ranks. Every operation is collective.
+/// Matrices have the whole pattern on every rank and values in the rows ChainShare::around() at
+/// least. Vectors are whole and alike on all ranks. Every operation is collective.
 class DividedChain {
  public:
-  /// Symbolic phase for matrices on the pattern of A (compressed): entries couple a node to itself
-  /// and to the two beside it only.
+  /// Symbolic phase for matrices on the pattern of A (compressed).
   DividedChain(std::shared_ptr<const ChainShare> share, const Sparse& A);
+  DividedChain(const DividedChain&) = delete;
+  DividedChain& operator=(const DividedChain&) = delete;
 
-  /// False on all ranks: a pivot vanished, or one of the ranks says that it has failed.
-  bool factor(const Sparse& A, bool failed = false);
+  /// Whether matrices on the pattern can be factored so. The same on all ranks.
+  bool suits() const { return sweeps_ != nullptr; }
+  /// False on all ranks: a pivot vanished, or one of the ranks says that it has failed. A is whole
+  /// afterwards where there are more than two ranks.
+  bool factor(Sparse& A, bool failed = false);
   /// A^-1 b.
   Matrix solve(const Matrix& b) const;
-  /// A x.
+  /// A x, bit by bit as by Tpetra on one rank.
   Matrix multiply(const Sparse& A, const Matrix& x) const;
+  /// The rows of A x that are this rank's, sums in the order of the entries. Not collective.
+  void multiplyOwn(const Sparse& A, const Matrix& x, Matrix& y) const;
   /// How much the matrix resists the motion that it resists least: |R A v| / |R |A| |v| |, R A C of
   /// order one, v from two inverse iterations; as DirectSolver measures it.
   double resistance(const Sparse& A) const;
@@ -34,18 +41,13 @@ class DividedChain {
   const ChainShare& share() const { return *share_; }
 
  private:
-  struct Entry {
-    std::size_t address;  ///< in BlockFactor::values()
-    int from;             ///< entry of A
-  };
+  /// That of this rank; -1: none.
+  int sweep() const;
 
   std::shared_ptr<const ChainShare> share_;
-  int interior_ = 0;             ///< rows that this rank alone holds
-  int before_ = 0, behind_ = 0;  ///< widths of the cuts to the ranks before and behind
-  BlockFactor factor_;
-  std::size_t storage_ = 0;
-  std::vector<Entry> entries_;
-  mutable Vector local_;
+  ChainFactor chain_;
+  std::unique_ptr<BlockFactor::TwoSweeps> sweeps_;
+  mutable std::vector<double> mine_, all_;  ///< messages
 };
 
 }  // namespace tooljoint::linalg

@@ -26,7 +26,7 @@ std::unique_ptr<DividedSolves> DividedSolves::of(std::shared_ptr<const ChainShar
                                                  Sparse A) {
   A.makeCompressed();
   std::unique_ptr<DividedSolves> solves(new DividedSolves(std::move(share), A));
-  return solves->chain_.factor(A) ? std::move(solves) : nullptr;
+  return solves->chain_.suits() && solves->chain_.factor(A) ? std::move(solves) : nullptr;
 }
 
 std::optional<Matrix> DividedSolves::solve(const Matrix& b) const {
@@ -54,10 +54,16 @@ std::optional<Matrix> DividedSolves::solve(const Matrix& b) const {
   return x;
 }
 
+Matrix DividedSolves::multiply(const Sparse& B, const Matrix& x) const {
+  Matrix y(x.rows(), x.cols());
+  chain_.multiplyOwn(B, x, y);
+  chain_.share().gather(y.data(), static_cast<int>(y.cols()));
+  return y;
+}
+
 Matrix DividedSolves::ownRows(const Sparse& B, const Matrix& x) const {
-  const auto own = chain_.share().own();
   Matrix y = Matrix::Zero(x.rows(), x.cols());
-  y.middleRows(own.begin, own.end - own.begin) = B.middleRows(own.begin, own.end - own.begin) * x;
+  chain_.multiplyOwn(B, x, y);
   return y;
 }
 

@@ -21,7 +21,7 @@ class DividedSolves {
   /// stays above 1e-13. Of b the rows of this rank are read alone.
   std::optional<Matrix> solve(const Matrix& b) const;
   /// B x, and the rows of it that are this rank's, the others zero.
-  Matrix multiply(const Sparse& B, const Matrix& x) const { return chain_.multiply(B, x); }
+  Matrix multiply(const Sparse& B, const Matrix& x) const;
   Matrix ownRows(const Sparse& B, const Matrix& x) const;
 
  private:

@@ -24,9 +24,7 @@ path::PathState bendIntoWell(const Scene& scene) {
   path::PathInput input;
   input.elements = scene.string.formulations();
   input.trajectory = &scene.well.trajectory();
-  // depths carry the rounding of the whole well, which E S/l turns into forces
-  return path::computePath(input, scene.path,
-                           statics::noxSolver(listOrEmpty(scene, "Path"), statics::RankWork::Rows));
+  return path::computePath(input, scene.path, statics::noxSolver(listOrEmpty(scene, "Path")));
 }
 
 PathEquations equationsOnPath(const Scene& scene, const path::PathState& path) {
