@@ -4,11 +4,13 @@
 
     tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--rows] [--short]
     tools/scale.py --program build/release/tooljoint --motions
+    tools/scale.py --program build/release/tooljoint --statics
     tools/scale.py --program build/release/tooljoint --cut [--most DOFS] [--short]
 
 Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are
 in the work folder already are not run again. --short takes the smallest of each and prints the tables only. --motions
-measures motions divided among ranks alone, on a machine of two cores without other work, and renews their chapter.
+measures motions divided among ranks alone, on a machine of two cores without other work, and renews their chapter;
+--statics does the same for static states.
 --cut measures blocks cut into substructures against one shift-invert run on the whole, and renews their chapter.
 """
 import argparse
@@ -46,6 +48,12 @@ MESSAGE = 2e-6  # of a few numbers between two ranks of one machine [s]
 CUT_PARTS, CUT_BLOCKS = 16, ((24, 6, 3), (56, 14, 7), (100, 25, 12), (170, 43, 21))
 CUT_CHAPTER = "## Large parts cut into substructures"
 CHAPTER = "## Motions divided among ranks"
+STATICS_CHAPTER = "## Static states divided among ranks"
+STATICS = "stress_170m", "inclined_1000m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m"
+# Stages of --verbose: the equilibrium, and what a static state takes beside it.
+EQUILIBRIUM = "static equilibrium"
+BESIDE = ("path of the string", "equations of the string", "stability of the static state", "Krylov-Schur iteration",
+          "inertia counts", "factorisation for modes")
 HEAD = """# Scale
 
 What the program takes for long strings, large parts and many rows. Written by
@@ -211,6 +219,33 @@ def rows(options, end):
             table(("ranks", "rows", "wall [s]", "CPU [s]", "memory [MB]"), lines))
 
 
+def static(options, deck, ranks, repeat):
+    """(seconds of the equilibrium, of path, equations, equilibrium and check of stability, static datasets) of a run."""
+    name = f"divided_{deck}_{ranks}_{repeat}"
+    row = measured(options, name, ["run", str(PROJECT / f"xml/{deck}.xml"), *STATIC_ONLY, "--output", "out", "--set", "Output/XDMF=false", "--verbose"], ranks)
+    if row["code"] != 0:
+        raise SystemExit(f"{name}: exit {row['code']}\n{row['output'][-2000:]}")
+    text = " ".join(row["output"].split())
+    times = {stage: float(found.group(1)) if (found := re.search(rf"{stage} ([0-9.]+) s", text)) else 0.0 for stage in (EQUILIBRIUM, *BESIDE)}
+    values = {key: value for key, value in datasets(pathlib.Path(options.work) / name / "out/results.h5").items() if key.startswith("static")}
+    return times[EQUILIBRIUM], sum(times.values()), values
+
+
+def statics(options):
+    """One rank and two, in turns, the best of some."""
+    lines = []
+    for deck in STATICS[:1] if options.short else STATICS:
+        runs = [[static(options, deck, ranks, repeat) for ranks in (1, 2)] for repeat in range(1 if options.short else 3)]
+        one, two = ([min(each[i][part] for each in runs) for part in (0, 1)] for i in (0, 1))
+        apart = max(difference(value, runs[0][1][2][key]) for key, value in runs[0][0][2].items() if value.dtype.kind == "f")
+        ratios = [f"{a / b:.2f}" if b > 0 else "" for a, b in zip(one, two)]
+        lines.append((deck, f"{one[0]:.2f}", f"{two[0]:.2f}", ratios[0], f"{one[1]:.2f}", f"{two[1]:.2f}", ratios[1], f"{apart:.1e}"))
+    return (f"{STATICS_CHAPTER}\n\nWall time of the equilibrium alone, and of the whole: path, equations, equilibrium and check of stability; the best of three\n"
+            "runs in turns. The last column is the largest difference of a recorded value, relative to the largest of its kind. Short\n"
+            "strings are not divided.\n\n" +
+            table(("scene", "equilibrium: 1 rank [s]", "2 ranks [s]", "times as fast", "whole: 1 rank [s]", "2 ranks [s]", "times as fast", "largest difference"), lines))
+
+
 def motion(options, deck, words, end, ranks, repeat):
     """(transient of summary.json, datasets of the motion, peak memory [MB]) of a run; ranks divide the motion."""
     name = f"motion_{deck}_{'full' if words else 'reduced'}_{ranks}_{repeat}"
@@ -305,10 +340,11 @@ def main():
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--cut", action="store_true", help="blocks cut into substructures alone; renews their chapter of the document")
     parser.add_argument("--motions", action="store_true", help="motions divided among ranks alone; renews their chapter of the document")
+    parser.add_argument("--statics", action="store_true", help="static states divided among ranks alone; renews their chapter of the document")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
-    if options.motions or options.cut:
-        chapter = motions(options) if options.motions else cuts(options)
+    if options.motions or options.cut or options.statics:
+        chapter = motions(options) if options.motions else cuts(options) if options.cut else statics(options)
         print(chapter)
         if not options.short:
             renew(chapter)
@@ -318,7 +354,7 @@ def main():
     text = blocks + "\n" + strings(options, STRINGS[:1] if options.short else STRINGS)
     if options.rows:
         text += "\n" + rows(options, 3 if options.short else 15)
-    text += "\n" + motions(options)
+    text += "\n" + statics(options) + "\n" + motions(options)
     if not options.short and kept(CUT_CHAPTER):
         text += "\n" + kept(CUT_CHAPTER)
     print(text)

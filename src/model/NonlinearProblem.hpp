@@ -4,7 +4,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "common/RowRange.hpp"
 #include "common/Types.hpp"
 
 namespace tooljoint::model {
@@ -29,6 +31,19 @@ class NonlinearProblem {
   virtual Vector moved(const Vector& x, const Vector& dx, double s) const { return x + s * dx; }
   /// Name of an unknown for messages ("theta_z of node 17").
   virtual std::string unknownName(int i) const = 0;
+};
+
+/// A problem whose unknowns stand node by node, those of a node coupled to that node and to the two
+/// beside it only, and whose rows can be evaluated apart: solvers divide its work among ranks.
+class ChainProblem : public NonlinearProblem {
+ public:
+  /// First unknown of each node that has any, and size() at the end; empty: cannot be divided.
+  virtual std::vector<int> firstOfNodes() const = 0;
+  /// These rows of residual(), bit by bit; what stands in other rows of r, which has size() rows,
+  /// is of no use.
+  virtual void residualRows(const Vector& x, RowRange rows, Vector& r) const = 0;
+  /// The pattern of jacobian() and its values in these rows; others are of no use.
+  virtual void jacobianRows(const Vector& x, RowRange rows, Sparse& J) const = 0;
 };
 
 }  // namespace tooljoint::model

@@ -5,15 +5,20 @@
 #include <cmath>
 #include <complex>
 #include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/Constants.hpp"
+#include "common/Index.hpp"
+#include "common/Parallel.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "linalg/DynamicStiffness.hpp"
+#include "linalg/trilinos/DividedModes.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "model/laws/StatefulPointLaw.hpp"
@@ -70,6 +75,27 @@ std::vector<linalg::DampedMode> growingModes(const estimate::Linearised& tangent
   std::sort(growing.begin(), growing.end(),
             [](const auto& a, const auto& b) { return a.s.real() > b.s.real(); });
   return growing;
+}
+
+/// A chain of which a rank would have fewer dofs than this is left to all ranks alike.
+constexpr int fewestDofs = 2000;
+
+/// This rank's share in the modes of a model whose dofs stand node by node, coupled to those of the
+/// nodes beside only; null where they do not, on one rank and where it is too short.
+std::shared_ptr<const linalg::ChainShare> shareOf(const model::SecondOrderModel& model,
+                                                  const Sparse& K, const Sparse& M) {
+  std::vector<int> first, nodeOf;
+  for (int i = 0; i < model.size(); ++i) {
+    const auto& dof = model.dofs[at(i)];
+    if (i == 0 || dof.entity != model.dofs[at(i - 1)].entity) first.push_back(i);
+    nodeOf.push_back(sizeOf(first) - 1);
+  }
+  first.push_back(model.size());
+  for (const Sparse* matrix : {&K, &M})
+    for (int i = 0; i < matrix->outerSize(); ++i)
+      for (Sparse::InnerIterator it(*matrix, i); it; ++it)
+        if (std::abs(nodeOf[at(it.col())] - nodeOf[at(i)]) > 1) return nullptr;
+  return linalg::ChainShare::of(std::move(first), fewestDofs);
 }
 
 ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape) {
@@ -132,9 +158,13 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
     const bool floats = linalg::eigenvaluesBelow(symmetric, tangent.mass, slowest) > 0;
     options.shift = floats ? floatingShift : -4 * slowest;  // below all
   }
-  const auto modes = linalg::lowestFiniteModes(
-      symmetric, tangent.mass,
-      std::min({model.size(), mostModes, found.negativePivots + modesBeyond}), options);
+  const int wanted = std::min({model.size(), mostModes, found.negativePivots + modesBeyond});
+  const auto share = parallel::size() > 1 && !linalg::hasMasslessDofs(tangent.mass)
+                         ? shareOf(model, symmetric, tangent.mass)
+                         : nullptr;
+  const auto modes =
+      share ? linalg::lowestModesOfChain(symmetric, tangent.mass, wanted, options, share)
+            : linalg::lowestFiniteModes(symmetric, tangent.mass, wanted, options);
   found.examined = modes.count();
   count("modes of the static state", modes.count());
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));

@@ -17,6 +17,7 @@
 
 #include "common/Error.hpp"
 #include "linalg/Scientific.hpp"
+#include "statics/NewtonMemory.hpp"
 #include "statics/StepSearch.hpp"
 #include "statics/ThyraProblem.hpp"
 
@@ -91,29 +92,27 @@ Teuchos::RCP<Teuchos::ParameterList> noxParameters(
   return list;
 }
 
-double scaledResidual(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x,
-                      int* worst = nullptr) {
-  Vector r(x.size());
-  problem.residual(x, r);
+double scaledResidual(const Vector& r, const Vector& scale, int* worst) {
   const Vector scaled = scale.cwiseProduct(r).cwiseAbs();
   for (Eigen::Index i = 0; i < scaled.size(); ++i)
     if (!std::isfinite(scaled[i])) {
-      if (worst != nullptr) *worst = static_cast<int>(i);
+      *worst = static_cast<int>(i);
       return std::numeric_limits<double>::quiet_NaN();
     }
   Eigen::Index position = 0;
   const double largest = scaled.size() == 0 ? 0.0 : scaled.maxCoeff(&position);
-  if (worst != nullptr) *worst = static_cast<int>(position);
+  *worst = static_cast<int>(position);
   return largest;
 }
 
 /// One NOX solve with all that has to live as long as it.
 class Newton {
  public:
-  Newton(const model::NonlinearProblem& problem, const Vector& start, const NewtonOptions& options,
-         const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos)
+  Newton(const model::NonlinearProblem& problem, const Vector& start, const Vector& residual,
+         const NewtonOptions& options, const Teuchos::ParameterList* nox,
+         const Teuchos::ParameterList* belos, NewtonMemory& memory)
       : options_(options),
-        model_(Teuchos::rcp(new ThyraProblem(problem, start))),
+        model_(Teuchos::rcp(new ThyraProblem(problem, start, residual, memory))),
         smallStep_(Teuchos::rcp(new SmallStep(options, record_))) {
     using namespace NOX::StatusTest;
     const Teuchos::RCP<const Thyra::ModelEvaluator<double>> model = model_;
@@ -233,7 +232,8 @@ NewtonOptions::LineSearch lineSearch(model::LineSearch asked) {
 }
 
 NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const NewtonOptions& options,
-                   const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos) {
+                   const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos,
+                   NewtonMemory* memory) {
   if (x.size() != problem.size())
     throw ModelError("A starting point of " + std::to_string(x.size()) +
                      " unknowns was given to a nonlinear problem of " +
@@ -241,7 +241,9 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
   NewtonReport report;
   const Vector scale = problem.residualScale();
   int worst = 0;
-  report.residual = scaledResidual(problem, scale, x, &worst);
+  Vector r(x.size());
+  problem.residual(x, r);
+  report.residual = scaledResidual(r, scale, &worst);
   if (problem.size() == 0) {
     report.converged = true;
     report.message = "converged: no unknowns to solve for.";
@@ -253,7 +255,8 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
         "the residual is not finite at " + problem.unknownName(worst) + " at the starting point.";
     return report;
   }
-  Newton newton(problem, x, options, nox, belos);
+  NewtonMemory own;
+  Newton newton(problem, x, r, options, nox, belos, memory != nullptr ? *memory : own);
   std::string stopped;
   try {
     newton.run(report);
@@ -265,7 +268,7 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
   }
   x = newton.solution();
   newton.account(report);
-  report.residual = scaledResidual(problem, scale, x, &worst);
+  report.residual = scaledResidual(newton.model().residual(x), scale, &worst);
   if (!stopped.empty()) report.converged = false;
   // The last word is ours: recomputed, not NOX's.
   if (!(report.residual <= options.tolerance)) report.converged = false;

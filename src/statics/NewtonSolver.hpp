@@ -16,6 +16,8 @@ class ParameterList;
 
 namespace tooljoint::statics {
 
+struct NewtonMemory;
+
 struct NewtonOptions {
   enum LineSearch {
     LimitedStep,   ///< x + s dx with s the step limit of the problem, whatever the residual does
@@ -50,10 +52,11 @@ struct NewtonReport {
 /// Solves problem.residual(x) = 0 from the x given, which is overwritten with the last iterate,
 /// converged or not. Never throws for failure (singular Jacobian, residual that is not finite, no
 /// convergence): the report says why. Errors thrown by the problem itself pass through. The same on
-/// every rank: nothing is sent. `nox` (a NOX parameter list) and `belos` (a list of
-/// Thyra::BelosLinearOpWithSolveFactory: "Solver Type", "Solver Types") are laid over the
-/// parameters set here; ModelError when Belos refuses them.
+/// every rank: nothing is sent, unless the problem is a DividedProblem. `nox` (a NOX parameter
+/// list) and `belos` (a list of Thyra::BelosLinearOpWithSolveFactory: "Solver Type", "Solver
+/// Types") are laid over the parameters set here; ModelError when Belos refuses them. `memory` may
+/// be that of a solve before.
 NewtonReport solve(const model::NonlinearProblem& problem, Vector& x,
                    const NewtonOptions& options = {}, const Teuchos::ParameterList* nox = nullptr,
-                   const Teuchos::ParameterList* belos = nullptr);
+                   const Teuchos::ParameterList* belos = nullptr, NewtonMemory* memory = nullptr);
 }  // namespace tooljoint::statics

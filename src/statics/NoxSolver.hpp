@@ -11,7 +11,8 @@
 namespace tooljoint::statics {
 
 /// Solver that takes the sublists `NOX` and `Belos` of `list` (a validated `Path` or `Static` list)
-/// where it has them.
+/// where it has them. All ranks of parallel::communicator() call it together, with the same
+/// problem: long chains (model::ChainProblem) are divided among them.
 model::NonlinearSolver noxSolver(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::statics

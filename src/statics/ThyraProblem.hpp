@@ -11,11 +11,14 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/FunctionOperator.hpp"
 #include "model/NonlinearProblem.hpp"
+#include "statics/DividedProblem.hpp"
+#include "statics/NewtonMemory.hpp"
 
 namespace tooljoint::statics {
 
@@ -33,17 +36,23 @@ inline void fromEigenVector(const Vector& from, const Teuchos::RCP<Thyra::Vector
   for (Eigen::Index i = 0; i < from.size(); ++i) host(static_cast<std::size_t>(i), 0) = from[i];
 }
 
-/// F(x) = S r(x) with S the residual scale of the problem, W = S dr/dx, and a factor of W.
+/// F(x) = S r(x) with S the residual scale of the problem, W = S dr/dx, and a factor of W. Of a
+/// divided problem every rank has its rows of W and its share of the factor.
 class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
  public:
-  ThyraProblem(const model::NonlinearProblem& problem, const Vector& start)
+  /// \param residual  at the start
+  ThyraProblem(const model::NonlinearProblem& problem, const Vector& start, Vector residual,
+               NewtonMemory& memory)
       : problem_(problem),
+        divided_(dynamic_cast<const DividedProblem*>(&problem)),
+        memory_(memory),
         scale_(problem.residualScale()),
-        map_(linalg::serialMap(problem.size())) {
+        map_(linalg::serialMap(problem.size())),
+        residualAt_(start),
+        residual_(std::move(residual)) {
     using MEB = Thyra::ModelEvaluatorBase;
     space_ = Thyra::createVectorSpace<double>(map_);
-    problem_.jacobian(start, jacobian_);
-    scaleJacobian();
+    evaluateJacobian(start);
     pattern_ = jacobian_;
     jacobianAt_ = start;
     MEB::InArgsSetup<double> in;
@@ -68,14 +77,22 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   Thyra::ModelEvaluatorBase::InArgs<double> createInArgs() const override { return prototypeIn_; }
 
   Teuchos::RCP<Thyra::LinearOpBase<double>> create_W_op() const override {
-    const Teuchos::RCP<tpetra::Operator> matrix = linalg::toTpetra(jacobian_, map_);
+    Teuchos::RCP<tpetra::Operator> matrix;
+    if (divided_ != nullptr)
+      matrix = Teuchos::rcp(new linalg::FunctionOperator(map_, [this](const Matrix& x) {
+        return isWhole_ ? Matrix(jacobian_ * x) : memory_.chain->multiply(jacobian_, x);
+      }));
+    else
+      matrix = linalg::toTpetra(jacobian_, map_);
     return Thyra::tpetraLinearOp<double>(space_, space_, matrix);
   }
 
   /// W^-1.
   Teuchos::RCP<Thyra::PreconditionerBase<double>> create_W_prec() const override {
-    const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(
-        new linalg::FunctionOperator(map_, [this](const Matrix& b) { return factors_->apply(b); }));
+    const Teuchos::RCP<tpetra::Operator> inverse =
+        Teuchos::rcp(new linalg::FunctionOperator(map_, [this](const Matrix& b) {
+          return !isWhole_ ? memory_.chain->solve(b) : memory_.factors->apply(b);
+        }));
     const Teuchos::RCP<const Thyra::LinearOpBase<double>> op =
         Thyra::tpetraLinearOp<double>(space_, space_, inverse);
     const auto preconditioner = Teuchos::rcp(new Thyra::DefaultPreconditioner<double>());
@@ -83,7 +100,15 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     return preconditioner;
   }
 
-  const Vector& scale() const { return scale_; }
+  /// r(x).
+  const Vector& residual(const Vector& x) const {
+    if (residualAt_ != x) {
+      residual_.resize(x.size());
+      guarded([&] { problem_.residual(x, residual_); });
+      residualAt_ = x;
+    }
+    return residual_;
+  }
   int factorisations() const { return factorisations_; }
   /// The error the problem threw while NOX was running, if any.
   std::exception_ptr problemError() const { return problemError_; }
@@ -96,13 +121,10 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   void evalModelImpl(const Thyra::ModelEvaluatorBase::InArgs<double>& in,
                      const Thyra::ModelEvaluatorBase::OutArgs<double>& out) const override {
     const Vector x = toEigenVector(in.get_x());
-    if (out.get_f().get() != nullptr) {
-      Vector r(x.size());
-      guarded([&] { problem_.residual(x, r); });
-      fromEigenVector(scale_.cwiseProduct(r), out.get_f());  // F = S r
-    }
-    if (!out.get_W_op().is_null()) {
-      updateJacobian(x);
+    if (out.get_f().get() != nullptr)
+      fromEigenVector(scale_.cwiseProduct(residual(x)), out.get_f());  // F = S r
+    if (!out.get_W_op().is_null()) updateJacobian(x);
+    if (!out.get_W_op().is_null() && divided_ == nullptr) {
       const auto op = Teuchos::rcp_dynamic_cast<
           Thyra::TpetraLinearOp<double, tpetra::LocalOrdinal, tpetra::GlobalOrdinal, tpetra::Node>>(
           out.get_W_op(), true);
@@ -114,27 +136,63 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
 
   void updateJacobian(const Vector& x) const {
     if (jacobianAt_ && *jacobianAt_ == x) return;
-    guarded([&] { problem_.jacobian(x, jacobian_); });
-    scaleJacobian();
+    evaluateJacobian(x);
     if (!linalg::samePattern(pattern_, jacobian_))
       throw std::logic_error("The pattern of the Jacobian changed between two evaluations.");
     jacobianAt_ = x;
   }
 
+  /// W, of a divided problem the rows of this rank and those around.
+  void evaluateJacobian(const Vector& x) const {
+    guarded([&] {
+      if (divided_ != nullptr)
+        divided_->jacobianRows(x, jacobian_);
+      else
+        problem_.jacobian(x, jacobian_);
+    });
+    jacobian_.makeCompressed();
+    isWhole_ = divided_ == nullptr;
+    const RowRange rows = isWhole_ ? RowRange{0, problem_.size()} : divided_->share().around();
+    for (int row = rows.begin; row < rows.end; ++row)
+      for (Sparse::InnerIterator it(jacobian_, row); it; ++it) it.valueRef() *= scale_[row];
+  }
+
   void updateFactors(const Vector& x) const {
     updateJacobian(x);
-    if (factors_)
-      factors_->refactorUnchecked(jacobian_);
-    else
-      factors_ = std::make_unique<linalg::DirectSolver>(
-          jacobian_, [this](int i) { return problem_.unknownName(i); });
+    if (!isWhole_ && !updateSharedFactors()) {
+      divided_->share().gatherRows(jacobian_);
+      isWhole_ = true;
+    }
+    if (isWhole_) updateWholeFactors();
     ++factorisations_;
   }
 
-  void scaleJacobian() const {
-    jacobian_.makeCompressed();
-    for (int row = 0; row < jacobian_.rows(); ++row)
-      for (Sparse::InnerIterator it(jacobian_, row); it; ++it) it.valueRef() *= scale_[row];
+  void updateWholeFactors() const {
+    memory_.name = [this](int i) { return problem_.unknownName(i); };
+    if (looked_)
+      memory_.factors->refactorUnchecked(jacobian_);
+    else if (memory_.factors)
+      memory_.factors->refactor(jacobian_);
+    else
+      memory_.factors = std::make_unique<linalg::DirectSolver>(
+          jacobian_, [&memory = memory_](int i) { return memory.name(i); });
+    looked_ = true;
+  }
+
+  /// False on all ranks: pivots are needed beside those inside of nodes, or W looks singular, which
+  /// the factors of the whole of it decide.
+  bool updateSharedFactors() const {
+    auto& chain = memory_.chain;
+    const bool isKnown =
+        chain && (factorisations_ > 0 || (linalg::samePattern(memory_.pattern, jacobian_) &&
+                                          chain->share().first() == divided_->share().first()));
+    if (!isKnown) {
+      chain = std::make_unique<linalg::DividedChain>(divided_->sharedShare(), jacobian_);
+      memory_.pattern = jacobian_;
+    }
+    if (!chain->suits() || !chain->factor(jacobian_)) return false;
+    return factorisations_ > 0 ||
+           chain->resistance(jacobian_) > linalg::DirectSolverOptions().singularTolerance;
   }
 
   /// Keeps what the problem throws, so that the driver can tell it from NOX's own exceptions.
@@ -149,6 +207,8 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   }
 
   const model::NonlinearProblem& problem_;
+  const DividedProblem* divided_;  ///< null: not divided
+  NewtonMemory& memory_;
   Vector scale_;
   Teuchos::RCP<const tpetra::Map> map_;
   Teuchos::RCP<const Thyra::VectorSpaceBase<double>> space_;
@@ -157,7 +217,9 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   mutable Sparse jacobian_;
   Sparse pattern_;  ///< the Jacobian at the start
   mutable std::optional<Vector> jacobianAt_;
-  mutable std::unique_ptr<linalg::DirectSolver> factors_;
+  mutable bool isWhole_ = false;  ///< every rank has all rows of W
+  mutable bool looked_ = false;   ///< the factors of the whole W were made in this solve
+  mutable Vector residualAt_, residual_;
   mutable int factorisations_ = 0;
   mutable std::exception_ptr problemError_;
 };

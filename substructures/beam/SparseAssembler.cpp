@@ -9,6 +9,9 @@ namespace tooljoint::beam {
 SparseAssembler::SparseAssembler(int size, std::vector<std::vector<int>> unknowns)
     : size_(size), unknowns_(std::move(unknowns)), pattern_(size, size) {
   Triplets entries;
+  std::size_t count = static_cast<std::size_t>(size);
+  for (const std::vector<int>& rows : unknowns_) count += rows.size() * rows.size();
+  entries.reserve(count);
   for (int i = 0; i < size; ++i) entries.emplace_back(i, i, 0.0);
   for (const std::vector<int>& rows : unknowns_)
     for (const int i : rows)
@@ -19,8 +22,10 @@ SparseAssembler::SparseAssembler(int size, std::vector<std::vector<int>> unknown
 
   const int* start = pattern_.outerIndexPtr();
   const int* column = pattern_.innerIndexPtr();
+  slots_.reserve(unknowns_.size());
   for (const std::vector<int>& rows : unknowns_) {
     std::vector<int> slots;
+    slots.reserve(rows.size() * rows.size());
     for (const int i : rows)
       for (const int j : rows)
         slots.push_back(

@@ -298,7 +298,7 @@ class StaticContactOf final : public StaticContact {
 
   void normalForce(const Options& options, const double* uv, double* force,
                    double* slope) const override {
-    for (int p = 0; p < size(); ++p) {
+    for (int p = options.first; p < options.end(size()); ++p) {
       const auto i = static_cast<std::size_t>(p);
       double dG = 0.0;
       const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0.0, 0.0, points_.clearance[i]);

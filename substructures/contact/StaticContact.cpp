@@ -21,7 +21,7 @@ void StaticContact::evaluate(const Options& options, const double* uv, double* f
                              double* tangent) const {
   std::vector<double> normal(at(size())), slope(at(size()));
   normalForce(options, uv, normal.data(), slope.data());
-  for (int p = 0; p < size(); ++p) {
+  for (int p = options.first; p < options.end(size()); ++p) {
     const auto i = at(p);
     const WallKinematics where(uv[2 * p], uv[2 * p + 1], 0.0, 0.0, points_.clearance[i]);
     const double N = normal[i], dN = slope[i], nu = where.nu, nv = where.nv;

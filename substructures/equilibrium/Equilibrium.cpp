@@ -320,6 +320,7 @@ StaticState describe(const StaticInput& input, const StaticProblem& problem,
   const int elements = static_cast<int>(input.elements.size());
   state.axialForce.resize(elements);
   state.torque.resize(elements);
+  state.geometricStiffness.reserve(input.elements.size());
   for (int e = 0; e < elements; ++e) {
     state.axialForce(e) = problem.axialForce(e, displacement);
     state.torque(e) = problem.torque(e, displacement);

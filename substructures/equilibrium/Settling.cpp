@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
@@ -28,7 +29,7 @@ constexpr int mostSteps = 2000, mostFinalSteps = 50, mostIterations = 60;
 constexpr double stepTolerance = 1e-6;
 
 /// r(x) + alpha W (x - x_n).
-class ProximalProblem : public model::NonlinearProblem {
+class ProximalProblem : public model::ChainProblem {
  public:
   ProximalProblem(const StaticProblem& problem, Vector weights)
       : problem_(problem), weights_(std::move(weights)) {}
@@ -37,11 +38,20 @@ class ProximalProblem : public model::NonlinearProblem {
   int size() const override { return problem_.size(); }
   void residual(const Vector& x, Vector& r) const override {
     problem_.residual(x, r);
-    r += alpha_ * weights_.cwiseProduct(x - from_);
+    addInertia(x, r);
   }
   void jacobian(const Vector& x, Sparse& J) const override {
     problem_.jacobian(x, J);
-    for (int i = 0; i < size(); ++i) J.coeffRef(i, i) += alpha_ * weights_[i];
+    addInertia({0, size()}, J);
+  }
+  std::vector<int> firstOfNodes() const override { return problem_.firstOfNodes(); }
+  void residualRows(const Vector& x, RowRange rows, Vector& r) const override {
+    problem_.residualRows(x, rows, r);
+    addInertia(x, r);
+  }
+  void jacobianRows(const Vector& x, RowRange rows, Sparse& J) const override {
+    problem_.jacobianRows(x, rows, J);
+    addInertia(rows, J);
   }
   Vector residualScale() const override { return problem_.residualScale(); }
   double stepLimit(const Vector& x, const Vector& dx) const override {
@@ -53,6 +63,13 @@ class ProximalProblem : public model::NonlinearProblem {
   std::string unknownName(int i) const override { return problem_.unknownName(i); }
 
  private:
+  void addInertia(const Vector& x, Vector& r) const {
+    r += alpha_ * weights_.cwiseProduct(x - from_);
+  }
+  void addInertia(RowRange rows, Sparse& J) const {
+    for (int i = rows.begin; i < rows.end; ++i) J.coeffRef(i, i) += alpha_ * weights_[i];
+  }
+
   const StaticProblem& problem_;
   Vector weights_, from_;
   double alpha_ = 0.0;

@@ -54,12 +54,18 @@ StaticProblem::StaticProblem(const StaticInput& input)
   switches_.geometricStiffness = input.geometricStiffness;
   index_.assign(input.held.size(), -1);
   for (std::size_t i = 0; i < index_.size(); ++i)
-    if (input.held[i] == 0) index_[i] = unknowns_++;
+    if (input.held[i] == 0) {
+      index_[i] = unknowns_++;
+      nodeOf_.push_back(static_cast<int>(i) / kDofs);
+    }
   if (unknowns_ == 0)
     throw ModelError(
         "The supports fix every degree of freedom of the string. Free at least one dof.");
 
   std::vector<std::vector<int>> lists;
+  lists.reserve(input.elements.size() + at(input.contact != nullptr ? input.contact->size() : 0));
+  unitAxial_.reserve(input.elements.size());
+  unitTorque_.reserve(input.elements.size());
   double length = 0.0;
   for (std::size_t e = 0; e < input.elements.size(); ++e) {
     const StaticElement& element = input.elements[e];
@@ -74,12 +80,18 @@ StaticProblem::StaticProblem(const StaticInput& input)
     torsionalStiffness_.push_back(k(11, 11));
     length += element.formulation->length();
   }
-  if (input.contact != nullptr)
-    for (const int node : input.contact->points().node) {
+  if (input.contact != nullptr) {
+    const std::vector<int>& nodes = input.contact->points().node;
+    if (std::is_sorted(nodes.begin(), nodes.end()))
+      for (int node = 1; node <= input.nodes + 1; ++node)
+        pointsBefore_.push_back(
+            static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()));
+    for (const int node : nodes) {
       const int first = kDofs * (node - 1);
       auto& dofs = lists.emplace_back();
       for (const int component : kContactDofs) dofs.push_back(index_[at(first + component)]);
     }
+  }
   assembler_ = beam::SparseAssembler(unknowns_, std::move(lists));
 
   // Forces are measured against the largest load, moments against that load on a mean element
@@ -149,6 +161,14 @@ contact::StaticContact::Options StaticProblem::contactOptions() const {
   return options;
 }
 
+contact::StaticContact::Options StaticProblem::contactOptions(Nodes nodes) const {
+  auto options = contactOptions();
+  if (pointsBefore_.empty()) return options;
+  options.first = pointsBefore_[at(nodes.begin)];
+  options.last = pointsBefore_[at(nodes.end)];
+  return options;
+}
+
 Vector StaticProblem::lateral(const Vector& full) const {
   const std::vector<int>& nodes = input_.contact->points().node;
   Vector uv(2 * static_cast<int>(nodes.size()));
@@ -167,32 +187,64 @@ void StaticProblem::contactForces(const Vector& full, Vector& forces, Vector& no
   input_.contact->normalForce(contactOptions(), uv.data(), normal.data());
 }
 
+std::vector<int> StaticProblem::firstOfNodes() const {
+  std::vector<int> first;
+  for (int i = 0; i < unknowns_; ++i)
+    if (i == 0 || nodeOf_[at(i)] != nodeOf_[at(i - 1)]) first.push_back(i);
+  first.push_back(unknowns_);
+  return first;
+}
+
+StaticProblem::Nodes StaticProblem::nodesOf(RowRange rows) const {
+  return {nodeOf_[at(rows.begin)], nodeOf_[at(rows.end - 1)] + 1};
+}
+
 void StaticProblem::residual(const Vector& x, Vector& r) const {
   r = restrict(unbalanced(expand(x)));
 }
 
+void StaticProblem::residualRows(const Vector& x, RowRange rows, Vector& r) const {
+  r = restrict(unbalancedAt(nodesOf(rows), expand(x)));
+}
+
 Vector StaticProblem::unbalanced(const Vector& full) const {
+  return unbalancedAt(allNodes(), full);
+}
+
+Vector StaticProblem::unbalancedAt(Nodes nodes, const Vector& full) const {
   Vector external = input_.load;
   if (switches_.pathReaction && input_.pathReaction.size() > 0) external += input_.pathReaction;
   Vector r = -external - pretension_;
-  for (int e = 0; e < static_cast<int>(input_.elements.size()); ++e) {
+  for (int e = firstElement(nodes); e < endElement(nodes); ++e) {
     const beam::Vector12 d = motion(e, full);
     const StaticElement& element = input_.elements[at(e)];
     r.segment<12>(kDofs * e) += (element.stiffness + geometricStiffness(e, full)) * d;
   }
   if (!touches()) return r;
+  const auto options = contactOptions(nodes);
+  const std::vector<int>& touching = input_.contact->points().node;
   Vector forces(contact::StaticContact::kForces * input_.contact->size());
-  input_.contact->evaluate(contactOptions(), lateral(full).data(), forces.data());
-  const double* force = forces.data();
-  for (const int node : input_.contact->points().node)
-    for (const int component : kContactDofs) r(kDofs * (node - 1) + component) -= *force++;
+  input_.contact->evaluate(options, lateral(full).data(), forces.data());
+  for (int p = options.first; p < options.end(sizeOf(touching)); ++p) {
+    const double* force = forces.data() + contact::StaticContact::kForces * p;
+    for (const int component : kContactDofs)
+      r(kDofs * (touching[at(p)] - 1) + component) -= *force++;
+  }
   return r;
 }
 
 void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
+  jacobianAt(allNodes(), x, jacobian);
+}
+
+void StaticProblem::jacobianRows(const Vector& x, RowRange rows, Sparse& jacobian) const {
+  jacobianAt(nodesOf(rows), x, jacobian);
+}
+
+void StaticProblem::jacobianAt(Nodes nodes, const Vector& x, Sparse& jacobian) const {
   const Vector full = expand(x);
   assembler_.clear(jacobian);
-  for (int e = 0; e < static_cast<int>(input_.elements.size()); ++e) {
+  for (int e = firstElement(nodes); e < endElement(nodes); ++e) {
     const StaticElement& element = input_.elements[at(e)];
     const beam::Vector12 d = motion(e, full);
     beam::Matrix12 k = element.stiffness + geometricStiffness(e, full);
@@ -205,12 +257,13 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
     assembler_.add(e, k, jacobian);
   }
   if (!touches()) return;
+  const auto options = contactOptions(nodes);
   const int points = input_.contact->size();
   constexpr int n = contact::StaticContact::kForces;
   Vector forces(n * points);
   Vector tangents(2 * n * points);
-  input_.contact->evaluate(contactOptions(), lateral(full).data(), forces.data(), tangents.data());
-  for (int p = 0; p < points; ++p) {
+  input_.contact->evaluate(options, lateral(full).data(), forces.data(), tangents.data());
+  for (int p = options.first; p < options.end(points); ++p) {
     Eigen::Matrix<double, n, n> k = Eigen::Matrix<double, n, n>::Zero();
     k.leftCols<2>() = -Eigen::Map<const Eigen::Matrix<double, n, 2, Eigen::RowMajor>>(
         tangents.data() + 2 * n * p);

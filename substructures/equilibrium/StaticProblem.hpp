@@ -4,6 +4,7 @@
 /// al. 2020, eq. 19).
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,7 +66,7 @@ struct StaticSwitches {
 };
 
 /// r(D) = (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa on the free dofs.
-class StaticProblem : public model::NonlinearProblem {
+class StaticProblem : public model::ChainProblem {
  public:
   /// Throws ModelError when sizes do not fit or no dof is free. `input` must outlive the problem.
   explicit StaticProblem(const StaticInput& input);
@@ -76,6 +77,9 @@ class StaticProblem : public model::NonlinearProblem {
   int size() const override { return unknowns_; }
   void residual(const Vector& x, Vector& r) const override;
   void jacobian(const Vector& x, Sparse& jacobian) const override;
+  std::vector<int> firstOfNodes() const override;
+  void residualRows(const Vector& x, RowRange rows, Vector& r) const override;
+  void jacobianRows(const Vector& x, RowRange rows, Sparse& jacobian) const override;
   Vector residualScale() const override;
   double stepLimit(const Vector& x, const Vector& dx) const override;
   /// With slideAlongWall a point that the step leaves outside its clearance keeps the distance from
@@ -109,6 +113,22 @@ class StaticProblem : public model::NonlinearProblem {
   void contactForces(const Vector& full, Vector& forces, Vector& normal) const;
 
  private:
+  /// Nodes begin ... end - 1.
+  struct Nodes {
+    int begin, end;
+  };
+  Nodes allNodes() const { return {0, input_.nodes}; }
+  /// Those of some rows, with their elements: those that join them and those to the next nodes.
+  Nodes nodesOf(RowRange rows) const;
+  int firstElement(Nodes nodes) const { return std::max(0, nodes.begin - 1); }
+  int endElement(Nodes nodes) const {
+    return std::min(nodes.end, static_cast<int>(input_.elements.size()));
+  }
+  /// What unbalanced() and jacobian() have at some nodes.
+  Vector unbalancedAt(Nodes nodes, const Vector& full) const;
+  void jacobianAt(Nodes nodes, const Vector& x, Sparse& jacobian) const;
+  /// With the points at some nodes asked for.
+  contact::StaticContact::Options contactOptions(Nodes nodes) const;
   contact::StaticContact::Options contactOptions() const;
   /// D of the ends of an element, kinks included.
   beam::Vector12 motion(int element, const Vector& full) const;
@@ -120,6 +140,8 @@ class StaticProblem : public model::NonlinearProblem {
   StaticSwitches switches_;
   int unknowns_ = 0;
   std::vector<int> index_;              ///< unknown of each dof, -1 when held
+  std::vector<int> nodeOf_;             ///< of each unknown
+  std::vector<int> pointsBefore_;       ///< contact points at nodes before each; empty: not sorted
   beam::SparseAssembler assembler_;     ///< elements first, then contact points (u, v, w, theta_z)
   std::vector<double> axialStiffness_;  ///< k_ww per element [N/m]
   std::vector<double> torsionalStiffness_;  ///< k_theta per element [N m]

@@ -24,8 +24,11 @@ PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
     for (int axis = 0; axis < 3; ++axis)
       if (!present[at(node)][at(3 + axis)]) index_[at(node * perNode + translations + axis)] = -1;
   }
-  for (int& index : index_)
-    if (index >= 0) index = unknowns_++;
+  for (std::size_t dof = 0; dof < index_.size(); ++dof)
+    if (index_[dof] >= 0) {
+      index_[dof] = unknowns_++;
+      nodeOf_.push_back(static_cast<int>(dof) / perNode);
+    }
 
   std::vector<std::vector<int>> lists;
   double rigidity = 0.0;
@@ -103,12 +106,12 @@ Matrix PathProblem::trialMotion(int node, const Vector& state) const {
   return motion;
 }
 
-std::vector<beam::CorotationalResponse> PathProblem::evaluate(const Vector& state,
-                                                              bool withTangent) const {
+std::vector<beam::CorotationalResponse> PathProblem::evaluate(const Vector& state, bool withTangent,
+                                                              Elements which) const {
   std::vector<beam::CorotationalResponse> out;
-  out.reserve(elements_.size());
-  NodePose first = pose(0, state);
-  for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
+  out.reserve(at(which.end - which.begin));
+  NodePose first = pose(which.begin, state);
+  for (int e = which.begin; e < which.end; ++e) {
     const NodePose second = pose(e + 1, state);
     out.push_back(elements_[at(e)]->response(
         {first.position, second.position, first.triad, second.triad}, withTangent));
@@ -119,7 +122,7 @@ std::vector<beam::CorotationalResponse> PathProblem::evaluate(const Vector& stat
 
 std::vector<beam::CorotationalResponse> PathProblem::responses(const Vector& x,
                                                                bool withTangent) const {
-  return evaluate(expand(x), withTangent);
+  return evaluate(expand(x), withTangent, allElements());
 }
 
 Matrix PathProblem::nodalForces(const Vector& x) const {
@@ -132,14 +135,33 @@ Matrix PathProblem::nodalForces(const Vector& x) const {
   return f;
 }
 
-void PathProblem::residual(const Vector& x, Vector& r) const {
+std::vector<int> PathProblem::firstOfNodes() const {
+  std::vector<int> first;
+  for (int i = 0; i < unknowns_; ++i)
+    if (i == 0 || nodeOf_[at(i)] != nodeOf_[at(i - 1)]) first.push_back(i);
+  first.push_back(unknowns_);
+  return first;
+}
+
+PathProblem::Elements PathProblem::elementsOf(RowRange rows) const {
+  const int first = nodeOf_[at(rows.begin)], last = nodeOf_[at(rows.end - 1)];
+  return {std::max(0, first - 1), std::min(last + 1, sizeOf(elements_))};
+}
+
+void PathProblem::residual(const Vector& x, Vector& r) const { residualOf(allElements(), x, r); }
+
+void PathProblem::residualRows(const Vector& x, RowRange rows, Vector& r) const {
+  residualOf(elementsOf(rows), x, r);
+}
+
+void PathProblem::residualOf(Elements which, const Vector& x, Vector& r) const {
   const Vector state = expand(x);
-  const auto elementResponses = evaluate(state, false);
+  const auto elementResponses = evaluate(state, false, which);
   r = Vector::Zero(unknowns_);
   const int perNode = dofsPerNode();
   Vector local(2 * perNode);
-  for (int e = 0; e < static_cast<int>(elementResponses.size()); ++e) {
-    const beam::Vector12& f = elementResponses[at(e)].force;
+  for (int e = which.begin; e < which.end; ++e) {
+    const beam::Vector12& f = elementResponses[at(e - which.begin)].force;
     local.head(perNode) = testMotion(e, state).transpose() * f.head<6>();
     local.tail(perNode) = testMotion(e + 1, state).transpose() * f.tail<6>();
     assembler_.add(e, local, r);
@@ -148,14 +170,22 @@ void PathProblem::residual(const Vector& x, Vector& r) const {
 }
 
 void PathProblem::jacobian(const Vector& x, Sparse& jacobian) const {
+  jacobianOf(allElements(), x, jacobian);
+}
+
+void PathProblem::jacobianRows(const Vector& x, RowRange rows, Sparse& jacobian) const {
+  jacobianOf(elementsOf(rows), x, jacobian);
+}
+
+void PathProblem::jacobianOf(Elements which, const Vector& x, Sparse& jacobian) const {
   const Vector state = expand(x);
-  const auto elementResponses = evaluate(state, true);
+  const auto elementResponses = evaluate(state, true, which);
   assembler_.clear(jacobian);
   const int perNode = dofsPerNode();
   Matrix test = Matrix::Zero(12, 2 * perNode);
   Matrix trial = Matrix::Zero(12, 2 * perNode);
-  for (int e = 0; e < static_cast<int>(elementResponses.size()); ++e) {
-    const beam::CorotationalResponse& response = elementResponses[at(e)];
+  for (int e = which.begin; e < which.end; ++e) {
+    const beam::CorotationalResponse& response = elementResponses[at(e - which.begin)];
     test.topLeftCorner(6, perNode) = testMotion(e, state);
     test.bottomRightCorner(6, perNode) = testMotion(e + 1, state);
     trial.topLeftCorner(6, perNode) = trialMotion(e, state);

@@ -24,11 +24,14 @@ struct NodePose {
 /// translations (one along a curve, or three in space), then the rotation vector theta in the axes
 /// of its reference triad, Q = Q_ref exp(theta^). Residual rows: the internal forces that work on
 /// the translations, and the internal moments in reference axes.
-class PathProblem : public model::NonlinearProblem {
+class PathProblem : public model::ChainProblem {
  public:
   int size() const override { return unknowns_; }
   void residual(const Vector& x, Vector& r) const override;
   void jacobian(const Vector& x, Sparse& jacobian) const override;
+  std::vector<int> firstOfNodes() const override;
+  void residualRows(const Vector& x, RowRange rows, Vector& r) const override;
+  void jacobianRows(const Vector& x, RowRange rows, Sparse& jacobian) const override;
   Vector residualScale() const override;
   std::string unknownName(int i) const override;
 
@@ -74,13 +77,25 @@ class PathProblem : public model::NonlinearProblem {
   /// dofsPerNode.
   Matrix testMotion(int node, const Vector& state) const;
   Matrix trialMotion(int node, const Vector& state) const;
-  std::vector<beam::CorotationalResponse> evaluate(const Vector& state, bool withTangent) const;
+  /// Elements begin ... end - 1, the numbers of their first nodes.
+  struct Elements {
+    int begin, end;
+  };
+  Elements allElements() const { return {0, static_cast<int>(elements_.size())}; }
+  /// All that act on the nodes of some rows.
+  Elements elementsOf(RowRange rows) const;
+  std::vector<beam::CorotationalResponse> evaluate(const Vector& state, bool withTangent,
+                                                   Elements which) const;
+  /// What residual() and jacobian() have from some elements.
+  void residualOf(Elements which, const Vector& x, Vector& r) const;
+  void jacobianOf(Elements which, const Vector& x, Sparse& jacobian) const;
 
   int translations_;
   int unknowns_ = 0;
   Vector state_;
   std::vector<Matrix3> reference_;
-  std::vector<int> index_;  ///< unknown of each dof, -1 when held
+  std::vector<int> index_;   ///< unknown of each dof, -1 when held
+  std::vector<int> nodeOf_;  ///< of each unknown
   std::vector<std::shared_ptr<const beam::Element>> elements_;
   beam::SparseAssembler assembler_;
   double forceScale_ = 1.0;

@@ -461,4 +461,18 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
   }
 }
 
+/// But for what the last pivot adds to the meeting.
+TOOLJOINT_CLONES void BlockFactor::downPivots(const std::vector<int>& pivots, double* x) const {
+  for (std::size_t k = 0; k + 1 < pivots.size(); ++k) sweepDown(pivots_[at(pivots[k])], x);
+}
+
+TOOLJOINT_CLONES void BlockFactor::meet(const std::vector<int>& lastOfSweeps, double* x) const {
+  for (const int k : lastOfSweeps) sweepDown(pivots_[at(k)], x);
+  sweepUp(pivots_.back(), x);
+}
+
+TOOLJOINT_CLONES void BlockFactor::upPivots(const std::vector<int>& pivots, double* x) const {
+  for (std::size_t k = pivots.size(); k-- > 0;) sweepUp(pivots_[at(pivots[k])], x);
+}
+
 }  // namespace tooljoint::linalg

@@ -44,6 +44,12 @@ class BlockFactor {
   /// x := A^-1 x, in positions.
   void solve(double* x) const;
 
+  /// Of a chain: the blocks before the last one to be eliminated, and those behind it, are two
+  /// sweeps that meet there and need nothing of each other before. Two processes may do one each;
+  /// factors and solutions are those of factor() and solve(), bit by bit.
+  class TwoSweeps;
+  bool hasTwoSweeps() const;
+
   /// The same for an x that is zero outside the blocks `live` (any order, repeated or not). What
   /// falls below `small` in units of `weight` (forces on the way down, displacements on the way up)
   /// is dropped, so that the cost is that of the blocks a local force reaches; `live` then holds
@@ -111,6 +117,13 @@ class BlockFactor {
   int factorInterior();
   int factorCut(int bad);
 
+  int factorPivots(const std::vector<int>& pivots);
+  void addToMeeting(std::size_t k);
+  int factorMeeting();
+  void downPivots(const std::vector<int>& pivots, double* x) const;
+  void meet(const std::vector<int>& lastOfSweeps, double* x) const;
+  void upPivots(const std::vector<int>& pivots, double* x) const;
+
   void pack();
   void eliminate(std::size_t k);
   void sweepDown(const Pivot& pivot, double* x) const;
@@ -146,6 +159,44 @@ class BlockFactor {
   std::size_t patternStorage_ = 0;
   bool far_ = false;  ///< sweeps read more than a near cache holds
   double solveWork_ = 0;
+};
+
+class BlockFactor::TwoSweeps {
+ public:
+  /// Of factors with hasTwoSweeps(), which must outlive the object.
+  explicit TwoSweeps(BlockFactor& factor);
+
+  /// First position of the block where the sweeps meet, and the position behind it.
+  int meetingBegin() const { return factor_.pivots_.back().start; }
+  int meetingEnd() const { return meetingBegin() + factor_.pivots_.back().width; }
+
+  /// Factors the values of the blocks of one sweep (0 before the meeting, 1 behind it) and of the
+  /// meeting. False: a pivot vanished.
+  bool factorSweep(int sweep) { return factor_.factorPivots(pivots_[at(sweep)]) < 0; }
+  /// What the meeting needs of a sweep, factored here, or for one that was factored elsewhere.
+  std::size_t factorsLength(int sweep) const;
+  void copyFactors(int sweep, double* to) const;
+  void takeFactors(int sweep, const double* from);
+  /// Before the sweeps: keeps the diagonal block of the meeting. After them: factors it.
+  void keepMeeting();
+  bool factorMeeting();
+
+  /// The way down of a sweep; the meeting, once x has the positions of the last blocks of both; the
+  /// way up.
+  void down(int sweep, double* x) const;
+  int lastBegin(int sweep) const { return last(sweep).start; }
+  int lastWidth(int sweep) const { return last(sweep).width; }
+  void meet(double* x) const { factor_.meet(lasts_, x); }
+  void up(int sweep, double* x) const { factor_.upPivots(pivots_[at(sweep)], x); }
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  const Pivot& last(int sweep) const { return factor_.pivots_[at(pivots_[at(sweep)].back())]; }
+
+  BlockFactor& factor_;
+  std::vector<int> pivots_[2];  ///< of the sweeps, as they are eliminated
+  std::vector<int> lasts_;      ///< the last of each, in the order of elimination
+  std::vector<double> diagonal_;
 };
 
 }  // namespace tooljoint::linalg

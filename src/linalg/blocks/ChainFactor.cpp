@@ -58,11 +58,16 @@ ChainFactor::ChainFactor(const Sparse& A) {
 }
 
 bool ChainFactor::factor(const Sparse& A) {
+  fill(A, 0, static_cast<int>(A.rows()));
+  return factor_.factor() < 0;
+}
+
+void ChainFactor::fill(const Sparse& A, int begin, int end) {
   double* values = factor_.values();
   std::fill(values, values + storage_, 0.0);
   const double* entry = A.valuePtr();
-  for (std::size_t k = 0; k < address_.size(); ++k) values[address_[k]] = entry[k];
-  return factor_.factor() < 0;
+  for (std::size_t k = at(A.outerIndexPtr()[begin]); k < at(A.outerIndexPtr()[end]); ++k)
+    values[address_[k]] = entry[k];
 }
 
 }  // namespace tooljoint::linalg

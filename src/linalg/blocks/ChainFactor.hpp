@@ -26,6 +26,11 @@ class ChainFactor {
   bool factor(const Sparse& A);
   /// x := A^-1 x, x of size() entries.
   void solve(double* x) const { factor_.solve(x); }
+  /// For two ranks that do half of it each: fill() instead of factor(), then the sweeps.
+  bool hasTwoSweeps() const { return factor_.hasTwoSweeps(); }
+  BlockFactor& blocks() { return factor_; }
+  /// The values of rows begin ... end - 1 of A, all others zero.
+  void fill(const Sparse& A, int begin, int end);
   /// Entries of both factors.
   long entries() const { return static_cast<long>(storage_); }
 

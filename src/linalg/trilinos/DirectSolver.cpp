@@ -222,8 +222,12 @@ struct DirectSolver::Impl {
     count("factorisations");
     transposed.reset();
     const bool newPattern = !samePattern(matrix, A);
-    matrix = A;
-    matrix.makeCompressed();
+    if (newPattern) {
+      matrix = A;
+      matrix.makeCompressed();
+    } else {
+      std::copy_n(A.valuePtr(), A.nonZeros(), matrix.valuePtr());
+    }
     if (matrix.rows() == 0) return;
     if (!factors.factor(matrix, newPattern)) explainZeroPivot(matrix, name);
     if (!checkSingular) return;

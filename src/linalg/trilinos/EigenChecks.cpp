@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -40,6 +41,32 @@ struct Inertia {
   double enough = doubtfulError;
 };
 
+/// The order of elimination of one pattern after the other, kept while the pattern stays: counts
+/// below several bounds take one.
+class KeptOrder {
+ public:
+  using Order = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+  const Order& of(const ColumnSparse& A) {
+    const int *outer = A.outerIndexPtr(), *inner = A.innerIndexPtr();
+    const bool known = sizeOf(outer_) == A.cols() + 1 && sizeOf(inner_) == A.nonZeros() &&
+                       std::equal(outer_.begin(), outer_.end(), outer) &&
+                       std::equal(inner_.begin(), inner_.end(), inner);
+    if (known) return order_;
+    Order inverse;
+    ColumnSparse both;
+    both = A.selfadjointView<Eigen::Lower>();
+    Eigen::AMDOrdering<int>()(both, inverse);
+    order_ = inverse.inverse();
+    outer_.assign(outer, outer + A.cols() + 1);
+    inner_.assign(inner, inner + A.nonZeros());
+    return order_;
+  }
+
+ private:
+  std::vector<int> outer_, inner_;
+  Order order_;
+};
+
 /// The same by MUMPS, with pivoting.
 Inertia inertiaByMumps(const Sparse& A) {
   MumpsFactor factor;
@@ -50,13 +77,19 @@ Inertia inertiaByMumps(const Sparse& A) {
 
 Inertia inertiaOf(const Sparse& A) {
   if (suitsMumps(A)) return inertiaByMumps(A);
-  Ldlt ldlt;
-  ldlt.compute(ColumnSparse(A));
+  thread_local KeptOrder kept;
+  const ColumnSparse columns = A;
+  const auto& order = kept.of(columns);
+  ColumnSparse ordered(A.rows(), A.cols());
+  ordered.selfadjointView<Eigen::Upper>() =
+      columns.selfadjointView<Eigen::Lower>().twistedBy(order);
+  const Eigen::SimplicialLDLT<ColumnSparse, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt(
+      ordered);
   if (ldlt.info() != Eigen::Success) return {};
   const Vector d = ldlt.vectorD();
   if (!d.allFinite() || (d.array() == 0.0).any()) return {};
   const Vector b = scatteredNumbers(A.rows(), 1, 7);
-  const Vector x = ldlt.solve(b);
+  const Vector x = order.inverse() * Vector(ldlt.solve(Vector(order * b)));
   if (!x.allFinite()) return {};
   return {static_cast<int>((d.array() < 0.0).count()), backwardError(A, x, b), doubtfulError};
 }

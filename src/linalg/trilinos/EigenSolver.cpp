@@ -18,6 +18,8 @@
 #include "linalg/Deterministic.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/SparseProducts.hpp"
+#include "linalg/blocks/DividedSolves.hpp"
+#include "linalg/trilinos/DividedModes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/FunctionOperator.hpp"
 #include "linalg/trilinos/TpetraConversion.hpp"
@@ -38,7 +40,8 @@ constexpr double wellAboveZero = 1e-10;
 struct Pencil {
   std::shared_ptr<const Sparse> symmetricK, symmetricM;
   const Sparse &K, &M;
-  double scale;  ///< lower bound of the largest eigenvalue
+  double scale;                             ///< lower bound of the largest eigenvalue
+  std::shared_ptr<const ChainShare> share;  ///< of this rank in products and solves; null: none
 
   Pencil(const Sparse& k, const Sparse& m, const DofNamer& name)
       : symmetricK(sharedSymmetricPart(k, "stiffness", name)),
@@ -111,13 +114,68 @@ Vector absoluteEnergies(const Sparse& A, const Matrix& X) {
   return X.cwiseAbs().cwiseProduct(absoluteProduct(A, X)).colwise().sum().transpose();
 }
 
+/// The factors of K - sigma M: those of the options, or own ones, which make room when something
+/// else of their size is computed and are made again when they are needed.
+class ShiftedFactors {
+ public:
+  ShiftedFactors(const Pencil& pencil, const DirectSolver& given)
+      : pencil_(pencil), given_(&given) {}
+  ShiftedFactors(const Pencil& pencil, double shift, DofNamer name)
+      : pencil_(pencil), shift_(shift), name_(std::move(name)) {}
+
+  double shift() const { return shift_; }
+  /// (K - sigma M)^-1 M x. \param refine  and checked
+  Matrix solveMass(const Matrix& x, bool refine) {
+    if (divided() != nullptr)
+      if (auto y = divided()->solve(divided()->ownRows(pencil_.M, x))) return std::move(*y);
+    const Matrix load = product(pencil_.M, x);
+    return refine ? get().solve(load) : get().apply(load);
+  }
+  /// M x.
+  Matrix mass(const Matrix& x) {
+    return divided() != nullptr ? divided()->multiply(pencil_.M, x) : product(pencil_.M, x);
+  }
+  /// Whether the factors are those of a matrix so large that solutions are not refined at first.
+  bool areLarge() { return divided() == nullptr && get().negativeEigenvalues().has_value(); }
+  const DirectSolver& get() {
+    if (given_ != nullptr) return *given_;
+    if (!own_) {
+      const Stage stage("factorisation for modes");
+      own_ = std::make_unique<DirectSolver>(Sparse(pencil_.K - shift_ * pencil_.M), name_);
+    }
+    return *own_;
+  }
+  void makeRoom() {
+    if (own_ && own_->negativeEigenvalues().has_value()) own_.reset();  // of a large matrix
+  }
+
+ private:
+  /// Those that the ranks share; null where there are none.
+  const DividedSolves* divided() {
+    if (given_ == nullptr && pencil_.share && !triedToDivide_) {
+      const Stage stage("factorisation for modes");
+      divided_ = DividedSolves::of(pencil_.share, Sparse(pencil_.K - shift_ * pencil_.M));
+      triedToDivide_ = true;
+    }
+    return divided_.get();
+  }
+
+  const Pencil& pencil_;
+  const DirectSolver* given_ = nullptr;
+  double shift_ = 0.0;
+  DofNamer name_;
+  std::unique_ptr<DirectSolver> own_;
+  std::unique_ptr<DividedSolves> divided_;
+  bool triedToDivide_ = false;
+};
+
 /// |phi - (lambda - sigma) (K - sigma M)^-1 M phi|_M per mode: bounds the relative error of lambda
 /// - sigma.
-void requireAccurate(const EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors,
-                     double shift, double tolerance) {
+void requireAccurate(const EigenPairs& modes, const Pencil& pencil, ShiftedFactors& factors,
+                     double tolerance) {
+  const double shift = factors.shift();
   const Vector above = modes.values.array() - shift;
-  const Matrix errors =
-      modes.vectors - factors.solve(product(pencil.M, modes.vectors)) * above.asDiagonal();
+  const Matrix errors = modes.vectors - factors.solveMass(modes.vectors, true) * above.asDiagonal();
   const Vector sizes = energies(pencil.M, errors).cwiseMax(0.0).cwiseSqrt(),
                stiffness = absoluteEnergies(pencil.K, modes.vectors);
   for (int j = 0; j < modes.count(); ++j) {
@@ -152,15 +210,15 @@ Vector bestValues(const Vector& nu, double shift, const Matrix& shapes, const Pe
 /// / nu_j in mode j, most of it in directions far above the spectrum that is wanted. An inverse
 /// iteration removes those, a projection onto the complement of the lower modes what it stirs up
 /// there, and Rayleigh-Ritz with K separates the rest.
-void polishUpperModes(EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors,
-                      double shift) {
+void polishUpperModes(EigenPairs& modes, const Pencil& pencil, ShiftedFactors& factors) {
+  const double shift = factors.shift();
   const int count = modes.count();
   const double split = std::sqrt((modes.values[0] - shift) * (modes.values[count - 1] - shift));
   int first = 0;
   while (first < count && modes.values[first] - shift <= split) ++first;
   const int upper = count - first;
   if (upper < 2) return;
-  Matrix phi = factors.solve(product(pencil.M, modes.vectors.rightCols(upper)));
+  Matrix phi = factors.solveMass(modes.vectors.rightCols(upper), true);
   const Matrix lower = modes.vectors.leftCols(first), massLower = pencil.M * lower;
   phi -= lower * (massLower.transpose() * phi);
   phi = phi * energies(pencil.M, phi).cwiseSqrt().cwiseInverse().asDiagonal();
@@ -174,8 +232,9 @@ void polishUpperModes(EigenPairs& modes, const Pencil& pencil, const DirectSolve
 
 /// The `wanted` modes nearest above the shift by Anasazi. ConvergenceError when it does not
 /// converge.
-EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double shift, int wanted,
-                       int attempt, const EigenOptions& options) {
+EigenPairs krylovSchur(const Pencil& pencil, ShiftedFactors& factors, int wanted, int attempt,
+                       const EigenOptions& options) {
+  const double shift = factors.shift();
   using Problem = Anasazi::BasicEigenproblem<double, tpetra::MultiVector, tpetra::Operator>;
   using Manager = Anasazi::BlockKrylovSchurSolMgr<double, tpetra::MultiVector, tpetra::Operator>;
   const auto map = serialMap(pencil.size());
@@ -184,14 +243,11 @@ EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double
   // nu phi = (K - sigma M)^-1 M phi,  lambda = sigma + 1/nu. The first attempt at a large pencil
   // takes solutions as the factors give them: refining takes three times as long, and the checks of
   // the modes refine theirs.
-  const bool refine = attempt > 0 || !factors.negativeEigenvalues().has_value();
-  const Teuchos::RCP<tpetra::Operator> inverse =
-      Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) {
-        const Matrix load = product(pencil.M, x);
-        return refine ? factors.solve(load) : factors.apply(load);
-      }));
-  const Teuchos::RCP<tpetra::Operator> mass = Teuchos::rcp(
-      new FunctionOperator(map, [&](const Matrix& x) { return product(pencil.M, x); }));
+  const bool refine = attempt > 0 || !factors.areLarge();
+  const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(
+      new FunctionOperator(map, [&](const Matrix& x) { return factors.solveMass(x, refine); }));
+  const Teuchos::RCP<tpetra::Operator> mass =
+      Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) { return factors.mass(x); }));
   const auto start = toTpetra(
       scatteredNumbers(pencil.size(), std::max(1, block), 17 + static_cast<std::uint64_t>(attempt)),
       map);
@@ -219,7 +275,7 @@ EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double
   for (int j = 0; j < wanted; ++j) nu[j] = solution.Evals[static_cast<std::size_t>(j)].realpart;
   modes.values = bestValues(nu, shift, modes.vectors, pencil);
   applyConventions(modes, pencil.M);
-  polishUpperModes(modes, pencil, factors, shift);
+  polishUpperModes(modes, pencil, factors);
   applyConventions(modes, pencil.M);
   return modes;
 }
@@ -246,44 +302,14 @@ EigenPairs denseModes(const Pencil& pencil, int count, const EigenOptions& optio
   return modes;
 }
 
-/// The factors of K - sigma M: those of the options, or own ones, which make room when something
-/// else of their size is computed and are made again when they are needed.
-class ShiftedFactors {
- public:
-  ShiftedFactors(const Pencil& pencil, const DirectSolver& given)
-      : pencil_(pencil), given_(&given) {}
-  ShiftedFactors(const Pencil& pencil, double shift, DofNamer name)
-      : pencil_(pencil), shift_(shift), name_(std::move(name)) {}
-
-  double shift() const { return shift_; }
-  const DirectSolver& get() {
-    if (given_ != nullptr) return *given_;
-    if (!own_) {
-      const Stage stage("factorisation for modes");
-      own_ = std::make_unique<DirectSolver>(Sparse(pencil_.K - shift_ * pencil_.M), name_);
-    }
-    return *own_;
-  }
-  void makeRoom() {
-    if (own_ && own_->negativeEigenvalues().has_value()) own_.reset();  // of a large matrix
-  }
-
- private:
-  const Pencil& pencil_;
-  const DirectSolver* given_ = nullptr;
-  double shift_ = 0.0;
-  DofNamer name_;
-  std::unique_ptr<DirectSolver> own_;
-};
-
 /// One attempt, complete with all checks; ConvergenceError says which of them failed. `extra` modes
 /// beyond `count` show where the last cluster ends, and grow when they do not.
 EigenPairs checkedPairs(const Pencil& pencil, ShiftedFactors& factors, int count, int& extra,
                         int attempt, const EigenOptions& options) {
   const double floor = 1e-14 * pencil.scale;
   const Stage stage("Krylov-Schur iteration");
-  EigenPairs modes = krylovSchur(pencil, factors.get(), factors.shift(),
-                                 std::min(count + extra, pencil.size() / 2), attempt, options);
+  EigenPairs modes =
+      krylovSchur(pencil, factors, std::min(count + extra, pencil.size() / 2), attempt, options);
   const auto gap = lastGap(modes.values, count, floor);
   const int keep =
       options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count;
@@ -295,7 +321,7 @@ EigenPairs checkedPairs(const Pencil& pencil, ShiftedFactors& factors, int count
     throw ConvergenceError(cluster);
   }
   truncate(modes, keep);
-  requireAccurate(modes, pencil, factors.get(), factors.shift(), options.tolerance);
+  requireAccurate(modes, pencil, factors, options.tolerance);
   factors.makeRoom();
   // Sylvester: as many eigenvalues lie below a gap as were found below it.
   const int below = pencil.below(gap->second);
@@ -358,6 +384,15 @@ EigenPairs lowestModes(const Sparse& K, const Sparse& M, int count, const EigenO
     throw ModelError(std::to_string(count) + " modes were requested, but the eigenproblem has " +
                      std::to_string(K.rows()) + " dofs.");
   return modesOf(Pencil(K, M, options.name), count, options);
+}
+
+EigenPairs lowestModesOfChain(const Sparse& K, const Sparse& M, int count,
+                              const EigenOptions& options,
+                              std::shared_ptr<const ChainShare> share) {
+  if (!share) return lowestModes(K, M, count, options);
+  Pencil pencil(K, M, options.name);
+  pencil.share = std::move(share);
+  return modesOf(pencil, count, options);
 }
 
 EigenPairs lowestModesBelow(const Sparse& K, const Sparse& M, double omegaMax,

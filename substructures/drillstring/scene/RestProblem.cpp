@@ -56,6 +56,7 @@ equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& 
   input.geometricStiffness = scene.statics.geometricStiffness;
   std::vector<double> pretension;
   if (reference == equilibrium::Reference::Hanging) pretension = hangingTension(equations);
+  input.elements.reserve(at(equations.model.elements()));
   for (int e = 0; e < equations.model.elements(); ++e) {
     const auto i = at(e);
     const auto& section = scene.string.elements[i].section();

@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
+#include "common/report/StageTimes.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/part/Partition.hpp"
@@ -149,13 +153,14 @@ void requireHeld(const Scene& scene, StringModel& equations) {
   auto heldInMotion = std::exchange(equations.held, scene.heldAtRest());
   const auto model = assemble(equations);
   equations.held = std::move(heldInMotion);
+  std::unordered_map<std::int64_t, std::vector<int>> lateral;  // dofs of each node
+  for (int dof = 0; dof < model.size(); ++dof)
+    if (const auto& label = model.dofs[static_cast<std::size_t>(dof)]; label.component < nodal::w)
+      lateral[label.entity].push_back(dof);
   Triplets walls;
   for (int i = 0; i < scene.contactPoints.size(); ++i)
-    for (std::size_t dof = 0; dof < model.dofs.size(); ++dof)
-      if (model.dofs[dof].entity == scene.contactPoints.node[static_cast<std::size_t>(i)] &&
-          model.dofs[dof].component < nodal::w)
-        walls.emplace_back(static_cast<int>(dof), static_cast<int>(dof),
-                           scene.contactPoints.stiffness[static_cast<std::size_t>(i)]);
+    for (const int dof : lateral[scene.contactPoints.node[static_cast<std::size_t>(i)]])
+      walls.emplace_back(dof, dof, scene.contactPoints.stiffness[static_cast<std::size_t>(i)]);
   Sparse wall(model.size(), model.size());
   wall.setFromTriplets(walls.begin(), walls.end());
   try {
@@ -228,7 +233,11 @@ std::vector<int> freeDirections(const Scene& scene) {
 StaticStage findEquilibrium(const Scene& scene) {
   StaticStage stage;
   stage.friction = staticFriction(scene);
-  stage.path = bendIntoWell(scene);
+  {
+    const Stage watch("path of the string");
+    stage.path = bendIntoWell(scene);
+  }
+  const Stage watch("equations of the string");
   auto equations = equationsOnPath(scene, stage.path);
   addBitAtRest(scene, equations);
   addDriveInertia(scene, equations.model);
@@ -250,6 +259,7 @@ StaticStage findEquilibrium(const Scene& scene) {
     stage.stability = stability::assess(assemble(stage.equations), scene.startTime());
   };
   try {
+    const Stage solving("static equilibrium");
     stage.state = equilibrium::solveStatic(input, scene.statics, solver);
   } catch (const ConvergenceError& error) {
     explainFailure(scene, error);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What one solve leaves to the next of problems on one pattern: the order and the fill of factors.
+#pragma once
+
+#include <memory>
+
+#include "linalg/blocks/DividedChain.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+
+namespace tooljoint::statics {
+
+struct NewtonMemory {
+  linalg::DofNamer name;  ///< of the unknowns of the present problem
+  std::unique_ptr<linalg::DirectSolver> factors;
+  std::unique_ptr<linalg::DividedChain> chain;  ///< of a divided problem
+  Sparse pattern;                               ///< of `chain`
+};
+
+}  // namespace tooljoint::statics
