@@ -108,8 +108,8 @@ TEST(StepComparison, tellsChaosFromVibration) {
 }
 
 /// A mass that rests on a floor with (w h / 2)^2 = 6, which halves take for an impact, too, beside
-/// one that swings freely. A negative damper makes vibration of the contact grow by exp(10 t); steps
-/// and halves hold it down, and S is that of the other mass.
+/// one that swings freely. A negative damper makes vibration of the contact grow by exp(10 t);
+/// steps and halves hold it down, and S is that of the other mass.
 TEST(StepComparison, seesContactThatHalvesHoldDownToo) {
   const auto said = [](double damper, double floor) {
     const Vector both = (Vector(2) << 0, w * w).finished(),
