@@ -194,7 +194,7 @@ def refusals():
     refused("steps the wrong way round", "has to lie between Smallest Step", 2, good, "--set", "Buckling/First Step=1")
     refused("a string without geometric stiffness", "nothing buckles", 2, good, "--set", "Static/Geometric Stiffness=false")
     refused("parts", "buckling needs a string in its well", 2, str(SOURCES / "xml/frame.xml"))
-    refused("a path of two steps", "no more were allowed", 4, good, "--output", "out_short", "--set", "Buckling/Max Steps=2")
+    refused("a path of two steps", "the number allowed", 4, good, "--output", "out_short", "--set", "Buckling/Max Steps=2")
     refused("steps that cannot be halved", "does not converge", 4, good, "--output", "out_long_steps", "--set", "Loads/Gravity=0", "--set", "Buckling/Smallest Step=0.01",
             "--set", "Buckling/At A Limit=Follow")
     expect("what was found is in the tables", len(rows("out_short")) > 1 and summary("out_short")["end"] == "steps")
