@@ -214,9 +214,10 @@ TEST(Identity, isAskedForByARestart) {
                    "written by the integrator \"RK4\""));
   EXPECT_TRUE(
       says(errorText([&] { integrate(model, options("RK4", 0.3, 2e-4, 0.005), samples, again); }),
-           "other steps"));
+           "the steps of the checkpoint"));
   model.loads[1].vector[3] += 1e-9;
-  EXPECT_TRUE(says(errorText([&] { integrate(model, o, samples, again); }), "another model"));
+  EXPECT_TRUE(says(errorText([&] { integrate(model, o, samples, again); }),
+                   "The model or the steps of the checkpoint differ"));
 }
 
 }  // namespace CheckpointTest

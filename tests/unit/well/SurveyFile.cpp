@@ -244,7 +244,7 @@ TEST(SurveyFile, OtherFaultsHaveTheirOwnSentence) {
   EXPECT_NE(errorOf("MD [furlong],Inc,Azi\n0,0,0\n10,0,0\n")
                 .find("the unit \"furlong\" of the measured depth is unknown"),
             std::string::npos);
-  EXPECT_NE(errorOf("MD,Inc,Azi,MD\n0,0,0,0\n").find("stands twice"), std::string::npos);
+  EXPECT_NE(errorOf("MD,Inc,Azi,MD\n0,0,0,0\n").find("occurs twice"), std::string::npos);
   EXPECT_THROW(readSurvey("no_such_file.csv"), DeckError);
 }
 
