@@ -190,7 +190,7 @@ def check_refuses_what_run_refuses():
         (FRAME, ["--set", "Coupling/Assembly=Dual", "--set", "Reduction/Error Estimate=Transient"], "which is not available with Coupling/Assembly \"Dual\""),
         (FRAME, ["--set", "Reduction/Load Vectors=Points", "--set", "Reduction/Load Vector Nodes={9999}"], "names node 9999, but no substructure has a point law there"),
         (FRAME, ["--set", "Transient/Step=1e-300"], "which gives 2e+300 intervals"),
-        (FRAME, ["--set", "Transient/Sampling Interval=1e-300"], "which makes"),
+        (FRAME, ["--set", "Transient/Sampling Interval=1e-300"], "which gives 2e+300 intervals in the 2 s"),
         (deck_of(part("strange", positions=[[1, 0, 0, 0], [9, 0, 0, 0]]), "strange.xml"), [], "names node 9 in row 2, which the part does not have"),
         (deck_of(part("number", name=7), "number.xml"), [], "\"name\" must be a text"),
     ]
