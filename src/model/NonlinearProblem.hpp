@@ -46,4 +46,24 @@ class ChainProblem : public NonlinearProblem {
   virtual void jacobianRows(const Vector& x, RowRange rows, Sparse& J) const = 0;
 };
 
+/// A problem in the unknowns of another one, which must outlive it: what is said of unknowns is
+/// said by that one.
+template <class Problem>
+class InUnknownsOf : public Problem {
+ public:
+  explicit InUnknownsOf(const NonlinearProblem& other) : other_(other) {}
+  int size() const override { return other_.size(); }
+  Vector residualScale() const override { return other_.residualScale(); }
+  double stepLimit(const Vector& x, const Vector& dx) const override {
+    return other_.stepLimit(x, dx);
+  }
+  Vector moved(const Vector& x, const Vector& dx, double s) const override {
+    return other_.moved(x, dx, s);
+  }
+  std::string unknownName(int i) const override { return other_.unknownName(i); }
+
+ private:
+  const NonlinearProblem& other_;
+};
+
 }  // namespace tooljoint::model

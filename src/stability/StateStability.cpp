@@ -84,18 +84,16 @@ constexpr int fewestDofs = 2000;
 /// nodes beside only; null where they do not, on one rank and where it is too short.
 std::shared_ptr<const linalg::ChainShare> shareOf(const model::SecondOrderModel& model,
                                                   const Sparse& K, const Sparse& M) {
-  std::vector<int> first, nodeOf;
+  std::vector<int> nodeOf;
   for (int i = 0; i < model.size(); ++i) {
-    const auto& dof = model.dofs[at(i)];
-    if (i == 0 || dof.entity != model.dofs[at(i - 1)].entity) first.push_back(i);
-    nodeOf.push_back(sizeOf(first) - 1);
+    const bool same = i > 0 && model.dofs[at(i)].entity == model.dofs[at(i - 1)].entity;
+    nodeOf.push_back(i == 0 ? 0 : nodeOf.back() + (same ? 0 : 1));
   }
-  first.push_back(model.size());
   for (const Sparse* matrix : {&K, &M})
     for (int i = 0; i < matrix->outerSize(); ++i)
       for (Sparse::InnerIterator it(*matrix, i); it; ++it)
         if (std::abs(nodeOf[at(it.col())] - nodeOf[at(i)]) > 1) return nullptr;
-  return linalg::ChainShare::of(std::move(first), fewestDofs);
+  return linalg::ChainShare::of(linalg::firstRows(nodeOf), fewestDofs);
 }
 
 ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape) {

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "linalg/blocks/DividedChain.hpp"
+#include "linalg/chains/DividedChain.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 
 namespace tooljoint::statics {

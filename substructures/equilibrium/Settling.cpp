@@ -29,13 +29,12 @@ constexpr int mostSteps = 2000, mostFinalSteps = 50, mostIterations = 60;
 constexpr double stepTolerance = 1e-6;
 
 /// r(x) + alpha W (x - x_n).
-class ProximalProblem : public model::ChainProblem {
+class ProximalProblem : public model::InUnknownsOf<model::ChainProblem> {
  public:
   ProximalProblem(const StaticProblem& problem, Vector weights)
-      : problem_(problem), weights_(std::move(weights)) {}
+      : InUnknownsOf(problem), problem_(problem), weights_(std::move(weights)) {}
   void set(double alpha, const Vector& from) { alpha_ = alpha, from_ = from; }
 
-  int size() const override { return problem_.size(); }
   void residual(const Vector& x, Vector& r) const override {
     problem_.residual(x, r);
     addInertia(x, r);
@@ -53,14 +52,6 @@ class ProximalProblem : public model::ChainProblem {
     problem_.jacobianRows(x, rows, J);
     addInertia(rows, J);
   }
-  Vector residualScale() const override { return problem_.residualScale(); }
-  double stepLimit(const Vector& x, const Vector& dx) const override {
-    return problem_.stepLimit(x, dx);
-  }
-  Vector moved(const Vector& x, const Vector& dx, double s) const override {
-    return problem_.moved(x, dx, s);
-  }
-  std::string unknownName(int i) const override { return problem_.unknownName(i); }
 
  private:
   void addInertia(const Vector& x, Vector& r) const {

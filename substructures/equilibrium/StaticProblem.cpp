@@ -9,6 +9,7 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/chains/ChainShare.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::equilibrium {
@@ -187,13 +188,7 @@ void StaticProblem::contactForces(const Vector& full, Vector& forces, Vector& no
   input_.contact->normalForce(contactOptions(), uv.data(), normal.data());
 }
 
-std::vector<int> StaticProblem::firstOfNodes() const {
-  std::vector<int> first;
-  for (int i = 0; i < unknowns_; ++i)
-    if (i == 0 || nodeOf_[at(i)] != nodeOf_[at(i - 1)]) first.push_back(i);
-  first.push_back(unknowns_);
-  return first;
-}
+std::vector<int> StaticProblem::firstOfNodes() const { return linalg::firstRows(nodeOf_); }
 
 StaticProblem::Nodes StaticProblem::nodesOf(RowRange rows) const {
   return {nodeOf_[at(rows.begin)], nodeOf_[at(rows.end - 1)] + 1};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/Index.hpp"
+#include "linalg/chains/ChainShare.hpp"
 #include "substructures/beam/Rotation.hpp"
 
 namespace tooljoint::path {
@@ -135,13 +136,7 @@ Matrix PathProblem::nodalForces(const Vector& x) const {
   return f;
 }
 
-std::vector<int> PathProblem::firstOfNodes() const {
-  std::vector<int> first;
-  for (int i = 0; i < unknowns_; ++i)
-    if (i == 0 || nodeOf_[at(i)] != nodeOf_[at(i - 1)]) first.push_back(i);
-  first.push_back(unknowns_);
-  return first;
-}
+std::vector<int> PathProblem::firstOfNodes() const { return linalg::firstRows(nodeOf_); }
 
 PathProblem::Elements PathProblem::elementsOf(RowRange rows) const {
   const int first = nodeOf_[at(rows.begin)], last = nodeOf_[at(rows.end - 1)];

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "linalg/blocks/ChainShare.hpp"
+#include "linalg/chains/ChainShare.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
 namespace tooljoint::linalg {

@@ -18,7 +18,7 @@
 #include "linalg/Deterministic.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/SparseProducts.hpp"
-#include "linalg/blocks/DividedSolves.hpp"
+#include "linalg/chains/DividedSolves.hpp"
 #include "linalg/trilinos/DividedModes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/FunctionOperator.hpp"

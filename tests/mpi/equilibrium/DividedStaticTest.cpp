@@ -13,7 +13,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Parallel.hpp"
-#include "linalg/blocks/DividedChain.hpp"
+#include "linalg/chains/DividedChain.hpp"
 #include "linalg/trilinos/TpetraConversion.hpp"
 #include "statics/DividedProblem.hpp"
 #include "statics/NoxSolver.hpp"

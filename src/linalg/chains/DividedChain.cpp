@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/blocks/DividedChain.hpp"
+#include "linalg/chains/DividedChain.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/blocks/ChainShare.hpp"
+#include "linalg/chains/ChainShare.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,10 +14,18 @@
 namespace tooljoint::linalg {
 namespace {
 
-/// A rank has the cut to the next rank, and nodes of its own before it.
+/// Fewer nodes of a rank are not worth a message.
 constexpr int fewestNodes = 3;
 
 }  // namespace
+
+std::vector<int> firstRows(const std::vector<int>& nodeOf) {
+  std::vector<int> first;
+  for (int row = 0; row < sizeOf(nodeOf); ++row)
+    if (row == 0 || nodeOf[at(row)] != nodeOf[at(row - 1)]) first.push_back(row);
+  first.push_back(sizeOf(nodeOf));
+  return first;
+}
 
 std::shared_ptr<const ChainShare> ChainShare::of(std::vector<int> first, int fewestRows) {
   const int ranks = parallel::size(), nodes = static_cast<int>(first.size()) - 1;

@@ -14,6 +14,10 @@
 
 namespace tooljoint::linalg {
 
+/// First row of each node that has any, and the number of rows at the end, from the node of each
+/// row (ascending).
+std::vector<int> firstRows(const std::vector<int>& nodeOf);
+
 class ChainShare {
  public:
   /// That of parallel::rank(), of about as many nodes as the others have. \param first  first row

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/blocks/DividedSolves.hpp"
+#include "linalg/chains/DividedSolves.hpp"
 
 #include <cmath>
 #include <limits>

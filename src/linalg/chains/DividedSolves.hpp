@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "common/Types.hpp"
-#include "linalg/blocks/DividedChain.hpp"
+#include "linalg/chains/DividedChain.hpp"
 
 namespace tooljoint::linalg {
 

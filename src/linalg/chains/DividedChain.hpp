@@ -10,7 +10,7 @@
 
 #include "common/Types.hpp"
 #include "linalg/blocks/ChainFactor.hpp"
-#include "linalg/blocks/ChainShare.hpp"
+#include "linalg/chains/ChainShare.hpp"
 
 namespace tooljoint::linalg {
 
