@@ -77,7 +77,8 @@ std::string describe(const Findings& found, double span) {
     text << ", and a disturbance of 0.1 % changes that by " << percent(found.neighbour->size);
   if (found.isUnknown())
     text << "; contact rests on walls too stiff for the step, and steps of " << found.shorterStep
-         << " s " << (found.shorter ? "do not resolve it either" : "have no solution");
+         << " s "
+         << (found.shorter ? "do not resolve it either" : "led to no motion to compare with");
   return text.str();
 }
 
@@ -118,7 +119,7 @@ double judgeSteps(const Integrator& run, const StepError& error, const Transient
   }
   const bool tooLarge = lost || found.isTooLarge(limit);
   if (!tooLarge && found.isRight(warning)) return found.reported();
-  const double step = run.counters().maxStep;
+  const double step = run.equalStep();
   if (found.damped > warning) warnOfDamping(found, error, step);
   if (!tooLarge && !found.isWide(warning)) return found.reported();
   std::ostringstream text;
