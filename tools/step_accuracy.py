@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sets what runs say of their steps beside their vibration error, and writes docs/step-error.md with its figure.
 
-    tools/step_accuracy.py --program build/release/tooljoint [--work results/step_error] [--short] [--seconds S]
+    tools/step_accuracy.py --program build/release/tooljoint [--work results/step_error] [--short] [--walls] [--seconds S]
 
 Each run of 2 s stands beside one of the same model with steps of 0.125 ms and a tolerance of 1e-8; the vibration error is what `tooljoint
 compare` prints. Runs that are already in the work folder are not repeated. --short takes one scene and few steps, and prints the table
-only; --seconds ends with what there is after so many seconds.
+only; --walls takes walls that are too stiff for the steps alone, and renews their chapter; --seconds ends with what there is after so many seconds.
 """
 import argparse
 import json
@@ -27,17 +27,21 @@ MODELS = {"full": ["--without", "Reduction", "--without", "Substructures"], "red
 STEPS = ("1e-3", "2e-3", "2.5e-3", "5e-3", "1e-2", "2e-2")
 WAYS = {"usual": {}, "r 0.2": {"Spectral Radius": "0.2"}, "r 1": {"Spectral Radius": "1"}, "tolerance 1e-3": {"Tolerance": "1e-3"},
         "uncorrected": {"Phase Correction": "false"}}
+ORDINARY = tuple(WAYS)
+WAYS["r 0.5"] = {"Spectral Radius": "0.5"}
 REFERENCE = ("1.25e-4", {"Tolerance": "1e-8"})
 BANDS = ((0.0, 0.02), (0.02, 0.2), (0.2, 0.5), (0.5, float("inf")))
 SAID = re.compile(r"The time step \(\S+ s\) is (coarse|too large)|The scheme damps vibration")
 STEP_ERROR = re.compile(r"step error\s+(\S+) %")
 DIFFERENCE = re.compile(r"differs\s+by\s+(\S+)\s+%")
+SPEEDS_SAID = re.compile(r"damping,\s+at\s+(\S+)\s+of\s+its\s+speed")
+DISTURBED = re.compile(r"changes\s+that\s+by\s+(\S+)\s+%")
 
 
 class Case:
     """A deck, what is set in it, and the steps and ways it is run with."""
 
-    def __init__(self, name, deck, settings, steps=STEPS, ways=tuple(WAYS)):
+    def __init__(self, name, deck, settings, steps=STEPS, ways=ORDINARY):
         self.name, self.deck, self.settings, self.steps, self.ways = name, deck, settings, steps, ways
 
 
@@ -49,11 +53,27 @@ STICKING = [Case(f"{deck}, sticking, {rpm} rpm", deck,
             for deck in ("helical_170m", "stress_170m") for rpm in ("0.5", "1")]
 
 
+def walls(name, deck, stiffness, **settings):
+    return Case(f"{deck}, {name}", deck, {"Contact/Stiffness": stiffness, **{key.replace("__", "/").replace("_", " "): value for key, value in settings.items()}},
+                ("1e-3", "2.5e-3", "5e-3", "1e-2"), ("usual", "r 0.5"))
+
+
+INCLINED = "inclined_1000m"
+WALLS = [walls("3e7 N/m", INCLINED, "3e7"), walls("1e8 N/m", INCLINED, "1e8"), walls("1e9 N/m", INCLINED, "1e9"),
+         walls("1e8 N/m, 1 degree", INCLINED, "1e8", Well__Vertical__Inclination="1 deg"),
+         walls("1e8 N/m, 10 degrees", INCLINED, "1e8", Well__Vertical__Inclination="10 deg"),
+         walls("1e8 N/m, friction 0.25 and 0.2", INCLINED, "1e8", Contact__Friction__Static=0.25, Contact__Friction__Dynamic=0.2),
+         walls("1e8 N/m, without damping", INCLINED, "1e8", Contact__Damping=0),
+         walls("1e9 N/m", "helical_170m", "1e9"),
+         walls("1e8 N/m, friction 0.7", "stress_170m", "1e8", Contact__Friction__Static=0.7, Contact__Friction__Dynamic=0.7)]
+CHAPTER = "## Walls too stiff for the step"
+
+
 class Run:
     def __init__(self, options, case, model, step, own):
         name = "_".join([case.name, model, step, *own.values()])
         self.name = re.sub("[^0-9A-Za-z.+-]+", "_", name)
-        self.case, self.model, self.step = case, model, step
+        self.case, self.model, self.step, self.own = case, model, step, own
         self.folder = pathlib.Path(options.work) / self.name
         log = self.folder.parent / (self.name + ".log")
         if not log.exists():
@@ -74,6 +94,9 @@ class Run:
         self.step_error = float(known.group(1)) / 100 if known else summary["transient"]["step_error"] or 0.0
         compared = DIFFERENCE.search(said)
         self.difference = float(compared.group(1)) / 100 if compared else None
+        speeds, disturbed = SPEEDS_SAID.search(said), DISTURBED.search(said)
+        self.speeds = float(speeds.group(1)) if speeds else None
+        self.disturbed = float(disturbed.group(1)) / 100 if disturbed else None
 
     def verdict(self):
         return "refused" if self.refused else "warned" if self.warned else "silent"
@@ -140,6 +163,21 @@ def outliers(runs):
     return "Judged wrongly:\n\n" + "".join(f"- {run.name}: vibration error {percent(run.error)} %, step error {percent(run.step_error)} %, {run.verdict()}\n" for run in wrong)
 
 
+def wall_chapter(runs):
+    """A row for each run: vibration error, what was said, and what was found."""
+    rows = "".join(f"| {run.case.name} | {1e3 * float(run.step):g} | {run.own.get('Spectral Radius', '0.8')} | {percent(run.error)} % | {percent(run.step_error)} % | "
+                   f"{'' if run.difference is None else percent(run.difference) + ' %'} | {'' if run.speeds is None else f'{run.speeds:g}'} | "
+                   f"{'' if run.disturbed is None else percent(run.disturbed) + ' %'} | {run.verdict()} |\n" for run in runs)
+    return (f"{CHAPTER}\n\nFull models, 2 s, beside steps of 0.125 ms with a tolerance of 1e-8; r is the speed over that in the shorter steps, s what a disturbance of\n"
+            "0.1 % changes there. Written by `tools/step_accuracy.py --walls`.\n\n"
+            "| walls | step [ms] | spectral radius | vibration error | S | D | r | s | said |\n|---|---|---|---|---|---|---|---|---|\n" + rows)
+
+
+def renewed(text, chapter):
+    """The document with a chapter at its end."""
+    return text.split("\n" + CHAPTER)[0].rstrip() + "\n" + ("\n" + chapter.rstrip() + "\n" if chapter else "")
+
+
 def figure(runs, bounds):
     plots.use_style()
     drawing, axes = plots.figure(7, 5)
@@ -172,12 +210,19 @@ def main():
     parser.add_argument("--program", required=True)
     parser.add_argument("--work", default="results/step_error")
     parser.add_argument("--short", action="store_true")
+    parser.add_argument("--walls", action="store_true")
     parser.add_argument("--seconds", type=float, default=float("inf"))
     options = parser.parse_args()
     options.end = time.monotonic() + options.seconds
     bounds = defaults(options.program)
     if options.short:
         runs, ended = measured(options, [Case("helical_170m", "helical_170m", {}, ("2.5e-3", "1e-2"), ("usual",))], ["reduced"])
+        print(table(runs) + outliers(runs))
+        return
+    if options.walls:
+        runs, ended = measured(options, WALLS, ["full"])
+        runs.sort(key=lambda run: (WALLS.index(run.case), float(run.step), len(run.own)))
+        DOCUMENT.write_text(renewed(DOCUMENT.read_text(), wall_chapter(runs)))
         print(table(runs) + outliers(runs))
         return
     runs, ended = measured(options, SCENES + SPEEDS + STICKING, MODELS)
@@ -197,7 +242,8 @@ before 2 s, with a reason. Lines in the figure: `Step Error Warning` ({percent(b
 {table(runs)}
 {outliers(runs)}
 """
-    DOCUMENT.write_text(text.rstrip() + "\n")
+    known = DOCUMENT.read_text().split("\n" + CHAPTER) if DOCUMENT.exists() else []
+    DOCUMENT.write_text(renewed(text, CHAPTER + known[1] if len(known) > 1 else ""))
     figure(runs, bounds)
     print(text)
 
