@@ -137,7 +137,7 @@ class File {
     std::vector<long> sizes;
     if (next()) {
       std::istringstream words(text_);
-      for (long value; words >> value;) sizes.push_back(value);
+      for (long value = 0; words >> value;) sizes.push_back(value);
       words.clear();
       std::string rest;
       if (words >> rest) sizes.clear();

@@ -3,6 +3,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
+#include <utility>
 
 #include "common/Text.hpp"
 #include "deck/Deck.hpp"
@@ -67,7 +68,7 @@ deck::ListSpec frictionSpec(bool base) {
              "frictionless."
            : "Friction in this stretch, where it differs; 0 and 0 make it frictionless.");
   const auto value = [base](deck::Default standard) {
-    return base ? standard : deck::Default(Optional{});
+    return base ? std::move(standard) : deck::Default(Optional{});
   };
   spec.real("Static", "", value(Required{}), Range::nonNegative(),
             "Peak of the friction coefficient, mu_s; also that of the static state.");

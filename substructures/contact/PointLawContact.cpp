@@ -263,8 +263,8 @@ class PointLawAtRest final : public StaticContact {
 
 class PointLawContact final : public ContactLaw {
  public:
-  PointLawContact(std::string name, Teuchos::ParameterList own)
-      : name_(std::move(name)), own_(std::move(own)) {
+  PointLawContact(std::string name, const Teuchos::ParameterList& own)
+      : name_(std::move(name)), own_(own) {
     make(1);
   }
   std::shared_ptr<const model::PointLaw> inMotion(ContactPoints points,

@@ -57,11 +57,11 @@ PartDof parseDof(const std::string& text, const std::string& path) {
 }
 
 Vector3 triple(const ParameterList& list, const std::string& name, bool direction) {
-  const auto values = list.get<Teuchos::Array<double>>(name);
+  const auto& values = list.get<Teuchos::Array<double>>(name);
   if (values.size() != 3)
     refuse(list.name() + "/" + name,
            "has " + std::to_string(values.size()) + " numbers. Give three.");
-  const Vector3 v(values[0], values[1], values[2]);
+  Vector3 v(values[0], values[1], values[2]);
   if (direction && !(v.norm() > 0))
     refuse(list.name() + "/" + name, "is zero. Give a nonzero vector.");
   return v;

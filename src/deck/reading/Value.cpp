@@ -65,9 +65,7 @@ std::optional<int> parseInteger(const std::string& raw, std::string& fault) {
   std::string ignored;
   if (error == std::errc::result_out_of_range) {
     fault = "is too large for an int";
-  } else if (parseReal(text, ignored)) {
-    fault = "is not a whole number";
-  } else if (error == std::errc()) {
+  } else if (error == std::errc() && !parseReal(text, ignored)) {
     fault = "is not a whole number: \"" + std::string(end, text.data() + text.size()) +
             "\" is left over";
   } else {

@@ -126,7 +126,7 @@ void ContactBroadPhase::restore(const double*& memory) {
     group.steps = *memory++;
     group.reached = *memory++;
   }
-  for (char& on : isActive_) on = *memory++ != 0.0;
+  for (char& on : isActive_) on = *memory++ != 0.0 ? 1 : 0;
   collect();
 }
 

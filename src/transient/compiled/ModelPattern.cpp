@@ -109,9 +109,9 @@ linalg::BlockPattern withMatrices(const model::SecondOrderModel& model,
 }  // namespace
 
 linalg::BlockPattern modelPattern(const model::SecondOrderModel& model) {
-  const auto [group, kind] = groupDofs(model);
-  return withMatrices(model, group, [&](const std::vector<const Sparse*>& matrices) {
-    return linalg::BlockPattern(linalg::partitionDofs(matrices, group, kind), matrices);
+  const auto dofs = groupDofs(model);
+  return withMatrices(model, dofs.group, [&](const std::vector<const Sparse*>& matrices) {
+    return linalg::BlockPattern(linalg::partitionDofs(matrices, dofs.group, dofs.kind), matrices);
   });
 }
 

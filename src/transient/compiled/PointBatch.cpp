@@ -415,9 +415,9 @@ void PointBatch::restore(const double*& memory) {
   gapsSeen_ = static_cast<int>(*memory++);
   for (double& gap : gap_) gap = *memory++;
   for (double& gap : lastGap_) gap = *memory++;
-  for (char& on : isActive_) on = *memory++ != 0.0;
+  for (char& on : isActive_) on = *memory++ != 0.0 ? 1 : 0;
   listActive();
-  for (char& on : hasActed_) on = *memory++ != 0.0;
+  for (char& on : hasActed_) on = *memory++ != 0.0 ? 1 : 0;
   for (int p = 0; p < points_; ++p) setScale(p, *memory++);
   watch_.restore(memory);
   forgetTangent();

@@ -65,7 +65,7 @@ def outside_basis(program, short):
                 yield judged(run, variant, f"{modes} modes", said, FACTOR, easy=full)
                 if run.done:
                     misfit = run.summary["reduction"].get("start_misfit")
-                    warned = any("not in the basis" in w for w in run.warnings())
+                    warned = any("does not represent the initial state" in w for w in run.warnings())
                     good = misfit is not None and warned == (misfit > 0.01) and (not vectors or misfit < 1e-6)
                     yield statement(variant, f"{modes} modes: the misfit", "said above 1 %" if not vectors else "none",
                                     f"{misfit:.2g}, {'said' if warned else 'no word'}" if misfit is not None else "not measured", good)
