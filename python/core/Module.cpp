@@ -10,6 +10,7 @@
 #include "Bind.hpp"
 #include "common/Parallel.hpp"
 #include "common/Version.hpp"
+#include "common/ranks/QuickStart.hpp"
 #include "common/report/Log.hpp"
 
 namespace tooljoint::python {
@@ -21,6 +22,7 @@ std::unique_ptr<Tpetra::ScopeGuard> session;
 
 void begin() {
   if (Kokkos::is_initialized()) return;
+  const parallel::QuickStart quick;
   int none = 0;
   char* end = nullptr;
   char** nothing = &end;

@@ -22,6 +22,7 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
+#include "common/ranks/QuickStart.hpp"
 #include "common/report/Detail.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/Terminal.hpp"
@@ -434,6 +435,8 @@ int main(int argc, char** argv) {
   int none = 0;
   char* end = nullptr;
   char** nothing = &end;
+  std::optional<tooljoint::parallel::QuickStart> quick(std::in_place);
   const Tpetra::ScopeGuard scope(&none, &nothing);
+  quick.reset();
   return run(argc, argv);
 }
