@@ -112,9 +112,13 @@ class Browser:
                 found.append("request of " + what["request"]["url"])
         return found
 
-    def picture(self, path, whole=False, media=None):
-        """A screenshot as PNG, of the window or the whole page."""
+    def picture(self, path, whole=False, media=None, element=None):
+        """A screenshot as PNG, of the window, the whole page, or the element of a selector."""
         if media:
             self.call("Emulation.setEmulatedMedia", media=media)
-        shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
+        clip = {}
+        if element:
+            box = self.value(f"(b => ({{x: b.x + scrollX, y: b.y + scrollY, width: b.width, height: b.height}}))(document.querySelector({json.dumps(element)}).getBoundingClientRect())")
+            clip = {"clip": {**box, "scale": 1}}
+        shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole or bool(element), **clip)
         path.write_bytes(base64.b64decode(shot["data"]))

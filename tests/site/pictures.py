@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of reports for the documents (target `docs-pictures`): pictures.py PROGRAM WORK FIGURES
 
-Runs five scenes and photographs the tops of their reports in a headless Chromium.
+Runs scenes and photographs the tops of their reports, and sections of those of analyses, in a headless Chromium.
 """
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -25,6 +26,15 @@ SCENES = {
     "frame": ("run", XML / "frame.xml", "report_parts.png", WIDE),
     "bha_motor_1500m": ("bha", XML / "bha_motor_1500m.xml", "report_bha.png", WIDE),
 }
+# Section of a report -> (folder, command, deck, overrides); its plots are the picture drilling_SECTION.png.
+FRICTIONS = "Torque and Drag/Broomstick={0.1, 0.2, 0.3, 0.4}"
+SECTIONS = {
+    "torque-drag": ("extended_reach", "torque-drag", XML / "extended_reach_5000m.xml", [FRICTIONS, "Torque and Drag/Operations={Trip out, Trip in, Drill rotating}"]),
+    "buckling": ("buckling", "buckling", XML / "buckling_100m.xml", []),
+    "bha": ("bha_motor_1500m", "bha", XML / "bha_motor_1500m.xml", []),
+    "campbell": ("campbell", "campbell", XML / "helical_170m.xml", ["Campbell/Highest Speed=120 rpm", "Campbell/Points=5", "Campbell/Modes=8"]),
+    "response": ("response", "response", "response.xml", []),
+}
 COLOURS = 256
 
 
@@ -43,12 +53,21 @@ def template(name, file):
     (WORK / file).write_bytes(text)
 
 
+def with_response(scene, file):
+    """The scene with the list Response that docs/drilling.md shows."""
+    text = (FIGURES.parent / "drilling.md").read_text(encoding="utf-8")
+    shown = next(block for block in re.findall(r"```xml\n(.*?)```", text, re.DOTALL) if 'name="Response"' in block)
+    head, end, _ = (XML / scene).read_text(encoding="utf-8").rpartition("</ParameterList>")
+    (WORK / file).write_text((head + shown + end).replace('"components/', f'"{XML}/components/'), encoding="utf-8")
+
+
 def main():
     WORK.mkdir(parents=True, exist_ok=True)
     if not (WORK / "first").exists():
         run("new", "first")
     template("parts", "parts.xml")
     template("part", "bar.json")
+    with_response("helical_170m.xml", "response.xml")
     for folder, (command, deck, _, _) in SCENES.items():
         run(command, str(deck), "--output", folder)
     with Browser() as browser:
@@ -57,6 +76,13 @@ def main():
             browser.open(WORK / folder / "report.html", *size).picture(FIGURES / picture)
             small(FIGURES / picture)
             print(f"{FIGURES / picture}: {(FIGURES / picture).stat().st_size} bytes")
+        for section, (folder, command, deck, overrides) in SECTIONS.items():
+            run(command, str(deck), "--output", folder, *[f"--set={one}" for one in overrides])
+            run("report", folder)
+            picture = FIGURES / f"drilling_{section.replace('-', '_')}.png"
+            browser.open(WORK / folder / "report.html", *WIDE).picture(picture, element=f"#{section} .plots")
+            small(picture)
+            print(f"{picture}: {picture.stat().st_size} bytes")
 
 
 if __name__ == "__main__":
