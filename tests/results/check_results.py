@@ -340,6 +340,15 @@ def check_parts_figures(figures, file, names):
         part = file["/model/part_names"][file["/model/part"][worst] - 1]
         expect(f"parts: figures: place of the largest {field}", figures[field]["peak_part"] == (part.decode() if isinstance(part, bytes) else part)
                and figures[field]["peak_node"] == file["/model/node"][worst])
+    force = {name: np.maximum(file[f"/transient/{name}/stop_force"][window].reshape(window.sum()), 0) for name in ("plug", "bumper")}
+    for name, values in force.items():
+        near(f"parts: figures: force and duty of the {name}", [file[f"/figures/{name}/contact_{key}"][0] for key in ("duty", "force_mean", "force_peak")],
+             [np.mean(values > 0), values.mean(), values.max()], 1e-9)
+    found = figures["contact"]
+    near("parts: figures: contact of all stops", [found["duty"], found["total_force_mean"], found["force_peak"]],
+         [np.mean([values > 0 for values in force.values()]), sum(values.mean() for values in force.values()), max(values.max() for values in force.values())], 1e-9)
+    expect("parts: figures: the stop with the largest force", found["force_peak_stop"] == max(force, key=lambda name: force[name].max()))
+    expect("parts: figures: stops close and open", 0 < found["duty"] < 1, str(found["duty"]))
 
 
 def check_places(file):

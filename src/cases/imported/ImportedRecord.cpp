@@ -37,14 +37,19 @@ ImportedRecord::ImportedRecord(const model::SecondOrderModel& model, bool forces
                                const FigureWindow& window, NodeNames names)
     : model_(model),
       components_(model.componentNames),
+      recordsForces_(forces),
       row_(model.componentNames.size() + 1, 0.0),
       window_(window),
       names_(std::move(names)),
       measured_(measuredComponents(model.componentNames)),
       displacement_(static_cast<Eigen::Index>(model.recoveryNodes.size())),
       acceleration_(displacement_) {
-  if (!forces) return;
-  for (const auto& set : model.points) points_.emplace_back(model, set);
+  for (const auto& set : model.points) {
+    PointRecord record(model, set);
+    const int force = record.find("stop_force");
+    if (force >= 0) stops_.push_back({points_.size(), force, ContactFigures(set.law->size())});
+    if (forces || force >= 0) points_.push_back(std::move(record));
+  }
 }
 
 std::array<FieldText, 3> ImportedRecord::fields() const {
@@ -55,6 +60,7 @@ std::array<FieldText, 3> ImportedRecord::fields() const {
 
 std::vector<Channel> ImportedRecord::channels() const {
   std::vector<Channel> out;
+  if (!recordsForces_) return out;
   for (const auto& points : points_)
     for (std::size_t c = 0; c < points.channels().size(); ++c) {
       const auto& channel = points.channels()[c];
@@ -99,12 +105,16 @@ void ImportedRecord::measure(const Sample& sample) {
   };
   displacement_.add(magnitudes(sample.displacement));
   acceleration_.add(magnitudes(sample.acceleration));
+  for (auto& stop : stops_)
+    stop.figures.add(Eigen::Map<const Vector>(points_[stop.record].values(stop.force),
+                                              stop.figures.peak().size()));
 }
 
 void ImportedRecord::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), {largest_, static_cast<double>(samples_), first_, last_});
   displacement_.save(memory);
   acceleration_.save(memory);
+  for (const auto& stop : stops_) stop.figures.save(memory);
 }
 
 void ImportedRecord::restore(const double*& memory) {
@@ -114,6 +124,7 @@ void ImportedRecord::restore(const double*& memory) {
   last_ = *memory++;
   displacement_.restore(memory);
   acceleration_.restore(memory);
+  for (auto& stop : stops_) stop.figures.restore(memory);
 }
 
 void ImportedRecord::summarise(io::Summary& summary) const {
@@ -124,6 +135,26 @@ void ImportedRecord::summarise(io::Summary& summary) const {
   summary.set("transient.figures.samples", samples_);
   summarise("transient.figures.displacement", displacement_, summary);
   summarise("transient.figures.acceleration", acceleration_, summary);
+  if (!stops_.empty()) summariseStops(summary);
+}
+
+void ImportedRecord::summariseStops(io::Summary& summary) const {
+  double duty = 0.0, force = 0.0, peak = -1.0;
+  Eigen::Index points = 0;
+  std::string where;
+  for (const auto& stop : stops_) {
+    duty += stop.figures.duty().sum();
+    force += stop.figures.mean().sum();
+    points += stop.figures.peak().size();
+    if (!(stop.figures.peak().maxCoeff() > peak)) continue;
+    peak = stop.figures.peak().maxCoeff();
+    where = points_[stop.record].set().name;
+  }
+  const std::string key = "transient.figures.contact.";
+  summary.set(key + "duty", duty / static_cast<double>(points));
+  summary.set(key + "total_force_mean", force);
+  summary.set(key + "force_peak", peak);
+  summary.set(key + "force_peak_stop", where);
 }
 
 void ImportedRecord::summarise(const std::string& key, const MagnitudeFigures& figures,
@@ -154,6 +185,12 @@ void ImportedRecord::write(io::ResultsFile& file) const {
         "Root mean square of the acceleration of a node");
   write("acceleration_peak", acceleration_.peak(), lengths ? "m/s2" : "m/s2, rad/s2",
         "Largest acceleration of a node");
+  for (const auto& stop : stops_) {
+    const auto name = pathName(points_[stop.record].set().name) + "/";
+    write(name + "contact_duty", stop.figures.duty(), "1", "Share of time in contact");
+    write(name + "contact_force_mean", stop.figures.mean(), "N", "Mean force, 0 where open");
+    write(name + "contact_force_peak", stop.figures.peak(), "N", "Largest force");
+  }
 }
 
 std::string ImportedRecord::describe() const {

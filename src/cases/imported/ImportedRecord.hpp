@@ -12,6 +12,7 @@
 
 #include "cases/MotionRecord.hpp"
 #include "cases/PointRecord.hpp"
+#include "cases/figures/ContactFigures.hpp"
 #include "cases/figures/FigureWindow.hpp"
 #include "cases/figures/SignalFigures.hpp"
 #include "model/SecondOrderModel.hpp"
@@ -27,8 +28,8 @@ class ImportedRecord : public MotionRecord {
   /// Name of the part of a node and its number there, by its number in the model.
   using NodeNames = std::function<std::pair<std::string, long>(std::int64_t)>;
 
-  /// `model` must outlive the record. \param forces record the channels of the point laws
-  /// \param window that of the figures of merit
+  /// `model` must outlive the record. \param forces record the channels of the point laws beside
+  /// the figures of merit of stops \param window that of the figures of merit
   ImportedRecord(const model::SecondOrderModel& model, bool forces, const FigureWindow& window,
                  NodeNames names);
 
@@ -45,13 +46,23 @@ class ImportedRecord : public MotionRecord {
   void write(io::ResultsFile& file) const override;
 
  private:
+  /// A one-sided contact.
+  struct Stop {
+    std::size_t record;  ///< among points_
+    int force;           ///< its channel
+    ContactFigures figures;
+  };
+
   void measure(const Sample& sample);
+  void summariseStops(io::Summary& summary) const;
   void summarise(const std::string& key, const MagnitudeFigures& figures,
                  io::Summary& summary) const;
 
   const model::SecondOrderModel& model_;
   const model::ComponentNames& components_;
   std::vector<PointRecord> points_;
+  std::vector<Stop> stops_;
+  bool recordsForces_;
   std::vector<double> row_;
   double largest_ = 0.0;
   FigureWindow window_;

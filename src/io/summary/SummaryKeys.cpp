@@ -157,6 +157,7 @@ const std::vector<std::string>& documentedKeys() {
       "transient.figures.contact.force_peak",
       "transient.figures.contact.force_peak_node",
       "transient.figures.contact.force_peak_depth",
+      "transient.figures.contact.force_peak_stop",
       "transient.figures.bending.range",
       "transient.figures.bending.range_element",
       "transient.figures.bending.range_depth",

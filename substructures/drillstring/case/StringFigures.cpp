@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/case/StringFigures.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/printf.h>
 #include <utility>
@@ -44,10 +43,10 @@ StringFigures::StringFigures(const Scene& scene, const StaticStage& stage)
       axial_(nodeDepth_.size()),
       lateral_(nodeDepth_.size()),
       orbit_(nodeDepth_.size()),
+      contact_(nodeDepth_.size()),
       bending_(bendingElements(scene.string, stage.path), scene.output.figures.snLine) {
   const auto nodes = nodeDepth_.size();
   elementDepth_ = 0.5 * (nodeDepth_.head(nodes - 1) + nodeDepth_.tail(nodes - 1));
-  for (Vector* sum : {&forceSum_, &forcePeak_, &touching_}) *sum = Vector::Zero(nodes);
 }
 
 void StringFigures::sample(const cases::Sample& sample, const BitSample& bit,
@@ -65,14 +64,10 @@ void StringFigures::sampleNodes(const cases::Sample& sample, const Vector& norma
   const auto& a = sample.acceleration;
   lateral_.add((component(a, u).cwiseAbs2() + component(a, v).cwiseAbs2()).cwiseSqrt());
   axial_.add(component(a, w).cwiseAbs());
+  contact_.add(normalForce);
   std::vector<char> inContact(static_cast<std::size_t>(normalForce.size()), 0);
-  for (Eigen::Index i = 0; i < normalForce.size(); ++i) {
-    if (!(normalForce[i] > 0.0)) continue;
-    inContact[static_cast<std::size_t>(i)] = 1;
-    touching_[i] += 1.0;
-    forceSum_[i] += normalForce[i];
-    forcePeak_[i] = std::max(forcePeak_[i], normalForce[i]);
-  }
+  for (Eigen::Index i = 0; i < normalForce.size(); ++i)
+    inContact[static_cast<std::size_t>(i)] = normalForce[i] > 0.0 ? 1 : 0;
   orbit_.add({component(sample.displacement, u), component(sample.displacement, v),
               component(sample.velocity, u), component(sample.velocity, v), inContact,
               scene_.rotary.speed(sample.t)});
@@ -83,7 +78,6 @@ double StringFigures::perHour() const {
 }
 
 std::vector<StringFigures::Column> StringFigures::nodeColumns() const {
-  const double count = static_cast<double>(std::max(samples_, 1L));
   return {{"axial_rms", "m/s2", "Root mean square of the axial acceleration", axial_.rms()},
           {"axial_peak", "m/s2", "Largest axial acceleration", axial_.peak()},
           {"lateral_rms", "m/s2", "Root mean square of the lateral acceleration", lateral_.rms()},
@@ -95,9 +89,9 @@ std::vector<StringFigures::Column> StringFigures::nodeColumns() const {
            orbit_.forwardContact()},
           {"backward_contact_share", "1", "Share of time in backward whirl and in contact",
            orbit_.backwardContact()},
-          {"contact_duty", "1", "Share of time in contact", touching_ / count},
-          {"contact_force_mean", "N", "Mean normal contact force, 0 where open", forceSum_ / count},
-          {"contact_force_peak", "N", "Largest normal contact force", forcePeak_}};
+          {"contact_duty", "1", "Share of time in contact", contact_.duty()},
+          {"contact_force_mean", "N", "Mean normal contact force, 0 where open", contact_.mean()},
+          {"contact_force_peak", "N", "Largest normal contact force", contact_.peak()}};
 }
 
 std::vector<StringFigures::Column> StringFigures::elementColumns() const {
@@ -149,10 +143,9 @@ void StringFigures::summariseNodes(io::Summary& summary) const {
   summary.set(key + "whirl.worst_backward_contact_share", orbit_.backwardContact()[most.row]);
   summary.set(key + "whirl.worst_precession_rpm", orbit_.rate()[most.row] * rpm);
   if (scene_.contactPoints.size() == 0) return;
-  const double count = static_cast<double>(samples_);
-  summary.set(key + "contact.duty", touching_.sum() / (count * scene_.contactPoints.size()));
-  summary.set(key + "contact.total_force_mean", forceSum_.sum() / count);
-  place("contact.force_peak", cases::worst(forcePeak_));
+  summary.set(key + "contact.duty", contact_.duty().sum() / scene_.contactPoints.size());
+  summary.set(key + "contact.total_force_mean", contact_.mean().sum());
+  place("contact.force_peak", cases::worst(contact_.peak()));
 }
 
 void StringFigures::summariseBending(io::Summary& summary) const {
@@ -225,7 +218,7 @@ void StringFigures::save(std::vector<double>& memory) const {
   axial_.save(memory);
   lateral_.save(memory);
   orbit_.save(memory);
-  for (const Vector* sum : {&forceSum_, &forcePeak_, &touching_}) cases::saveVector(*sum, memory);
+  contact_.save(memory);
   bending_.save(memory);
 }
 
@@ -237,7 +230,7 @@ void StringFigures::restore(const double*& memory) {
   axial_.restore(memory);
   lateral_.restore(memory);
   orbit_.restore(memory);
-  for (Vector* sum : {&forceSum_, &forcePeak_, &touching_}) cases::restoreVector(*sum, memory);
+  contact_.restore(memory);
   bending_.restore(memory);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cases/MotionRecord.hpp"
+#include "cases/figures/ContactFigures.hpp"
 #include "cases/figures/FigureWindow.hpp"
 #include "cases/figures/OrbitFigures.hpp"
 #include "cases/figures/SignalFigures.hpp"
@@ -64,7 +65,7 @@ class StringFigures {
   BitFigures bit_;
   cases::MagnitudeFigures axial_, lateral_;  ///< accelerations [m/s2]
   cases::OrbitFigures orbit_;
-  Vector forceSum_, forcePeak_, touching_;  ///< sum and peak [N]; samples in contact
+  cases::ContactFigures contact_;
   BendingFigures bending_;
 };
 
