@@ -90,9 +90,9 @@ void compute(const std::string& what, const cases::Case& one, const std::string&
     options.fresh = fresh;
     study::runMap(one, options);
   } else if (what == "campbell") {
-    response::runCampbell(one, output);
+    response::runCampbell(one, output, fresh);
   } else {
-    response::runResponse(one, output);
+    response::runResponse(one, output, fresh);
   }
 }
 

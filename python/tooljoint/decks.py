@@ -142,13 +142,13 @@ class Deck:
         """Compute its list Map, as `tooljoint map` does: the rows of map.csv. fresh: as of study()."""
         return self._analyse("map", output, fresh, False, quiet)
 
-    def campbell(self, output: str | os.PathLike = "", quiet: bool = True) -> list[dict[str, Any]]:
-        """Damped modes against the rotary speed (list Campbell), as `tooljoint campbell` does: the rows of campbell.csv."""
-        return self._analyse("campbell", output, True, False, quiet)
+    def campbell(self, output: str | os.PathLike = "", fresh: bool | None = None, quiet: bool = True) -> list[dict[str, Any]]:
+        """Damped modes against the rotary speed (list Campbell), as `tooljoint campbell` does: the rows of campbell.csv. fresh: as of study()."""
+        return self._analyse("campbell", output, fresh, False, quiet)
 
-    def response(self, output: str | os.PathLike = "", quiet: bool = True) -> list[dict[str, Any]]:
-        """Harmonic responses (list Response), as `tooljoint response` does: the rows of response.csv."""
-        return self._analyse("response", output, True, False, quiet)
+    def response(self, output: str | os.PathLike = "", fresh: bool | None = None, quiet: bool = True) -> list[dict[str, Any]]:
+        """Harmonic responses (list Response), as `tooljoint response` does: the rows of response.csv. fresh: as of study()."""
+        return self._analyse("response", output, fresh, False, quiet)
 
     def _analyse(self, what, output, fresh, shared_timing, quiet):
         folder = str(output) or f"results/{pathlib.Path(self.file).stem}_{what}"

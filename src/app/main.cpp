@@ -272,6 +272,8 @@ void addAnalyses(CLI::App& program, Options& options, std::function<void()>& com
       "side force and tilt at the bit, contacts, bending and sag of a bottom-hole assembly "
       "against weight on bit, inclination and tool face");
   addDeckOptions(*bhaCommand, options, Output::Always, "_bha");
+  bhaCommand->add_flag("--fresh", options.fresh,
+                       "forget the states an earlier command left in the folder");
   bhaCommand->callback([&] { command = [&] { tooljoint::app::bha(options); }; });
 
   auto* bucklingCommand = program.add_subcommand(
@@ -279,17 +281,23 @@ void addAnalyses(CLI::App& program, Options& options, std::function<void()>& com
       "static states under a growing weight on bit, past buckling into the bore, beside theory "
       "(list Buckling)");
   addDeckOptions(*bucklingCommand, options, Output::Always, "_buckling");
+  bucklingCommand->add_flag("--fresh", options.fresh,
+                            "forget the path an earlier command left in the folder");
   bucklingCommand->callback([&] { command = [&] { tooljoint::app::buckling(options); }; });
 
   auto* campbellCommand = program.add_subcommand(
       "campbell", "damped modes against the rotary speed, and critical speeds (list Campbell)");
   addDeckOptions(*campbellCommand, options, Output::Always, "_campbell");
+  campbellCommand->add_flag("--fresh", options.fresh,
+                            "forget the speeds an earlier command left in the folder");
   campbellCommand->callback([&] { command = [&] { tooljoint::app::campbell(options); }; });
 
   auto* responseCommand = program.add_subcommand(
       "response",
       "amplitude and phase under unbalance or harmonic loads, transfer functions (list Response)");
   addDeckOptions(*responseCommand, options, Output::Always, "_response");
+  responseCommand->add_flag("--fresh", options.fresh,
+                            "forget the points an earlier command left in the folder");
   responseCommand->callback([&] { command = [&] { tooljoint::app::response(options); }; });
 
   auto* exportCommand =

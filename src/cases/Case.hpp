@@ -80,6 +80,11 @@ struct CaseOutline {
 struct RestFigure {
   std::string name, unit, longName;
   double value = 0.0;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(name, unit, longName, value);
+  }
 };
 
 /// A case at rest. All calls are collective.

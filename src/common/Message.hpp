@@ -6,8 +6,10 @@
 #pragma once
 
 #include <cereal/archives/binary.hpp>
+#include <cereal/types/complex.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/vector.hpp>
+#include <complex>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -45,6 +47,20 @@ void load(Archive& archive, tooljoint::Matrix& A) {
   archive(rows, columns);
   A.resize(rows, columns);
   archive(binary_data(A.data(), static_cast<std::size_t>(A.size()) * sizeof(double)));
+}
+
+template <class Archive, int Columns>
+void save(Archive& archive, const Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Columns>& A) {
+  archive(A.rows(), A.cols(),
+          binary_data(A.data(), static_cast<std::size_t>(A.size()) * sizeof(std::complex<double>)));
+}
+
+template <class Archive, int Columns>
+void load(Archive& archive, Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Columns>& A) {
+  Eigen::Index rows = 0, columns = 0;
+  archive(rows, columns);
+  A.resize(rows, columns);
+  archive(binary_data(A.data(), static_cast<std::size_t>(A.size()) * sizeof(std::complex<double>)));
 }
 
 template <class Archive, int Rows, int Columns>

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <cereal/types/array.hpp>
+#include <cereal/types/optional.hpp>
 #include <complex>
 #include <cstdint>
 #include <optional>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "cases/Case.hpp"
+#include "common/Message.hpp"
 #include "response/RotatingCase.hpp"
 
 namespace tooljoint::response {
@@ -21,6 +24,11 @@ struct Extreme {
   double value = 0.0;     ///< distance left [m], or amplitude of the bending moment [N m]
   std::array<std::complex<double>, 2> axes;  ///< Re(axes exp(i omega t)) [m] or [N m]
   double estimate = 0.0;                     ///< of the error of `value`
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(place, value, axes, estimate);
+  }
 };
 
 /// Distances and moments of one response.
@@ -28,6 +36,11 @@ struct StringResponse {
   Vector margins;  ///< left to the wall by the nodes that are open at rest [m]
   Vector moments;  ///< amplitudes of the bending moments of the elements beside those at rest [N m]
   std::optional<Extreme> margin, moment;  ///< the least and the largest; none where there are none
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(margins, moments, margin, moment);
+  }
 };
 
 /// The ellipses Re((x, y) exp(i omega t)) of pairs of sums in one model.

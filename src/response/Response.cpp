@@ -3,18 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <utility>
 
+#include "cases/ListText.hpp"
 #include "cases/nodes/NodeDofs.hpp"
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Interrupt.hpp"
 #include "common/Text.hpp"
+#include "common/report/Progress.hpp"
 #include "linalg/DynamicStiffness.hpp"
 #include "model/SteadyRotation.hpp"
 #include "response/SweepParameters.hpp"
-#include "response/SweepProgress.hpp"
 
 namespace tooljoint::response {
 
@@ -24,6 +27,8 @@ constexpr Complex imaginary{0.0, 1.0};
 /// Points of a golden section between two neighbours of a largest amplitude: the place of a peak is
 /// known to 1e-4 of their distance.
 constexpr int goldenSteps = 20;
+
+constexpr int storeFormat = 1;  ///< raised when the meaning of a kept point changes
 
 /// Rows of the recovery that the deck names.
 struct Rows {
@@ -85,9 +90,11 @@ class Loads {
 
 class Sweep {
  public:
-  Sweep(const RotatingCase& rotating, const ResponseSettings& settings)
+  Sweep(const RotatingCase& rotating, const ResponseSettings& settings,
+        const cases::RowFolder& store)
       : rotating_(rotating),
         settings_(settings),
+        store_(store),
         rows_(find()),
         loads_(settings, rows_),
         along_(rotating, settings.axis) {}
@@ -95,15 +102,11 @@ class Sweep {
   HarmonicResponse compute() {
     HarmonicResponse out;
     out.loads = caseNames();
-    SweepProgress progress("response", settings_.points());
-    for (std::size_t i = 0; i < settings_.points(); ++i) {
-      out.points.push_back(
-          at(settings_.bySpeed() ? settings_.speeds[i] : settings_.frequencies[i]));
-      progress.done(i + 1);
-    }
-    const auto cases = static_cast<int>(out.loads.size()), outputs = sizeOf(settings_.outputs);
-    for (int load = 0; load < cases; ++load)
-      for (int output = 0; output < outputs; ++output) addPeaks(load, output, out);
+    const auto& sweep = settings_.bySpeed() ? settings_.speeds : settings_.frequencies;
+    cases::RowKeys keys{"points", whose(), {}};
+    for (const double where : sweep) keys.rows.push_back(fmt::format("{}", where));
+    out.points = resumed(keys, [&](std::size_t i) { return at(sweep[i]); });
+    addPeaks(out);
     if (rotating_.reduced() && settings_.spotChecks > 0) addChecks(out);
     if (lookedAlong()) {
       out.nodes = along_.nodes();
@@ -113,6 +116,30 @@ class Sweep {
   }
 
  private:
+  /// What decides a point beside its place in the sweep.
+  std::string whose() const {
+    auto own = store_.owner.list().sublist("Response");
+    for (const char* name : {"Lowest Speed", "Highest Speed", "Lowest Frequency",
+                             "Highest Frequency", "Points", "Spot Checks"})
+      own.remove(name, false);
+    return fmt::format("response {}\n{}\n{}\n{}", storeFormat, cases::identity(store_.owner),
+                       cases::canonicalText(own), settings_.bySpeed());
+  }
+
+  /// Points of these keys, computed or kept.
+  template <class Compute>
+  std::vector<ResponsePoint> resumed(const cases::RowKeys& keys, const Compute& compute) const {
+    Progress progress("response, " + keys.plural, static_cast<double>(keys.rows.size()));
+    auto found = cases::resumedRows<ResponsePoint>(store_, keys, [&](std::size_t i) {
+      if (interruptRequested()) throw InterruptedError("Interrupted.");
+      auto point = compute(i);
+      progress.update(static_cast<double>(i + 1));
+      return point;
+    });
+    progress.finish();
+    return found;
+  }
+
   std::vector<std::string> caseNames() const {
     if (settings_.excitation == Excitation::Unbalance) return {"unbalance"};
     if (settings_.excitation == Excitation::Harmonic) return {"loads"};
@@ -246,29 +273,56 @@ class Sweep {
     return settings_.bySpeed() ? point.speed : point.frequency;
   }
 
-  /// Local maxima of the amplitude between points, by golden section.
-  void addPeaks(int load, int output, HarmonicResponse& out) const {
-    const auto size = [&](const ResponsePoint& point) { return std::abs(point.x(output, load)); };
-    for (std::size_t i = 1; i + 1 < out.points.size(); ++i) {
-      if (!(size(out.points[i]) > size(out.points[i - 1]) &&
-            size(out.points[i]) >= size(out.points[i + 1])))
-        continue;
-      const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-      double a = whereOf(out.points[i - 1]), b = whereOf(out.points[i + 1]);
-      ResponsePoint left = at(b - ratio * (b - a), false), right = at(a + ratio * (b - a), false);
-      for (int k = 0; k < goldenSteps; ++k) {
-        if (size(left) > size(right)) {
-          b = whereOf(right), right = left, left = at(b - ratio * (b - a), false);
-        } else {
-          a = whereOf(left), left = right, right = at(a + ratio * (b - a), false);
-        }
+  /// A local maximum of the amplitude: between the neighbours of a point.
+  struct Bracket {
+    int load = 0, output = 0;
+    double from = 0.0, to = 0.0;
+  };
+
+  std::vector<Bracket> brackets(const std::vector<ResponsePoint>& points, int load,
+                                int output) const {
+    std::vector<Bracket> found;
+    const auto size = [&](std::size_t i) { return std::abs(points[i].x(output, load)); };
+    for (std::size_t i = 1; i + 1 < points.size(); ++i)
+      if (size(i) > size(i - 1) && size(i) >= size(i + 1))
+        found.push_back({load, output, whereOf(points[i - 1]), whereOf(points[i + 1])});
+    return found;
+  }
+
+  void addPeaks(HarmonicResponse& out) const {
+    std::vector<Bracket> all;
+    for (int load = 0; load < static_cast<int>(out.loads.size()); ++load)
+      for (int output = 0; output < sizeOf(settings_.outputs); ++output)
+        for (const auto& one : brackets(out.points, load, output)) all.push_back(one);
+    cases::RowKeys keys{"peaks", whose(), {}};
+    for (const auto& one : all)
+      keys.rows.push_back(fmt::format("{} {} {} {}", one.load, one.output, one.from, one.to));
+    const auto found = resumed(keys, [&](std::size_t i) { return peak(all[i]); });
+    for (std::size_t i = 0; i < all.size(); ++i)
+      out.peaks.push_back({all[i].load, all[i].output, found[i]});
+  }
+
+  /// By golden section.
+  ResponsePoint peak(const Bracket& bracket) const {
+    const auto size = [&](const ResponsePoint& point) {
+      return std::abs(point.x(bracket.output, bracket.load));
+    };
+    const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+    double a = bracket.from, b = bracket.to;
+    ResponsePoint left = at(b - ratio * (b - a), false), right = at(a + ratio * (b - a), false);
+    for (int k = 0; k < goldenSteps; ++k) {
+      if (size(left) > size(right)) {
+        b = whereOf(right), right = left, left = at(b - ratio * (b - a), false);
+      } else {
+        a = whereOf(left), left = right, right = at(a + ratio * (b - a), false);
       }
-      out.peaks.push_back({load, output, at(whereOf(size(left) > size(right) ? left : right))});
     }
+    return at(whereOf(size(left) > size(right) ? left : right));
   }
 
   const RotatingCase& rotating_;
   const ResponseSettings& settings_;
+  const cases::RowFolder& store_;
   Rows rows_;
   Loads loads_;
   AlongString along_;
@@ -276,8 +330,9 @@ class Sweep {
 
 }  // namespace
 
-HarmonicResponse respond(const RotatingCase& rotating, const ResponseSettings& settings) {
-  return Sweep(rotating, settings).compute();
+HarmonicResponse respond(const RotatingCase& rotating, const ResponseSettings& settings,
+                         const cases::RowFolder& store) {
+  return Sweep(rotating, settings, store).compute();
 }
 
 }  // namespace tooljoint::response

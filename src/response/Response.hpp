@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cases/nodes/NodeDofs.hpp"
+#include "cases/run/ResumedRows.hpp"
 #include "deck/ListSpec.hpp"
 #include "response/AlongString.hpp"
 #include "response/RotatingCase.hpp"
@@ -65,6 +66,11 @@ struct ResponsePoint {
                        ///< transfer function per [N] or [N m]
   Matrix estimate;     ///< of |x - x_full|; empty without an estimate
   StringResponse along;  ///< empty for transfer functions
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(speed, frequency, x, estimate, along);
+  }
 };
 
 /// A point solved with the full model too.
@@ -88,12 +94,16 @@ struct HarmonicResponse {
 };
 
 /// DeckError: a node or component that is not there or held, nothing that loads the model.
-/// ModelError: no response, since the dynamic stiffness is singular. Every rank computes the same.
-HarmonicResponse respond(const RotatingCase& rotating, const ResponseSettings& settings);
+/// ModelError: no response, since the dynamic stiffness is singular. Points and peaks are dealt to
+/// the ranks, and those that the folder holds for the same deck and program are not computed again.
+/// Collective.
+HarmonicResponse respond(const RotatingCase& rotating, const ResponseSettings& settings,
+                         const cases::RowFolder& store);
 
 /// `tooljoint response`: state at rest, responses, response.csv, peaks.csv, spot_checks.csv, of a
 /// string bending.csv, margins.csv and spot_checks_string.csv, response.h5 and summary.json in
 /// `folder` ("": see cases::analysisFolder). DeckError without the list Response. Collective.
-void runResponse(const cases::Case& one, const std::string& folder);
+/// \param fresh  forget what an earlier command has left there
+void runResponse(const cases::Case& one, const std::string& folder, bool fresh);
 
 }  // namespace tooljoint::response

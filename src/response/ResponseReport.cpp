@@ -235,7 +235,7 @@ class Report {
 
 }  // namespace
 
-void runResponse(const cases::Case& one, const std::string& folder) {
+void runResponse(const cases::Case& one, const std::string& folder, bool fresh) {
   if (!one.list().isSublist("Response"))
     throw DeckError(one.deck().file() +
                     ": the deck has no list Response. Add one with a Highest Speed or a Highest "
@@ -250,7 +250,7 @@ void runResponse(const cases::Case& one, const std::string& folder) {
         rotating = std::make_unique<RotatingCase>(one, settings.friction);
         if (settings.bySpeed()) rotating->announceLaws();
         try {
-          response = respond(*rotating, settings);
+          response = respond(*rotating, settings, {one, files.folder().folder(), fresh});
         } catch (const DeckError& fault) {
           throw DeckError(one.deck().located(fault.what()));
         }

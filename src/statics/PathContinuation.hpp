@@ -45,6 +45,11 @@ struct PathReport {
   int failedSteps = 0;      ///< tried again in half
   double parameter = 0.0;   ///< of the last point
   std::string explanation;  ///< one sentence: how it ended, at which parameter, and why
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(end, steps, failedSteps, parameter, explanation);
+  }
 };
 
 /// Gets each point in turn; false ends the path.

@@ -235,10 +235,10 @@ def stopped(folder, how, settings):
     arguments = [part for setting in settings for part in ("--set", setting)]
     command = subprocess.Popen([sys.argv[1], "torque-drag", DECK, "--output", folder, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     kept = pathlib.Path(folder, "cache")
-    while command.poll() is None and (not kept.is_dir() or len(list(kept.glob("row_*.json"))) < 2):
+    while command.poll() is None and (not kept.is_dir() or len(list(kept.glob("depths_*.json"))) < 2):
         time.sleep(0.02)
     command.send_signal(how)
-    return command.wait(), len(list(kept.glob("row_*.json")))
+    return command.wait(), len(list(kept.glob("depths_*.json")))
 
 
 def resumed():

@@ -14,7 +14,7 @@ void bha(const RunOptions& options) {
     throw DeckError(options.deck +
                     ": a bottom-hole assembly needs a string in its well. Give a deck with the "
                     "lists Well and Drillstring.");
-  drillstring::reportBottomHole(*string, options.output);
+  drillstring::reportBottomHole(*string, options.output, options.fresh);
   reportAtEnd(cases::analysisFolder(*one, options.output, "bha"), one->output().report);
 }
 

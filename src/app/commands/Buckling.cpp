@@ -14,7 +14,7 @@ void buckling(const RunOptions& options) {
     throw DeckError(
         options.deck +
         ": buckling needs a string in its well. Give a deck with the lists Well and Drillstring.");
-  drillstring::reportBuckling(*string, options.output);
+  drillstring::reportBuckling(*string, options.output, options.fresh);
   reportAtEnd(cases::analysisFolder(*one, options.output, "buckling"), one->output().report);
 }
 

@@ -8,7 +8,7 @@ namespace tooljoint::app {
 
 void campbell(const RunOptions& options) {
   const auto one = cases::readCase(options.deck, options.overrides);
-  tooljoint::response::runCampbell(*one, options.output);
+  tooljoint::response::runCampbell(*one, options.output, options.fresh);
 }
 
 }  // namespace tooljoint::app

@@ -8,7 +8,7 @@ namespace tooljoint::app {
 
 void response(const RunOptions& options) {
   const auto one = cases::readCase(options.deck, options.overrides);
-  tooljoint::response::runResponse(*one, options.output);
+  tooljoint::response::runResponse(*one, options.output, options.fresh);
 }
 
 }  // namespace tooljoint::app

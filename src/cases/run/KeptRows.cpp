@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <link.h>
 #include <sys/stat.h>
+#include <utility>
 #include <vector>
 
 #include "common/Error.hpp"
@@ -13,8 +14,6 @@
 
 namespace tooljoint::cases {
 namespace {
-
-constexpr const char* rowKey = "row";
 
 /// Size and time of a file, for "has this been built anew?".
 std::string fileStamp(const std::string& path) {
@@ -54,8 +53,8 @@ std::string programStamp() {
   return stamp + libraries;
 }
 
-KeptRows::KeptRows(const std::string& folder)
-    : folder_(folder + "/cache"), active_(parallel::rank() == 0) {
+KeptRows::KeptRows(const std::string& folder, std::string kind)
+    : folder_(folder + "/cache"), kind_(std::move(kind)), active_(parallel::rank() == 0) {
   if (!active_) return;
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
@@ -64,15 +63,15 @@ KeptRows::KeptRows(const std::string& folder)
 
 void KeptRows::clear() const {
   if (!active_) return;
-  for (const auto& path : filesOf(folder_, {rowKey, "reference"})) std::filesystem::remove(path);
+  for (const auto& path : filesOf(folder_, {kind_, "reference"})) std::filesystem::remove(path);
 }
 
 int KeptRows::count() const {
-  return active_ ? static_cast<int>(filesOf(folder_, {rowKey}).size()) : 0;
+  return active_ ? static_cast<int>(filesOf(folder_, {kind_}).size()) : 0;
 }
 
 std::optional<std::string> KeptRows::restoreText(const std::string& key) const {
-  const auto path = file(rowKey, key, ".json");
+  const auto path = file(kind_, key, ".json");
   if (!active_ || !std::filesystem::exists(path)) return std::nullopt;
   try {
     return io::readText(path);
@@ -82,7 +81,7 @@ std::optional<std::string> KeptRows::restoreText(const std::string& key) const {
 }
 
 void KeptRows::keepText(const std::string& key, const std::string& text) const {
-  if (active_) io::writeText(file(rowKey, key, ".json"), text);
+  if (active_) io::writeText(file(kind_, key, ".json"), text);
 }
 
 }  // namespace tooljoint::cases

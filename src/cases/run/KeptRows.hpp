@@ -13,17 +13,17 @@ namespace tooljoint::cases {
 /// files with their sizes and times.
 std::string programStamp();
 
-/// Files FOLDER/cache/row_KEY.json, one a row, each under the key of all that decides it. Rank 0
+/// Files FOLDER/cache/KIND_KEY.json, one a row, each under the key of all that decides it. Rank 0
 /// does all the work; other ranks find nothing and keep nothing. Files that cannot be read count as
 /// absent.
 class KeptRows {
  public:
   /// Makes FOLDER/cache. FileError when that fails.
-  explicit KeptRows(const std::string& folder);
+  explicit KeptRows(const std::string& folder, std::string kind = "row");
 
-  /// Forget everything.
+  /// Forget all of this kind, and reference runs.
   void clear() const;
-  /// Rows that are there, under whatever key.
+  /// Rows of this kind that are there, under whatever key.
   int count() const;
 
   /// A row as the text it was kept as.
@@ -39,7 +39,7 @@ class KeptRows {
   }
 
  private:
-  std::string folder_;
+  std::string folder_, kind_;
   bool active_ = false;
 };
 

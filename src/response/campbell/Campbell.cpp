@@ -3,16 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <iterator>
 #include <utility>
 
+#include "cases/ListText.hpp"
 #include "cases/nodes/NodeDofs.hpp"
 #include "common/Constants.hpp"
+#include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Interrupt.hpp"
+#include "common/Parallel.hpp"
+#include "common/report/Progress.hpp"
+#include "common/report/Stopwatch.hpp"
 #include "estimate/ModeMatching.hpp"
 #include "linalg/DynamicStiffness.hpp"
 #include "response/SweepParameters.hpp"
-#include "response/SweepProgress.hpp"
 #include "response/campbell/ModeSearch.hpp"
 
 namespace tooljoint::response {
@@ -26,6 +32,8 @@ constexpr double repeated = 1e-6;
 constexpr double noLateral = 1e-9;
 /// A refined mode is that of the diagram when their MAC is not below this.
 constexpr double sameMode = 0.5;
+constexpr int storeFormat = 1;     ///< raised when the meaning of a kept diagram changes
+constexpr double keptEvery = 0.2;  ///< [s]
 /// Of the frequency: |Im s - excitation| at a crossing, about one state and about states that are
 /// each found to a tolerance of their own, and iterations allowed.
 constexpr double crossed = 1e-10, crossedStates = 1e-6;
@@ -77,29 +85,37 @@ class Shapes {
 
 class Diagram {
  public:
-  Diagram(const RotatingStates& states, const CampbellSettings& settings)
+  Diagram(const RotatingStates& states, const CampbellSettings& settings,
+          const cases::RowFolder& store)
       : states_(states),
         settings_(settings),
         search_(states, settings),
         shapes_(states, settings.axis),
         mass_(states.mass()),
-        tracker_([this](double speed, int followed) { return search_.at(speed, followed); },
-                 mass_) {}
+        tracker_([this](double speed, int followed) { return search_.at(speed, followed); }, mass_),
+        store_(store),
+        keys_(keysOf(store, settings)) {}
 
   CampbellDiagram compute() {
     const auto checked =
         spread(settings_.speeds.size(), states_.first().reduced() ? settings_.spotChecks : 0);
-    const std::size_t drawn = shapePlace();
-    SweepProgress progress("campbell", settings_.speeds.size());
-    for (std::size_t i = 0; i < settings_.speeds.size(); ++i) {
+    const std::size_t drawn = shapePlace(), speeds = settings_.speeds.size();
+    Progress progress("campbell", static_cast<double>(speeds));
+    for (auto i = goOn(); i < speeds; ++i) {
+      const bool stops = anyRank(interruptRequested());
+      if (stops || anyRank(unkept_.wall() > keptEvery)) keep(i);
+      if (stops)
+        throw InterruptedError(
+            cases::interruptedSentence(keys_, static_cast<int>(i), store_.folder));
       const auto before = tracker_.now();
       tracker_.advance(settings_.speeds[i]);
       addRows();
       if (i == drawn) addShapes();
       if (contains(checked, i)) addChecks();
       if (i > 0) addCrossings(settings_.speeds[i - 1], before);
-      progress.done(i + 1);
+      progress.update(static_cast<double>(i + 1));
     }
+    progress.finish();
     std::stable_sort(out_.crossings.begin(), out_.crossings.end(),
                      [](const Crossing& a, const Crossing& b) {
                        return a.line != b.line ? a.line < b.line : a.at.speed < b.at.speed;
@@ -113,6 +129,43 @@ class Diagram {
   }
 
  private:
+  static cases::RowKeys keysOf(const cases::RowFolder& store, const CampbellSettings& settings) {
+    const auto& own = store.owner.list().sublist("Campbell");
+    return {"speeds",
+            fmt::format("campbell {}\n{}\n{}", storeFormat, cases::identity(store.owner),
+                        cases::canonicalText(own)),
+            std::vector<std::string>(settings.speeds.size())};
+  }
+
+  static bool anyRank(bool condition) { return parallel::maximum(condition ? 1.0 : 0.0) > 0.0; }
+
+  /// How far the diagram is.
+  struct Reached {
+    std::size_t done = 0;  ///< speeds
+    ModeTracker::Position position;
+    CampbellDiagram diagram;
+    std::vector<ModeShape> crossingShapes;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(done, position, diagram, crossingShapes);
+    }
+  };
+
+  /// Speeds that the folder holds.
+  std::size_t goOn() {
+    auto reached = cases::restoreReached<Reached>(store_, keys_);
+    tracker_.goOnFrom(std::move(reached.position));
+    out_ = std::move(reached.diagram);
+    crossingShapes_ = std::move(reached.crossingShapes);
+    return reached.done;
+  }
+
+  void keep(std::size_t speeds) {
+    cases::keepReached(store_, keys_, Reached{speeds, tracker_.position(), out_, crossingShapes_});
+    unkept_ = Stopwatch();
+  }
+
   /// The speed whose shapes are kept.
   std::size_t shapePlace() const {
     const auto& speeds = settings_.speeds;
@@ -254,6 +307,9 @@ class Diagram {
   ModeTracker tracker_;
   std::vector<ModeShape> crossingShapes_;
   CampbellDiagram out_;
+  const cases::RowFolder& store_;
+  cases::RowKeys keys_;
+  Stopwatch unkept_;  ///< since the diagram was kept
 };
 
 }  // namespace
@@ -261,8 +317,9 @@ class Diagram {
 double CampbellRow::frequency() const { return s.imag() / constants::twoPi; }
 double CampbellRow::damping() const { return -s.real() / std::abs(s); }
 
-CampbellDiagram campbell(const RotatingStates& states, const CampbellSettings& settings) {
-  return Diagram(states, settings).compute();
+CampbellDiagram campbell(const RotatingStates& states, const CampbellSettings& settings,
+                         const cases::RowFolder& store) {
+  return Diagram(states, settings, store).compute();
 }
 
 }  // namespace tooljoint::response

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/run/ResumedRows.hpp"
 #include "deck/ListSpec.hpp"
 #include "response/RotatingStates.hpp"
 
@@ -60,6 +61,11 @@ struct CampbellRow {
   double error = 0.0;  ///< estimate of |s - s_full| / |s| of a reduced model
   double frequency() const;  ///< Im s / 2 pi [Hz]
   double damping() const;    ///< -Re s / |s|
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(speed, mode, s, mac, whirl, error);
+  }
 };
 
 /// A critical speed: Im s is the frequency of an excitation.
@@ -67,6 +73,11 @@ struct Crossing {
   std::size_t line = 0;  ///< of CampbellSettings::lines
   CampbellRow at;  ///< the mode there; whirl, mac and error of the nearest speed of the diagram
   bool refined = true;  ///< false: by linear interpolation between two speeds
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(line, at, refined);
+  }
 };
 
 /// The motion of a mode: Re(shape exp(s t)).
@@ -75,6 +86,11 @@ struct ModeShape {
   int line = -1;           ///< of the excitation it meets there; -1: a mode of the diagram
   Eigen::VectorXcd shape;  ///< rows of the recovery; of its largest displacement across the axis
                            ///< (any, where there is none) the size is 1 and the phase 0
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(at, line, shape);
+  }
 };
 
 /// A mode of the full model beside that of the reduced one.
@@ -85,12 +101,22 @@ struct SpotCheck {
   double error = 0.0;  ///< |s - s_full| / |s_full|
   double estimate = 0.0;
   double mac = 0.0;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(speed, mode, full, reduced, error, estimate, mac);
+  }
 };
 
 /// The state at rest at a speed.
 struct StateRow {
   double speed = 0.0;  ///< [rad/s]
   std::vector<cases::RestFigure> figures;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(speed, figures);
+  }
 };
 
 struct CampbellDiagram {
@@ -99,16 +125,24 @@ struct CampbellDiagram {
   std::vector<SpotCheck> checks;
   std::vector<ModeShape> shapes;  ///< of one speed, then of the crossings
   std::vector<StateRow> states;   ///< speed by speed; none of one state
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(rows, crossings, checks, shapes, states);
+  }
 };
 
 /// Follows the modes through the speeds of the settings (ModeTracker). A crossing is refined with
 /// the equations at its own speed. ConvergenceError, ModelError of the eigensolver. Every rank
-/// computes the same.
-CampbellDiagram campbell(const RotatingStates& states, const CampbellSettings& settings);
+/// computes the same. The folder keeps how far the diagram is; it goes on from there for the same
+/// deck and program. InterruptedError after a signal. Collective.
+CampbellDiagram campbell(const RotatingStates& states, const CampbellSettings& settings,
+                         const cases::RowFolder& store);
 
 /// `tooljoint campbell`: state at rest, diagram, campbell.csv, crossings.csv, spot_checks.csv,
 /// states.csv, campbell.h5 with the shapes, and summary.json in `folder` ("": see
 /// cases::analysisFolder). DeckError without the list Campbell. Collective.
-void runCampbell(const cases::Case& one, const std::string& folder);
+/// \param fresh  forget what an earlier command has left there
+void runCampbell(const cases::Case& one, const std::string& folder, bool fresh);
 
 }  // namespace tooljoint::response

@@ -250,7 +250,7 @@ void summarise(const RotatingCase& rotating, const CampbellDiagram& diagram,
 
 }  // namespace
 
-void runCampbell(const cases::Case& one, const std::string& folder) {
+void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) {
   if (!one.list().isSublist("Campbell"))
     throw DeckError(one.deck().file() +
                     ": the deck has no list Campbell. Add one with the Highest Speed.");
@@ -264,7 +264,7 @@ void runCampbell(const cases::Case& one, const std::string& folder) {
         states = std::make_unique<RotatingStates>(one, settings.friction, settings.stateOfEachSpeed,
                                                   settings.speeds.front());
         states->first().announceLaws();
-        diagram = campbell(*states, settings);
+        diagram = campbell(*states, settings, {one, files.folder().folder(), fresh});
         print(diagram, settings, states->first().estimated());
         warnOfEmptiness(diagram);
         warnOfGrowth(diagram);

@@ -27,48 +27,48 @@ Eigen::MatrixXcd columns(const Eigen::MatrixXcd& all, const std::vector<int>& wh
 ModeTracker::ModeTracker(Modes modes, const Sparse& mass) : modes_(std::move(modes)), mass_(mass) {}
 
 void ModeTracker::advance(double speed) {
-  for (auto& mode : now_) mode.mac = 1.0;
-  if (started_) {
+  for (auto& mode : at_.now) mode.mac = 1.0;
+  if (at_.started) {
     step(speed, 0);
     return;
   }
-  started_ = true;
-  speed_ = speed;
+  at_.started = true;
+  at_.speed = speed;
   start(modes_(speed, 0), {});
 }
 
 void ModeTracker::step(double speed, int halvings) {
-  const auto candidates = modes_(speed, sizeOf(now_));
+  const auto candidates = modes_(speed, sizeOf(at_.now));
   const Partners found = match(candidates);
   if (found.least < sure && halvings < mostHalvings) {
-    const double middle = 0.5 * (speed_ + speed);
+    const double middle = 0.5 * (at_.speed + speed);
     step(middle, halvings + 1);
     step(speed, halvings + 1);
     return;
   }
   std::vector<TrackedMode> next;
   std::vector<int> taken;
-  for (std::size_t i = 0; i < now_.size(); ++i) {
+  for (std::size_t i = 0; i < at_.now.size(); ++i) {
     const int j = found.candidate[i];
     if (j < 0 || found.mac[i] < lost) continue;
     taken.push_back(j);
-    next.push_back({now_[i].track, candidates.values[j], candidates.shapes.col(j),
-                    std::min(now_[i].mac, found.mac[i]), contains(candidates.edge, j)});
+    next.push_back({at_.now[i].track, candidates.values[j], candidates.shapes.col(j),
+                    std::min(at_.now[i].mac, found.mac[i]), contains(candidates.edge, j)});
   }
-  now_ = std::move(next);
-  speed_ = speed;
+  at_.now = std::move(next);
+  at_.speed = speed;
   start(candidates, taken);
 }
 
 ModeTracker::Partners ModeTracker::match(const VibratingModes& candidates) const {
   Partners found;
-  found.candidate.assign(now_.size(), -1);
-  found.mac.assign(now_.size(), 0.0);
-  Eigen::VectorXcd values(static_cast<Eigen::Index>(now_.size()));
+  found.candidate.assign(at_.now.size(), -1);
+  found.mac.assign(at_.now.size(), 0.0);
+  Eigen::VectorXcd values(static_cast<Eigen::Index>(at_.now.size()));
   Eigen::MatrixXcd shapes(mass_.rows(), values.size());
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    values[static_cast<Eigen::Index>(i)] = now_[i].s;
-    shapes.col(static_cast<Eigen::Index>(i)) = now_[i].shape;
+  for (std::size_t i = 0; i < at_.now.size(); ++i) {
+    values[static_cast<Eigen::Index>(i)] = at_.now[i].s;
+    shapes.col(static_cast<Eigen::Index>(i)) = at_.now[i].shape;
   }
   const Matrix mac = estimate::modalAssurance(mass_, shapes, candidates.shapes);
   // single modes first: of close values the shapes tell which is which
@@ -95,16 +95,16 @@ ModeTracker::Partners ModeTracker::match(const VibratingModes& candidates) const
     found.candidate[at(modesLeft[k])] = candidatesLeft[at(rest[k].partner)];
     found.mac[at(modesLeft[k])] = rest[k].mac;
   }
-  for (std::size_t i = 0; i < now_.size(); ++i)
-    if (!now_[i].edge) found.least = std::min(found.least, found.mac[i]);
+  for (std::size_t i = 0; i < at_.now.size(); ++i)
+    if (!at_.now[i].edge) found.least = std::min(found.least, found.mac[i]);
   return found;
 }
 
 void ModeTracker::start(const VibratingModes& candidates, const std::vector<int>& taken) {
   for (const int j : candidates.wanted)
     if (!contains(taken, j))
-      now_.push_back({++tracks_, candidates.values[j], candidates.shapes.col(j), 1.0, false});
-  std::stable_sort(now_.begin(), now_.end(),
+      at_.now.push_back({++at_.tracks, candidates.values[j], candidates.shapes.col(j), 1.0, false});
+  std::stable_sort(at_.now.begin(), at_.now.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.s) < std::abs(b.s); });
 }
 

@@ -5,8 +5,10 @@
 
 #include <complex>
 #include <functional>
+#include <utility>
 #include <vector>
 
+#include "common/Message.hpp"
 #include "common/Types.hpp"
 
 namespace tooljoint::response {
@@ -26,6 +28,11 @@ struct TrackedMode {
   Eigen::VectorXcd shape;
   double mac = 1.0;   ///< least MAC of the steps since the last advance()
   bool edge = false;  ///< it may leave the window of frequencies
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(track, s, shape, mac, edge);
+  }
 };
 
 /// Follows modes. From speed to speed a mode goes on as the one with the largest MAC
@@ -43,8 +50,23 @@ class ModeTracker {
 
   /// Goes on to this speed, by |s| at the first call.
   void advance(double speed);
-  double speed() const { return speed_; }
-  const std::vector<TrackedMode>& now() const { return now_; }
+  double speed() const { return at_.speed; }
+  const std::vector<TrackedMode>& now() const { return at_.now; }
+
+  /// Where it is on its way, to go on from in another run.
+  struct Position {
+    int tracks = 0;
+    double speed = 0.0;
+    bool started = false;
+    std::vector<TrackedMode> now;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(tracks, speed, started, now);
+    }
+  };
+  const Position& position() const { return at_; }
+  void goOnFrom(Position position) { at_ = std::move(position); }
 
  private:
   void step(double speed, int halvings);
@@ -59,10 +81,7 @@ class ModeTracker {
 
   Modes modes_;
   Sparse mass_;
-  int tracks_ = 0;
-  double speed_ = 0.0;
-  bool started_ = false;
-  std::vector<TrackedMode> now_;
+  Position at_;
 };
 
 }  // namespace tooljoint::response

@@ -3,20 +3,12 @@
 /// The stiff string at many depths of the bit.
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "cases/Case.hpp"
+#include "cases/run/ResumedRows.hpp"
 #include "substructures/drillstring/analyses/StiffString.hpp"
 
 namespace tooljoint::drillstring {
-
-/// Where depths that are done are kept, and whose they are.
-struct StiffStore {
-  const cases::Case& owner;  ///< the case of the scene
-  std::string folder;
-  bool fresh = false;  ///< forget what is there
-};
 
 /// Every operation at every depth, [depth][operation]; depths are dealt to the ranks one by one,
 /// and all ranks end with all rows. One line of progress a depth. Depths that the folder of the
@@ -25,6 +17,6 @@ struct StiffStore {
 std::vector<std::vector<StiffLoads>> stiffRows(const Scene& scene,
                                                const std::vector<double>& depths,
                                                const std::vector<softstring::Operation>& operations,
-                                               const StiffStore& store);
+                                               const cases::RowFolder& store);
 
 }  // namespace tooljoint::drillstring

@@ -233,7 +233,7 @@ void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& s
 
 }  // namespace
 
-std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const StiffStore& store) {
+std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFolder& store) {
   const auto settings = torqueDragSettings(scene);
   const SoftModel model = softModel(scene);
   const auto operations = softOperations(scene, settings);

@@ -77,7 +77,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
                                const softstring::Operation& operation, double bit, bool allLimits);
 
 /// Every operation at every depth, the stiff string where the deck asks for it. Collective.
-std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const StiffStore& store);
+std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFolder& store);
 
 /// Prints the tables of the deepest bit and writes torque_drag.csv (a row for each depth and
 /// operation), torque_drag_profile.csv and torque_drag_stiff_profile.csv (along the string, at the

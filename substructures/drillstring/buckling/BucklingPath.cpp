@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "cases/ListText.hpp"
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Interrupt.hpp"
+#include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/report/StageTimes.hpp"
 #include "deck/Defaults.hpp"
@@ -129,6 +131,9 @@ class Model {
     input_.load += lateral;
   }
 
+  /// The string of bend(), whose state is known.
+  void setCrooked(double amplitude, double pitch) { input_.load += crooked(amplitude, pitch); }
+
   /// The state that a string finds under the weight `weight` when it leaves the unstable state `x`
   /// of the path in the direction `towards`. ConvergenceError: none.
   Vector jump(const equilibrium::LoadPath& problem, const Vector& x, const Vector& towards,
@@ -242,23 +247,59 @@ void addBranch(const statics::PathReport& branch, statics::PathReport& all) {
   all.failedSteps += before.failedSteps;
 }
 
+constexpr int storeFormat = 1;  ///< raised when the meaning of a kept path changes
+
+/// How far the path is: where a branch begins.
+struct Reached {
+  std::size_t done = 0;  ///< states
+  BucklingPath path;
+  double from = 0.0;  ///< weight on bit [N]
+  Vector x;
+  int branch = 0;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(done, path, from, x, branch);
+  }
+};
+
+/// Where it is kept.
+struct Store {
+  const cases::RowFolder& folder;
+  cases::RowKeys keys;
+};
+
+Store storeOf(const cases::RowFolder& folder) {
+  const auto& list = folder.owner.list();
+  const auto own = list.isSublist(listName) ? cases::canonicalText(list.sublist(listName)) : "";
+  return {folder,
+          {"states",
+           fmt::format("buckling {}\n{}\n{}", storeFormat, cases::identity(folder.owner), own),
+           {}}};
+}
+
 /// The path of the crooked string, with its jumps.
 class Branches {
  public:
-  /// \param start of the crooked string without weight on bit
+  /// \param start of the crooked string without weight on bit, or where a later branch begins
   Branches(const Model& model, const BucklingSettings& settings,
-           const statics::PathOptions& options, Vector start, BucklingPath& found)
+           const statics::PathOptions& options, Vector start, BucklingPath& found,
+           const Store& store, int branch)
       : model_(model),
         problem_(model.problem()),
         measure_(model.measure(problem_)),
         settings_(settings),
         options_(options),
         found_(found),
+        store_(store),
+        kept_(found.states.size()),
         x_(std::move(start)),
-        before_(x_) {}
+        before_(x_),
+        branch_(branch) {}
 
   void follow() {
     while (true) {
+      if (options_.from >= options_.to) return end();
       const auto report = statics::followPath(
           problem_, x_, options_, [this](const statics::PathPoint& point) { return add(point); });
       addBranch(report, found_.report);
@@ -269,7 +310,6 @@ class Branches {
         return fail("The string has jumped " + std::to_string(mostJumps) +
                     " times, the most that are computed.");
       if (!jump(report)) return;
-      if (options_.from >= options_.to) return end();
     }
   }
 
@@ -277,7 +317,13 @@ class Branches {
   /// Whether the path goes on: a string that jumps does so where the weight would have to shrink,
   /// or where more pivots are negative than before.
   bool add(const statics::PathPoint& point) {
-    if (interruptRequested()) throw InterruptedError("Interrupted. No table was written.");
+    if (parallel::maximum(interruptRequested() ? 1.0 : 0.0) > 0.0)
+      throw InterruptedError(
+          kept_ > 0
+              ? cases::interruptedSentence(store_.keys, static_cast<int>(kept_),
+                                           store_.folder.folder)
+              : "Interrupted before the first jump of the string. A path is kept from jump to "
+                "jump: the same command begins anew.");
     const bool jumps = settings_.atLimit == LimitRule::Jump && point.step > 0;
     before_ = point.step == 0 ? point.x : x_;
     x_ = point.x;
@@ -301,6 +347,9 @@ class Branches {
         x_ = model_.jump(problem_, from, towards, options_.from);
         if (statics::startsPath(problem_, x_, options_)) {
           ++branch_;
+          kept_ = found_.states.size();
+          cases::keepReached(store_.folder, store_.keys,
+                             Reached{kept_, found_, options_.from, x_, branch_});
           return true;
         }
       } catch (const ConvergenceError& error) {
@@ -334,6 +383,8 @@ class Branches {
   const BucklingSettings& settings_;
   statics::PathOptions options_;
   BucklingPath& found_;
+  const Store& store_;
+  std::size_t kept_;  ///< states that are kept
   Vector x_, before_;
   int branch_ = 0;
   /// Negative pivots that are no reason for a jump, since they were there from the first state of
@@ -357,13 +408,23 @@ BucklingSettings bucklingSettings(const Scene& scene) {
   return settings;
 }
 
-BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings) {
+BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings,
+                          const cases::RowFolder& folder) {
   const Stage stage("path of buckling");
   check(scene);
   BucklingPath found;
   found.depth = scene.string.depths();
-  const auto options = pathOptions(scene, settings);
+  auto options = pathOptions(scene, settings);
   Model model(scene, options.to);
+  const auto store = storeOf(folder);
+  auto reached = cases::restoreReached<Reached>(folder, store.keys);
+  if (reached.done > 0) {
+    found = std::move(reached.path);
+    options.from = reached.from;
+    if (found.crookedness > 0.0) model.setCrooked(found.crookedness, found.pitch);
+    Branches(model, settings, options, reached.x, found, store, reached.branch).follow();
+    return found;
+  }
 
   // The straight string up to its first negative pivot.
   double compression = 0.0, rigidity = 0.0;
@@ -392,7 +453,7 @@ BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings) 
                         : found.depth.back());
   if (found.crookedness > 0.0) model.bend(found.crookedness, found.pitch, options, start);
 
-  Branches(model, settings, options, start, found).follow();
+  Branches(model, settings, options, start, found, store, 0).follow();
   return found;
 }
 

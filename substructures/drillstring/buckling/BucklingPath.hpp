@@ -5,10 +5,12 @@
 /// down the hole).
 #pragma once
 
+#include <cereal/types/optional.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cases/run/ResumedRows.hpp"
 #include "statics/PathContinuation.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 #include "substructures/drillstring/scene/BucklingParameters.hpp"
@@ -30,6 +32,11 @@ struct BucklingTheory {
   /// in a hole that bends.
   double finiteLength = 0.0;
   int finiteHalfWaves = 0;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(sinusoidal, helical, spontaneous, finiteLength, finiteHalfWaves);
+  }
 };
 
 /// Contact and shape of the middle half of the compressed part above the bit (of the whole string
@@ -42,6 +49,12 @@ struct BucklingMiddle {
   double shortening = 0.0, helicalShortening = 0.0;      ///< by bending, per length
   std::optional<double> pitch;                           ///< where the string winds one way [m]
   double helicalPitch = 0.0;                             ///< [m]
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(compression, contactForce, helicalContactForce, shortening, helicalShortening, pitch,
+            helicalPitch);
+  }
 };
 
 /// A static state of the path.
@@ -62,6 +75,13 @@ struct BucklingState {
   Matrix displacement;  ///< to the high and to the right side, 2 x nodes [m]
   Vector contactForce;  ///< per node [N]
   Vector compression;   ///< per element [N]
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(weight, branch, bitAdvance, shortening, lateral, contacts, largestContact, totalContact,
+            negativePivots, halfWaves, halfWaveLength, turns, middle, displacement, contactForce,
+            compression);
+  }
 };
 
 struct BucklingPath {
@@ -72,6 +92,11 @@ struct BucklingPath {
   std::vector<double> depth;              ///< of the nodes [m]
   std::vector<BucklingState> states;
   statics::PathReport report;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(theory, limit, crookedness, pitch, depth, states, report);
+  }
 };
 
 /// The deck's list `Buckling`; its defaults where the deck has none. DeckError: there is no last
@@ -81,11 +106,14 @@ BucklingSettings bucklingSettings(const Scene& scene);
 /// Follows the static states from no to the last weight on bit. There is no friction, the
 /// walls only push, laws of bit and drive are left out. DeckError: the string has no wall, the bit
 /// is held along the hole, or the geometric stiffness is left out; ConvergenceError: the first
-/// state is not found. A path that ends early says so in its report. The same on every rank.
-BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings);
+/// state is not found. A path that ends early says so in its report. The folder keeps the path up
+/// to its last jump; it goes on from there for the same deck and program. InterruptedError after a
+/// signal. The same on every rank. Collective.
+BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings,
+                          const cases::RowFolder& store);
 
 /// Prints the path and writes buckling.csv, buckling.h5 and summary.json; ConvergenceError after
 /// that where the path did not reach the last weight. Collective.
-void reportBuckling(const DrillstringCase& one, const std::string& folder);
+void reportBuckling(const DrillstringCase& one, const std::string& folder, bool fresh);
 
 }  // namespace tooljoint::drillstring

@@ -264,11 +264,15 @@ class Report {
 
 }  // namespace
 
-void reportBuckling(const DrillstringCase& one, const std::string& folder) {
+void reportBuckling(const DrillstringCase& one, const std::string& folder, bool fresh) {
   const Scene& scene = one.scene();
   const auto settings = bucklingSettings(scene);
   const BucklingPath path = cases::completeReport(
-      one, folder, "buckling", [&] { return bucklingPath(scene, settings); },
+      one, folder, "buckling",
+      [&] {
+        const auto kept = cases::analysisFolder(one, folder, "buckling");
+        return bucklingPath(scene, settings, {one, kept, fresh});
+      },
       [&](const BucklingPath& states) { return Report(settings, states); });
   if (path.report.end != statics::PathEnd::Reached)
     throw ConvergenceError(

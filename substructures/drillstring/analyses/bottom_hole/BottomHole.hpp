@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/run/ResumedRows.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 #include "substructures/drillstring/scene/BottomHoleParameters.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
@@ -133,13 +134,15 @@ struct BottomHoleSweep {
 BottomHoleSettings bottomHoleSettings(const Scene& scene);
 
 /// Every combination of the settings, dealt to the ranks one by one; all ranks end with all of
-/// them. A string on which nothing turns has no rows of its own for rotating. A combination without
-/// an equilibrium is among the missing ones; ConvergenceError when none has one; InterruptedError
-/// after a signal. Collective.
-BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings);
+/// them. States that the folder holds for the same deck and program are not solved again. A string
+/// on which nothing turns has no rows of its own for rotating. A combination without an equilibrium
+/// is among the missing ones; ConvergenceError when none has one; InterruptedError after a signal.
+/// Collective.
+BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings,
+                                const cases::RowFolder& store);
 
 /// Prints the sweep and writes bha.csv, bha_contacts.csv, bha_profile.csv, bha.h5 and summary.json.
 /// Collective.
-void reportBottomHole(const DrillstringCase& one, const std::string& folder);
+void reportBottomHole(const DrillstringCase& one, const std::string& folder, bool fresh);
 
 }  // namespace tooljoint::drillstring

@@ -335,11 +335,15 @@ class Report {
 
 }  // namespace
 
-void reportBottomHole(const DrillstringCase& one, const std::string& folder) {
+void reportBottomHole(const DrillstringCase& one, const std::string& folder, bool fresh) {
   const Scene& scene = one.scene();
   const auto settings = bottomHoleSettings(scene);
   cases::completeReport(
-      one, folder, "bha", [&] { return bottomHoleSweep(scene, settings); },
+      one, folder, "bha",
+      [&] {
+        const auto kept = cases::analysisFolder(one, folder, "bha");
+        return bottomHoleSweep(scene, settings, {one, kept, fresh});
+      },
       [&](const BottomHoleSweep& sweep) { return Report(scene, settings, sweep); });
 }
 

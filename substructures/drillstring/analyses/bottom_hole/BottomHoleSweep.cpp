@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <fmt/format.h>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cases/run/ResumedRows.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
-#include "common/ranks/DealtRows.hpp"
 #include "substructures/drillstring/analyses/bottom_hole/BottomHole.hpp"
 
 namespace tooljoint::drillstring {
@@ -116,8 +116,29 @@ std::vector<Job> jobsOf(const BottomHole& assembly, const BottomHoleSettings& se
   return jobs;
 }
 
+constexpr int storeFormat = 1;  ///< raised when the meaning of a kept state changes
+
+/// What decides the states: the deck but its analyses, what of the own list is no point, and the
+/// length.
+cases::RowKeys keysOf(const cases::Case& owner, const BottomHoleSettings& settings, double length,
+                      const std::vector<Job>& jobs) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : std::string("none");
+  };
+  cases::RowKeys keys{"states",
+                      fmt::format("bottom-hole assembly {}\n{}\n{} {} {} {} {} {}", storeFormat,
+                                  cases::identity(owner), settings.buildRate, settings.turnRate,
+                                  number(settings.surveyTool), settings.elementLength,
+                                  settings.rotatingToolFaces, length),
+                      {}};
+  for (const auto& [point, rotating] : jobs)
+    keys.rows.push_back(fmt::format("{} {} {} {}", number(point.inclination), point.weight,
+                                    point.toolFace, rotating));
+  return keys;
+}
+
 Outcome solve(const BottomHole& assembly, double length, const Job& job) {
-  if (interruptRequested()) throw InterruptedError("Interrupted. No table was written.");
+  if (interruptRequested()) throw InterruptedError("Interrupted.");
   try {
     return {job.rotating ? assembly.rotating(job.point, length) : assembly.solve(job.point, length),
             ""};
@@ -128,7 +149,8 @@ Outcome solve(const BottomHole& assembly, double length, const Job& job) {
 
 }  // namespace
 
-BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings) {
+BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings,
+                                const cases::RowFolder& store) {
   const BottomHole assembly(scene, settings);
   std::vector<std::optional<double>> holes(settings.inclinations.begin(),
                                            settings.inclinations.end());
@@ -136,11 +158,9 @@ BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& se
   BottomHoleSweep sweep;
   sweep.length = modelledLength(assembly, settings, holes);
   const auto jobs = jobsOf(assembly, settings, holes, sweep.length.length);
-  std::vector<Outcome> found(jobs.size());
-  std::vector<std::size_t> all(jobs.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  parallel::dealRows<Outcome>(
-      all, found, [&](std::size_t i) { return solve(assembly, sweep.length.length, jobs[i]); });
+  auto found = cases::resumedRows<Outcome>(
+      store, keysOf(store.owner, settings, sweep.length.length, jobs),
+      [&](std::size_t i) { return solve(assembly, sweep.length.length, jobs[i]); });
   for (std::size_t i = 0; i < jobs.size(); ++i)
     if (found[i].reason.empty())
       sweep.rows.push_back({jobs[i].point, jobs[i].rotating, std::move(found[i].state)});
