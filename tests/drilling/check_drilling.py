@@ -4,6 +4,7 @@
 motions with closed forms.
 
     check_drilling.py PROGRAM [NAME ...]           NAME: some of the checks
+    check_drilling.py PROGRAM combinations [without-sundials]     laws under every integrator (combinations.py)
     check_drilling.py PROGRAM stick_slip_2500m     the tables of docs/drilling.md and what it says of them
 """
 import math
@@ -17,6 +18,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parents[1] / "tests" / "support"), str(HERE.parents[1] / "tests/stability/hard_cases")]
 import hoisting
 import models
+from combinations import combinations
 import scene_2500m
 from checks import expect, finish
 from program import Program
@@ -365,12 +367,13 @@ def cutting(program):
 
 CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, matched, cutting, oscillator, whirl, hoisting.tanh_bit,
                                        hoisting.penetration_bit, hoisting.autodriller)}
-ON_REQUEST = {"stick_slip_2500m": scene_2500m.stick_slip_2500m}
+ON_REQUEST = {"stick_slip_2500m": scene_2500m.stick_slip_2500m,
+              "combinations": lambda program: combinations(program, "without-sundials" not in sys.argv)}
 
 
 def main():
     program = Program(sys.argv[1], "drilling")
-    for name in sys.argv[2:] or CHECKS:
+    for name in [name for name in sys.argv[2:] if name != "without-sundials"] or CHECKS:
         {**CHECKS, **ON_REQUEST}[name](program)
     return finish()
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs that are stopped and go on: check_restart.py PROGRAM MPIEXEC PART [without-sundials]
 
-PART is "bits" (laws of the bit and of the top drive), "integrators" (every integrator, full and reduced models, strings and imported parts: stopped by SIGTERM, gone on with, killed, gone on
+PART is "analyses" (tables whose command was stopped), "bits" (laws of the bit and of the top drive), "integrators" (every integrator, full and reduced models, strings and imported parts: stopped by SIGTERM, gone on with, killed, gone on
 with) or "folders" (full disks, other ranks, two runs in one folder, damaged and foreign files). A run that was stopped ends with the samples,
 tables, pictures and figures of the one that was not, bit by bit.
 """
@@ -19,11 +19,9 @@ import subprocess
 import sys
 import time
 
-import h5py
-import numpy as np
-
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, of_ranks  # noqa: E402
+from same_numbers import differences  # noqa: E402
 
 PROGRAM, MPIEXEC, PART = sys.argv[1:4]
 ROOT = pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"])
@@ -32,7 +30,6 @@ INTEGRATORS = ["RK4", "RK4 adaptive", "Generalized-alpha", "Step Tolerance"]
 if "without-sundials" not in sys.argv[4:]:
     INTEGRATORS += ["SUNDIALS ARKODE", "SUNDIALS CVODE"]
 FULL = ["--without", "Reduction", "--without", "Substructures"]
-OWN = {"wall_s", "cpu_s", "real_time_factor"}  # seconds of a run are its own
 
 
 def command(*arguments, ranks=1):
@@ -87,35 +84,6 @@ def stop(signum, folder, *arguments, ranks=1):
             time.sleep(0.05)
     os.close(lock)
     return code
-
-
-def numbers(folder):
-    with h5py.File(pathlib.Path(folder, "results.h5")) as file:
-        found = {}
-        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
-    return found
-
-
-def differences(whole, other, tolerance=0.0):
-    """Names of what is not the same in two results folders."""
-    a, b = numbers(whole), numbers(other)
-    names = sorted(a.keys() ^ b.keys())
-    for name in sorted(a.keys() & b.keys()):
-        same = a[name].shape == b[name].shape
-        if same and tolerance > 0 and a[name].dtype.kind == "f":
-            same = np.abs(a[name] - b[name]).max(initial=0.0) <= tolerance * max(np.abs(a[name]).max(initial=0.0), 1e-300)
-        elif same:
-            same = np.array_equal(a[name], b[name])
-        if not same:
-            names.append(name)
-    if tolerance == 0:
-        for name in ("motion.csv", "results.xdmf"):
-            files = [pathlib.Path(folder, name) for folder in (whole, other)]
-            if files[0].exists() != files[1].exists() or (files[0].exists() and files[0].read_bytes() != files[1].read_bytes()):
-                names.append(name)
-        figures = [json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))["transient"] for folder in (whole, other)]
-        names += [f"summary.json transient.{key}: {figures[0][key]} and {figures[1][key]}" for key in figures[0] if key not in OWN and figures[0][key] != figures[1][key]]
-    return names
 
 
 def left(folder):
@@ -186,6 +154,59 @@ def bits():
         for integrator, end, interval in (("Generalized-alpha", 15, 0.5), ("RK4", 0.15, 0.02)):
             for model, without in (("reduced", []), ("full", FULL)):
                 interrupted_twice(f"{title} and drive, {integrator}, {model}", STRING, [*settings(integrator, end, interval), *drive, *own, *without])
+
+
+def stopped_analysis(signum, folder, plural, least, *arguments):
+    """Starts an analysis and sends it a signal when it has kept something; its exit code."""
+    fresh(folder)
+    process = subprocess.Popen(command(*arguments, "--output", folder), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=of_ranks(1))
+    while process.poll() is None and len(list(pathlib.Path(folder).glob(f"cache/{plural}_*.json"))) < least:
+        time.sleep(0.005)
+    process.send_signal(signum)
+    return process.wait(timeout=60)
+
+
+def analyses():
+    """Analyses that are interrupted, or killed, go on with the same command to the same tables, and say so."""
+    assembly, string = str(ROOT / "xml/bha_motor_1500m.xml"), str(ROOT / "xml/helical_170m.xml")
+    bha = [word for name, value in (("Inclination", "{20 deg}"), ("Build Rate", "3 deg/30m"), ("Weight On Bit", "{20 kN, 40 kN, 60 kN, 80 kN}"), ("Tool Face", "{0 deg, 90 deg}"))
+           for word in ("--set", f"Bottom-Hole Assembly/{name}={value}")]
+    campbell = ["--set", "Campbell/Highest Speed=120 rpm", "--set", "Campbell/Points=5", "--set", "Campbell/Modes=8"]
+    response = pathlib.Path("response.xml")
+    text = (ROOT / "xml/helical_170m.xml").read_text(encoding="utf-8").replace('value="components/', f'value="{ROOT}/xml/components/')
+    place = '<Parameter name="Node" type="int" value="60"/><Parameter name="Component" type="string" value="u"/>'
+    response.write_text(text[:text.rindex("</ParameterList>")] + f"""<ParameterList name="Response"><Parameter name="Excitation" type="string" value="Harmonic"/>
+        <Parameter name="Highest Frequency" type="double" value="20"/><Parameter name="Points" type="int" value="41"/><ParameterList name="Loads"><ParameterList name="push">{place}<Parameter name="Value" type="double" value="100"/>
+        </ParameterList></ParameterList><ParameterList name="Outputs"><ParameterList name="there">{place}</ParameterList></ParameterList></ParameterList></ParameterList>""", encoding="utf-8")
+    for name, plural, least, deck, options, tables in (
+            ("bha", "states", 3, assembly, bha, ("bha", "bha_contacts", "bha_profile")),
+            ("response", "points", 10, str(response), FULL, ("response", "peaks", "bending", "margins")),
+            ("campbell", "speeds", 1, string, [*campbell, *FULL], ("campbell", "crossings")),
+            ("buckling", "states", 1, str(ROOT / "xml/buckling_100m.xml"), ["--set", "Buckling/Last Weight On Bit=700 kN"], ("buckling", "buckling_profile"))):
+        def read(folder):
+            return [pathlib.Path(folder, f"{table}.csv").read_bytes() for table in tables]
+        arguments = (name, deck, *options)
+        fresh("whole_table")
+        whole = run(*arguments, "--output", "whole_table")
+        expect(f"{name}: runs", whole.returncode == 0, whole.stderr[-300:])
+        for how, code in ((signal.SIGINT, 130), (signal.SIGKILL, -9)):
+            for _ in range(5):  # a machine that is busy elsewhere may let a command end before its signal
+                found = stopped_analysis(how, "stopped_table", plural, least, *arguments)
+                if found != 0:
+                    break
+            expect(f"{name}: {how.name} stops it", found == code, str(found))
+            done = run(*arguments, "--output", "stopped_table")
+            expect(f"{name}, {how.name}: it goes on and says so", done.returncode == 0 and f"{plural} are known from before" in done.stdout, done.stdout[-300:] + done.stderr[-300:])
+            expect(f"{name}, {how.name}: the same tables", done.returncode == 0 and read("stopped_table") == read("whole_table"))
+        again = run(*arguments, "--output", "stopped_table", ranks=2)
+        expect(f"{name}: two ranks know it, with the same tables", "are known from before" in again.stdout and read("stopped_table") == read("whole_table"), again.stderr[-300:])
+        if name in ("response", "buckling"):  # the others have the same two ways of going on
+            continue
+        other = run(*arguments, "--output", "stopped_table", "--set", "Loads/Gravity=9.8")
+        expect(f"{name}: another deck is computed anew, and that is said", other.returncode == 0 and f"{plural} of another deck" in " ".join(other.stdout.split())
+               and read("stopped_table") != read("whole_table"), other.stdout[-300:])
+        forgotten = run(*arguments, "--output", "stopped_table", "--fresh")
+        expect(f"{name}: --fresh forgets", "known" not in forgotten.stdout and read("stopped_table") == read("whole_table"), forgotten.stdout[-300:])
 
 
 LONG = tuple(settings("Generalized-alpha", 15, 0.5))
@@ -348,8 +369,8 @@ def results_larger_than_the_disk():
 if __name__ == "__main__":
     if PART == "integrators":
         integrators()
-    elif PART == "bits":
-        bits()
+    elif PART in ("analyses", "bits"):
+        {"analyses": analyses, "bits": bits}[PART]()
     else:
         for part in (results_larger_than_the_disk, full_disk, other_ranks, two_runs_in_one_folder, restart_killed_early, elsewhere, other_decks, other_contents):
             part()
