@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "deck/Registry.hpp"
+#include "model/SharedSparse.hpp"
 #include "reduction/part/PartView.hpp"
 #include "reduction/project/BasisReport.hpp"
 #include "reduction/selection/ModeChoice.hpp"
@@ -26,7 +27,7 @@ namespace tooljoint::reduction {
 /// among the interior ones: q = (retained dofs, modal coordinates, forces).
 struct Basis {
   Partition partition;
-  Sparse vectors;                     ///< Phi: dofs x (boundary + modes), structural zeros absent
+  model::SharedSparse vectors;        ///< Phi: dofs x (boundary + modes), structural zeros absent
   std::vector<std::string> modeKind;  ///< one per modal column
   Vector eigenvalues;                 ///< omega^2 of the modal columns [rad^2/s^2], increasing
   Vector candidates;                  ///< omega^2 of all modes computed, kept ones first

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "model/SharedSparse.hpp"
 #include "model/Substructure.hpp"
 
 namespace tooljoint::parts {
@@ -27,7 +28,7 @@ struct InterfaceSet {
 /// Vectors of the part this one was reduced from: D = offset + vectors q.
 struct StoredBasis {
   std::vector<model::DofLabel> dofs;  ///< rows
-  Sparse vectors;
+  model::SharedSparse vectors;
   Vector offset;
   bool empty() const { return dofs.empty(); }
 };

@@ -166,7 +166,7 @@ class Hdf5Writer {
     }
     file_.write(path, rows, {labels.size(), 2}, "1", longName);
   }
-  void matrix(const std::string& path, const Sparse& A, const std::string& longName) {
+  void matrix(const std::string& path, const model::SharedSparse& A, const std::string& longName) {
     const auto count = static_cast<std::size_t>(A.nonZeros());
     const auto indices = [&](const std::string& name, const auto& of, const std::string& text) {
       std::vector<int> list;
@@ -178,10 +178,7 @@ class Hdf5Writer {
         "/row", [](int i, int) { return i; }, ": row of each entry, from 0");
     indices(
         "/column", [](int, int j) { return j; }, ": column of each entry, from 0");
-    std::vector<double> value;
-    value.reserve(count);
-    forEachEntry(A, [&](int, int, double x) { value.push_back(x); });
-    file_.write(path + "/value", value, {count}, "1", longName + ": entries, SI");
+    file_.write(path + "/value", A.valuePtr(), {count}, "1", longName + ": entries, SI");
     file_.write(path + "/shape",
                 std::vector<int>{static_cast<int>(A.rows()), static_cast<int>(A.cols())}, {2}, "1",
                 longName + ": rows and columns");
