@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <unistd.h>
 
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
+#include "common/report/Likewise.hpp"
 #include "common/report/Terminal.hpp"
+#include "common/report/WarnOnce.hpp"
 
 namespace tooljoint::log {
 namespace {
@@ -17,6 +21,16 @@ bool quiet_ = false;
 std::vector<std::string>& collected() {
   static std::vector<std::string> lines;
   return lines;
+}
+
+/// Warnings that were not printed: their kind (withoutNumbers), and how many. Empty without a
+/// WarnOnce.
+std::optional<std::map<std::string, int>> likewise_;
+
+void print(const std::string& warning) {
+  if (parallel::rank() == 0)
+    std::cerr << terminal::coloured("warning:", terminal::Colour::Yellow, STDERR_FILENO) << " "
+              << warning << std::endl;
 }
 
 /// Lines of the log have at most so many columns.
@@ -63,10 +77,27 @@ void info(const std::string& line) {
 void warn(const std::string& line) {
   auto& lines = collected();
   if (std::find(lines.begin(), lines.end(), line) != lines.end()) return;
+  const auto kind = withoutNumbers(line);
+  if (likewise_ && std::any_of(lines.begin(), lines.end(), [&](const std::string& known) {
+        return withoutNumbers(known) == kind;
+      })) {
+    ++(*likewise_)[kind];
+    return;
+  }
   lines.push_back(line);
-  if (parallel::rank() == 0)
-    std::cerr << terminal::coloured("warning:", terminal::Colour::Yellow, STDERR_FILENO) << " "
-              << line << std::endl;
+  print(line);
+}
+
+WarnOnce::WarnOnce() { likewise_.emplace(); }
+
+WarnOnce::~WarnOnce() {
+  for (auto& line : collected()) {
+    const auto counted = likewise_->find(withoutNumbers(line));
+    if (counted == likewise_->end()) continue;
+    line += " (" + std::to_string(counted->second) + " further likewise)";
+    print(line);
+  }
+  likewise_.reset();
 }
 
 const std::vector<std::string>& warnings() { return collected(); }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "cases/Case.hpp"
+#include "common/report/Likewise.hpp"
 #include "study/Expansion.hpp"
-#include "study/Likewise.hpp"
 
 namespace tooljoint::study {
 

@@ -13,6 +13,7 @@
 #include "common/Version.hpp"
 #include "common/ranks/RankGroups.hpp"
 #include "common/report/Log.hpp"
+#include "common/report/WarnOnce.hpp"
 #include "study/engine/RowCommands.hpp"
 #include "study/engine/RunDecks.hpp"
 #include "study/engine/StudyProgress.hpp"
@@ -42,7 +43,10 @@ class Map {
     announce();
     files_.complete(
         [&] {
-          if (computes) computeAll();
+          if (computes) {
+            const log::WarnOnce once;  // of points that differ in numbers
+            computeAll();
+          }
           rows_.emplace(plan_, folder());
           report();
         },

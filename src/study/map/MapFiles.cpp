@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "common/Text.hpp"
+#include "common/report/Likewise.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "io/summary/SummaryUnits.hpp"
-#include "study/Likewise.hpp"
 #include "study/engine/StudyFiles.hpp"
 
 namespace tooljoint::study {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Lines of the log have at most 100 columns.
+/// Lines of the log have at most 100 columns; warnings of many runs are told once.
 #include "common/report/Log.hpp"
 
 #include <gtest/gtest.h>
+#include <string>
+#include <vector>
 
 #include "common/Parallel.hpp"
+#include "common/report/WarnOnce.hpp"
 
 namespace LogTest {
 
@@ -50,6 +53,30 @@ TEST(Log, AWordThatIsLongerThanALineStaysWhole) {
   EXPECT_EQ(printed("results     " + path + " basis.csv"),
             "results     " + path + "\n            basis.csv\n");
   EXPECT_EQ(printed(path), path + "\n");
+}
+
+TEST(Log, WarningsOfManyRunsThatDifferInNumbersAreToldOnce) {
+  log::clearWarnings();
+  testing::internal::CaptureStderr();
+  {
+    const log::WarnOnce once;
+    log::warn("The step (0.001 s) is coarse: 12 %.");
+    log::warn("The step (0.001 s) is coarse: 12 %.");  // the same again does not count
+    log::warn("The step (2.5e-3 s) is coarse: 8.1 %.");
+    log::warn("A load is missing.");
+    log::warn("The step (0.001 s) is coarse: -3 %.");
+  }
+  log::warn("The step (0.001 s) is coarse: 7 %.");  // outside, each is told
+  const auto text = testing::internal::GetCapturedStderr();
+  const std::vector<std::string> expected{
+      "The step (0.001 s) is coarse: 12 %. (2 further likewise)", "A load is missing.",
+      "The step (0.001 s) is coarse: 7 %."};
+  EXPECT_EQ(log::warnings(), expected);
+  log::clearWarnings();
+  if (parallel::rank() != 0) GTEST_SKIP() << "rank 0 prints";
+  EXPECT_NE(text.find("warning: The step (0.001 s) is coarse: 12 %.\n"), std::string::npos);
+  EXPECT_EQ(text.find("2.5e-3"), std::string::npos);
+  EXPECT_NE(text.find("12 %. (2 further likewise)\n"), std::string::npos);
 }
 
 }  // namespace LogTest

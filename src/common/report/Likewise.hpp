@@ -9,7 +9,17 @@
 #include <utility>
 #include <vector>
 
-namespace tooljoint::study {
+namespace tooljoint {
+
+/// A sentence without digits, points and signs.
+inline std::string withoutNumbers(const std::string& text) {
+  std::string out;
+  for (const char letter : text) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(letter)) != 0;
+    if (!digit && letter != '.' && letter != '-' && letter != '+') out += letter;
+  }
+  return out;
+}
 
 class LikewiseList {
  public:
@@ -47,16 +57,7 @@ class LikewiseList {
     std::vector<std::string> sentences;
   };
 
-  static std::string withoutNumbers(const std::string& text) {
-    std::string out;
-    for (const char letter : text) {
-      const bool digit = std::isdigit(static_cast<unsigned char>(letter)) != 0;
-      if (!digit && letter != '.' && letter != '-' && letter != '+') out += letter;
-    }
-    return out;
-  }
-
   std::vector<Group> groups_;
 };
 
-}  // namespace tooljoint::study
+}  // namespace tooljoint
