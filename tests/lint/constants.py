@@ -14,7 +14,8 @@ import sys
 import tempfile
 
 TUNED, PAGE = pathlib.Path("src/transient/Tuned.hpp"), pathlib.Path("docs/step-constants.md")
-LOOP = ("src/transient/contact/*.?pp", "src/transient/compiled/*.?pp", "src/transient/schemes/ImplicitStep*.?pp",
+LOOP = ("src/transient/contact/*.?pp", "src/transient/compiled/*.?pp", "src/transient/implicit/*.?pp",
+        "src/transient/schemes/ImplicitStep.?pp",
         "src/transient/schemes/AlphaStep.?pp", "src/transient/schemes/GeneralizedAlpha.cpp")
 MOST = 30  # numbers that are tuned
 FORMULA = {"0.0", "0.1", "0.25", "0.5", "1.0", "2.0", "4.0"}  # powers of two and a tenth of another number

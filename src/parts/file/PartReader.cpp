@@ -375,7 +375,7 @@ class Reader {
         continue;
       }
       m.recoveryOffset[row] = content_.basis.offset[i];
-      for (Sparse::InnerIterator it(content_.basis.vectors, i); it; ++it)
+      for (Sparse::InnerIterator it(content_.basis.vectors.sparse(), i); it; ++it)
         entries.emplace_back(row, static_cast<int>(it.col()), it.value());
     }
     m.recovery.resize(all, size());

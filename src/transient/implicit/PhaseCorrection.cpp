@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/schemes/PhaseCorrection.hpp"
+#include "transient/implicit/PhaseCorrection.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "common/Types.hpp"
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/compiled/CompiledModel.hpp"
-#include "transient/schemes/StepScheme.hpp"
+#include "transient/implicit/StepScheme.hpp"
 
 namespace tooljoint::transient {
 

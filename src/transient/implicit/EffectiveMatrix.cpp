@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/schemes/EffectiveMatrix.hpp"
+#include "transient/implicit/EffectiveMatrix.hpp"
 
 #include <cmath>
 
 #include "common/Index.hpp"
-#include "transient/schemes/PhaseCorrection.hpp"
+#include "transient/implicit/PhaseCorrection.hpp"
 
 namespace tooljoint::transient {
 namespace {

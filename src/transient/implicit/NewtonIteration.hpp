@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The slow and safe way through an implicit step: modified Newton with exact tangents. The factor
+/// is renewed where convergence is slow, each update is backtracked on the scaled residual, and
+/// points whose force jumps are solved by themselves (CoupledPointSolve).
+#pragma once
+
+#include "transient/Integrator.hpp"
+#include "transient/contact/CoupledPointSolve.hpp"
+#include "transient/implicit/StepEquations.hpp"
+#include "transient/implicit/StepFactor.hpp"
+
+namespace tooljoint::transient {
+
+class NewtonIteration {
+ public:
+  /// All of them must outlive this.
+  void bind(CompiledModel& model, StepEquations& equations, StepFactor& factor,
+            Strategies& strategies, int maxIterations);
+  /// From a state whose linear residual is there; false on failure.
+  bool solve(State& to, const StepScheme& scheme, Counters& counters);
+
+ private:
+  bool isSlow(double rate) const;
+  void findChange();
+  bool backtrack(State& to);
+  bool solveTroubledPoints(State& to, double before);
+  void place(State& to, double fraction);
+  bool hasMissed(const State& to);
+
+  CompiledModel* model_ = nullptr;
+  StepEquations* equations_ = nullptr;
+  StepFactor* factor_ = nullptr;
+  Strategies* strategies_ = nullptr;
+  const StepScheme* scheme_ = nullptr;
+  Counters* counters_ = nullptr;
+  int maxIterations_ = 0;
+
+  bool fresh_ = false;  ///< the tangent in the factor is that of the current iterate
+  CoupledPointSolve nodal_;
+  int rescues_ = 0;        ///< its uses in this step
+  Vector delta_, change_;  ///< the update, and what it changes in the linear residual
+  Vector base_, otherDelta_, otherChange_;  ///< residual and update before the troubled points
+  struct {
+    Vector q, v, a, linear;
+  } start_;  ///< of the line search
+};
+
+}  // namespace tooljoint::transient
