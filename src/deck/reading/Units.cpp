@@ -76,6 +76,7 @@ std::vector<UnitSymbol> makeSymbols() {
   add(mass, "klb", 1e3 * pound, {"klbs"});
   add(time, "s", 1.0, {"sec", "second", "seconds"});
   add(time, "ms", 1e-3);
+  add(time, "us", 1e-6);
   add(time, "min", 60.0, {"minute", "minutes"});
   add(time, "h", 3600.0, {"hr", "hour", "hours"});
   add(angle, "rad", 1.0, {"radian", "radians"});

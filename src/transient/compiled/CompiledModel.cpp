@@ -200,6 +200,12 @@ std::vector<PointBatch> CompiledModel::makePoints() const {
   return batches;
 }
 
+bool CompiledModel::addMissed(const double* q, double t) {
+  bool missed = false;
+  for (auto& batch : points_) missed = batch.addMissed(q, t) || missed;
+  return cut().any(missed);
+}
+
 void CompiledModel::toPositions(const Vector& dofs, Vector& positions) const {
   positions = share_ != nullptr ? share_->pick(dofs) : inOrder(dofs);
 }

@@ -12,6 +12,7 @@
 /// and sums, maxima and norms are those of the whole (linalg::RankCut).
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -184,6 +185,8 @@ class CompiledModel {
   std::vector<PointBatch> makePoints() const;
   std::vector<PointBatch>& points() { return points_; }
   const std::vector<PointBatch>& points() const { return points_; }
+  /// PointBatch::addMissed() of all; true where any rank has such points. Collective.
+  bool addMissed(const double* q, double t = std::numeric_limits<double>::quiet_NaN());
 
   // States of point laws, one after the other in the order of points(); most models have none.
   int stateSize() const { return stateSize_; }

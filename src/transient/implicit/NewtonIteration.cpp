@@ -31,7 +31,7 @@ bool NewtonIteration::solve(State& to, const StepScheme& scheme, Counters& count
   int stalled = 0;
   for (int iteration = 0;; ++iteration) {
     if (equations.converged()) {
-      if (!hasMissed(to)) return true;
+      if (!model_->addMissed(to.q.data(), to.t)) return true;
       equations.measure(to);
       if (equations.converged()) return true;
     }
@@ -54,13 +54,6 @@ bool NewtonIteration::solve(State& to, const StepScheme& scheme, Counters& count
     if (isSlow(equations.merit() / before)) factor_->want();
     fresh_ = false;
   }
-}
-
-/// Whether points are looked at from now on that were not.
-bool NewtonIteration::hasMissed(const State& to) {
-  bool missed = false;
-  for (auto& batch : model_->points()) missed = batch.addMissed(to.q.data(), to.t) || missed;
-  return model_->cut().any(missed);
 }
 
 /// Whether a new factor is cheaper than going on at this rate of convergence.

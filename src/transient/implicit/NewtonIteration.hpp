@@ -26,7 +26,6 @@ class NewtonIteration {
   bool backtrack(State& to);
   bool solveTroubledPoints(State& to, double before);
   void place(State& to, double fraction);
-  bool hasMissed(const State& to);
 
   CompiledModel* model_ = nullptr;
   StepEquations* equations_ = nullptr;

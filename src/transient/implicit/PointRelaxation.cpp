@@ -41,7 +41,7 @@ bool PointRelaxation::solve(State& to, const StepScheme& scheme, Counters& count
   for (bool again = false;; again = true) {
     if (!settle(to, again)) return false;
     q_ = to.q + delta_;
-    if (!hasMissed(to.t)) break;
+    if (!model_->addMissed(q_.data(), to.t)) break;
   }
   move(to);
   return true;
@@ -51,13 +51,6 @@ void PointRelaxation::move(State& to) const {
   to.q += delta_;
   to.v = scheme_->velocity * delta_;
   to.a += scheme_->acceleration * delta_;
-}
-
-/// Whether points are looked at from now on that were not.
-bool PointRelaxation::hasMissed(double t) {
-  bool missed = false;
-  for (auto& batch : model_->points()) missed = batch.addMissed(q_.data(), t) || missed;
-  return model_->cut().any(missed);
 }
 
 /// The iteration itself: delta_. When it has been found before points were found to be missed, it

@@ -40,7 +40,6 @@ class PointRelaxation {
   double relaxOnce(const State& to, bool near, double norm);
   void findDrift();
   const Vector* otherForces(double norm);
-  bool hasMissed(double t);
 
   CompiledModel* model_ = nullptr;
   StepEquations* equations_ = nullptr;

@@ -42,11 +42,7 @@ void ExplicitRightHandSide::look(double t, double h, const double* q) {
   for (auto& batch : model_->points()) batch.look(t, h, q);
 }
 
-bool ExplicitRightHandSide::missed(const double* q) {
-  bool any = false;
-  for (auto& batch : model_->points()) any = batch.addMissed(q) || any;
-  return model_->cut().any(any);
-}
+bool ExplicitRightHandSide::missed(const double* q) { return model_->addMissed(q); }
 
 void RungeKuttaStep::resize(const State& like) {
   for (Vector* each : {&qi_, &vi_, &vj_, &a2_, &a3_, &a4_}) each->setZero(like.q.size());

@@ -21,7 +21,7 @@ namespace {
 
 deck::ListSpec rungeKutta4AdaptiveParameters() {
   return deck::ListSpec("RK4 adaptive", "Parameters of the adaptive Runge-Kutta integrator.")
-      .real("Tolerance", "", 1e-2, deck::Range::positive(),
+      .real("Tolerance", "", 1e-4, deck::Range::positive(),
             "Threshold e0 of the error of a step, a sum of norms in m, rad, m/s and rad/s.")
       .real("First Step", "s", 1e-5, deck::Range::positive(), "Length of the first step.")
       .expert()

@@ -184,6 +184,7 @@ const std::vector<ReferenceUnit> referenceUnits = {
     {"length", "m", "in", 0.0254, {"inch", "inches"}},
     {"length", "m", "kft", 304.8, {}},
     {"length", "m", "um", 1e-6, {}},
+    {"time", "s", "us", 1e-6, {}},
     {"mass", "kg", "kg", 1.0, {}},
     {"mass", "kg", "g", 0.001, {}},
     {"mass", "kg", "t", 1000.0, {"tonne", "tonnes"}},
