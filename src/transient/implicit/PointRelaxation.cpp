@@ -43,11 +43,11 @@ bool PointRelaxation::solve(State& to, const StepScheme& scheme, Counters& count
     q_ = to.q + delta_;
     if (!model_->addMissed(q_.data(), to.t)) break;
   }
-  move(to);
+  complete(to);
   return true;
 }
 
-void PointRelaxation::move(State& to) const {
+void PointRelaxation::complete(State& to) const {
   to.q += delta_;
   to.v = scheme_->velocity * delta_;
   to.a += scheme_->acceleration * delta_;

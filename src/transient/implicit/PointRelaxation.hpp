@@ -28,7 +28,7 @@ class PointRelaxation {
   /// was, when it does not get there.
   bool solve(State& to, const StepScheme& scheme, Counters& counters);
   /// From `to` as it was to where the iteration stopped.
-  void move(State& to) const;
+  void complete(State& to) const;
 
   void save(std::vector<double>& memory) const { points_.save(memory); }
   void restore(const double*& memory, const StepScheme& scheme);

@@ -50,7 +50,7 @@ bool ImplicitStep::finish(State& to, Counters& counters) {
   predicted_ = to;
   predict(predicted_);
   if (equations_.error() <= equations_.reference()) {  // relaxation got somewhere
-    relaxation_.move(to);
+    relaxation_.complete(to);
     equations_.linearise(to);
     if (factor_.phase().isTaken()) equations_.linear() -= factor_.phase().force();
     if (newton_.solve(to, scheme_, counters)) return true;
