@@ -63,15 +63,15 @@ Truncated truncatedPart(const model::Substructure& part, const reduction::Basis&
   const auto rows = [&](const Sparse& all, const std::vector<int>& wanted) {
     return Matrix(reduction::block(all, interior, wanted));
   };
-  const Matrix r = rows(Sparse(A * basis.vectors), columns.others);
-  Matrix flexible = linalg::DirectSolver(inner).solve(r);
-  if (!columns.modes.empty()) {
-    const Matrix W = rows(basis.vectors, columns.modes);
-    const Matrix projected = W.transpose() * (inner * W);
+  const Matrix W = rows(basis.vectors, columns.modes);
+  const Matrix projected = W.transpose() * (inner * W);
+  if (W.cols() > 0)
     result.negative -=
         negativeEigenvalues(Sparse(0.5 * (projected + projected.transpose()).sparseView()));
-    flexible -= W * projected.partialPivLu().solve(W.transpose() * r);
-  }
+  if (columns.others.empty()) return result;
+  const Matrix r = rows(Sparse(A * basis.vectors), columns.others);
+  Matrix flexible = linalg::DirectSolver(inner).solve(r);
+  if (W.cols() > 0) flexible -= W * projected.partialPivLu().solve(W.transpose() * r);
   const Matrix correction = r.transpose() * flexible;
   result.correction = 0.5 * (correction + correction.transpose());
   return result;

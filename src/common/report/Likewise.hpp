@@ -11,12 +11,18 @@
 
 namespace tooljoint {
 
-/// A sentence without digits, points and signs.
+/// A sentence without its numbers: digits, points and signs, and the e of an exponent.
 inline std::string withoutNumbers(const std::string& text) {
+  const auto isDigit = [](char letter) {
+    return std::isdigit(static_cast<unsigned char>(letter)) != 0;
+  };
   std::string out;
-  for (const char letter : text) {
-    const bool digit = std::isdigit(static_cast<unsigned char>(letter)) != 0;
-    if (!digit && letter != '.' && letter != '-' && letter != '+') out += letter;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char letter = text[i];
+    const bool exponent = letter == 'e' && i > 0 && isDigit(text[i - 1]) && i + 1 < text.size() &&
+                          (isDigit(text[i + 1]) || text[i + 1] == '-' || text[i + 1] == '+');
+    if (!isDigit(letter) && !exponent && letter != '.' && letter != '-' && letter != '+')
+      out += letter;
   }
   return out;
 }
