@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/report/StageTimes.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/GrowingKrylov.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/trilinos/ProportionalModes.hpp"
@@ -165,29 +169,33 @@ double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer&
   return shift;
 }
 
-/// One mode of each independent motion at zero: a free body without damping has every one of them
-/// twice, in a Jordan chain.
-void dropRepeatedZeros(std::vector<Complex>& values, std::vector<ComplexVector>& vectors,
-                       std::size_t zeros) {
+/// One mode of each independent motion at zero, the first ones of `values`. A free body without
+/// damping has every one of them twice, in a Jordan chain, which rounding tears into two values
+/// with nearly the same vector. These vectors span the motions, but any two of them may be nearly
+/// parallel: their singular vectors are taken, of half as many as there are at least.
+void keepIndependentZeros(const ShiftedInverse& inverse, std::vector<Complex>& values,
+                          std::vector<ComplexVector>& vectors) {
+  const auto firstOther =
+      std::find_if(values.begin(), values.end(), [](Complex s) { return s != 0.0; });
+  const auto zeros = std::distance(values.begin(), firstOther);
   if (zeros < 2) return;
-  const auto n = vectors.front().size();
-  Eigen::MatrixXcd orthonormal(n, 0);
-  std::vector<Complex> keptValues;
-  std::vector<ComplexVector> keptVectors;
-  constexpr double dependent = 1e-3;  // chains part by the root of rounding
-  for (std::size_t j = 0; j < values.size(); ++j) {
-    if (j < zeros) {
-      ComplexVector fresh = vectors[j].normalized();
-      for (int pass = 0; pass < 2; ++pass) fresh -= orthonormal * (orthonormal.adjoint() * fresh);
-      if (fresh.norm() < dependent) continue;
-      orthonormal.conservativeResize(n, orthonormal.cols() + 1);
-      orthonormal.rightCols(1) = fresh.normalized();
-    }
-    keptValues.push_back(values[j]);
-    keptVectors.push_back(vectors[j]);
+  std::vector<Vector> columns;
+  for (auto phi = vectors.begin(); phi != vectors.begin() + zeros; ++phi) {
+    columns.push_back(phi->real().normalized());
+    if (!phi->imag().isZero(0.0)) columns.push_back(phi->imag().normalized());
   }
-  values = std::move(keptValues);
-  vectors = std::move(keptVectors);
+  Matrix all(columns.front().size(), sizeOf(columns));
+  for (int j = 0; j < all.cols(); ++j) all.col(j) = columns[at(j)];
+  const auto svd = jacobiSvd(all, Eigen::ComputeThinU);
+  constexpr double dependent = 1e-3;  // chains part by the root of rounding
+  const auto large = (svd.values.array() > dependent * svd.values[0]).count();
+  const Eigen::Index kept = std::max<Eigen::Index>(large, (all.cols() + 1) / 2);
+  vectors.erase(vectors.begin(), vectors.begin() + zeros);
+  values.erase(values.begin(), firstOther);
+  for (Eigen::Index j = kept - 1; j >= 0; --j) {
+    vectors.insert(vectors.begin(), inverse.again(0.0, svd.U.col(j).cast<Complex>()));
+    values.insert(values.begin(), 0.0);
+  }
 }
 
 /// Where a mode is to be looked for: a real value of a singular mass at the massless dof that
@@ -234,14 +242,12 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
           scientific(s.imag()) + " i) has a relative error of " + scientific(error) + " where " +
           scientific(acceptedError + rounding) + " is allowed." + placeOf(pencil, s, better, name));
     if (refined) s = refined->s, better = refined->shape;
-    if (isZero(pencil, s, better)) {
-      s = 0;
-      zeros = out.values.size() + 1;
-    }
-    out.values.push_back(s);
-    out.vectors.push_back(std::move(better));
+    const bool zero = isZero(pencil, s, better);
+    const auto place = zero ? zeros++ : out.values.size();
+    out.values.insert(out.values.begin() + static_cast<std::ptrdiff_t>(place), zero ? 0.0 : s);
+    out.vectors.insert(out.vectors.begin() + static_cast<std::ptrdiff_t>(place), std::move(better));
   }
-  dropRepeatedZeros(out.values, out.vectors, zeros);
+  keepIndependentZeros(inverse, out.values, out.vectors);
   return out;
 }
 
