@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSet{"Transient/Step=abc",
                "/well/Transient/Step: value=\"abc\" does not begin with a number; expected is a "
                "number and a unit such as \"s\", "
-               "\"ms\", \"min\", \"h\"."},
+               "\"ms\", \"us\", \"min\", \"h\"."},
         BadSet{"Transient/Step=",
                "/well/Transient/Step: value=\"\" is empty; a number is expected."},
         BadSet{"Transient/Step=1,5",
@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSet{"Transient/Step=1 mm",
                "/well/Transient/Step: value=\"1 mm\" has the unit \"mm\", which is not a unit of "
                "the expected quantity (s); expected is a number and a unit such as \"s\", \"ms\", "
-               "\"min\", \"h\"."},
+               "\"us\", \"min\", \"h\"."},
         BadSet{
             "Contact/Friction=0.5 m",
             "/well/Contact/Friction: value=\"0.5 m\" is not a number: this parameter has no unit."},
