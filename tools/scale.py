@@ -142,6 +142,10 @@ def rival(options, folder, count):
     return row
 
 
+def seconds(x):
+    return f"{x:.3g}" if x < 1000 else f"{x:.0f}"
+
+
 def cut_row(options, counts, ranks):
     """A line of the table of cut blocks."""
     folder, dofs, _ = block_of(options, counts, -1)
@@ -156,13 +160,13 @@ def cut_row(options, counts, ranks):
     with open(pathlib.Path(options.work) / name / "out/modes.csv", encoding="utf-8") as file:
         modes = list(csv.DictReader(file))
     estimate = max(float(mode["estimate"]) for mode in modes)
-    own = dofs, ranks, f"{row['wall_s']:.3g}", f"{row['memory_mb']:.0f}"
+    own = dofs, ranks, seconds(row["wall_s"]), f"{row['memory_mb']:.0f}"
     if dofs > CUT_WHOLE:
         return (*own, "", f"{estimate:.1e}", "", "")
     whole = rival(options, folder, MODES)
     hertz = [float(mode["coupled [Hz]"]) for mode in modes]
     error = max(abs(a / b - 1) for a, b in zip(hertz, whole["hertz"]))
-    return (*own, f"{error:.1e}", f"{estimate:.1e}", f"{whole['wall_s']:.3g}", f"{whole['memory_mb']:.0f}")
+    return (*own, f"{error:.1e}", f"{estimate:.1e}", seconds(whole["wall_s"]), f"{whole['memory_mb']:.0f}")
 
 
 def cuts(options):
@@ -183,7 +187,7 @@ def times(row):
     if row["code"] != 0:
         last = [line for line in row["output"].splitlines() if line.strip()]
         return f"exit code {row['code']}: {last[-1] if last else ''}", "", ""
-    return f"{row['wall_s']:.3g}", f"{row['cpu_s']:.3g}", f"{row['memory_mb']:.0f}"
+    return seconds(row["wall_s"]), seconds(row["cpu_s"]), f"{row['memory_mb']:.0f}"
 
 
 def solids(options, chosen):
