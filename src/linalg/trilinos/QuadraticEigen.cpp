@@ -128,16 +128,16 @@ struct Upper {
   }
 };
 
-/// The largest of the lowest `wanted` |s|: of a singular mass the largest that vibrates. What has
+/// The largest of the lowest `wanted` |s|: of a singular mass of those that vibrate. What has
 /// damping alone relaxes at -k/c, as far out as its damping is small, and beside that all others
-/// would seem to be rigid-body motions.
+/// would seem to be rigid-body motions; and these, twice each, may be all of the lowest.
 double farWanted(const ScaledPencil& pencil, const Upper& found, std::size_t wanted) {
-  const auto last = std::min(found.s.size(), wanted);
   double far = 0;
+  std::size_t counted = 0;
   if (pencil.singularMass)
-    for (std::size_t j = 0; j < last; ++j)
-      if (found.s[j].imag() != 0.0) far = std::max(far, std::abs(found.s[j]));
-  return far > 0 ? far : std::abs(found.s[last - 1]);
+    for (std::size_t j = 0; j < found.s.size() && counted < wanted; ++j)
+      if (found.s[j].imag() != 0.0) far = std::max(far, std::abs(found.s[j])), ++counted;
+  return far > 0 ? far : std::abs(found.s[std::min(found.s.size(), wanted) - 1]);
 }
 
 /// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 tells the wanted values
@@ -181,8 +181,10 @@ void keepIndependentZeros(const ShiftedInverse& inverse, std::vector<Complex>& v
   if (zeros < 2) return;
   std::vector<Vector> columns;
   for (auto phi = vectors.begin(); phi != vectors.begin() + zeros; ++phi) {
-    columns.push_back(phi->real().normalized());
-    if (!phi->imag().isZero(0.0)) columns.push_back(phi->imag().normalized());
+    // of a real shape times a complex number one part may be rounding: it must stay as small
+    const ComplexVector unit = phi->normalized();
+    columns.push_back(unit.real());
+    if (!unit.imag().isZero(0.0)) columns.push_back(unit.imag());
   }
   Matrix all(columns.front().size(), sizeOf(columns));
   for (int j = 0; j < all.cols(); ++j) all.col(j) = columns[at(j)];

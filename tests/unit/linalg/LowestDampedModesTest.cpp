@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <string>
 #include <utility>
@@ -282,6 +283,32 @@ TEST(LowestDampedModes, InfiniteValuesAreNoModes) {
         EXPECT_LT(modes.residuals[j], 1e-10) << g << turned << j;
       }
     }
+}
+
+/// K = B'B has as many motions at zero as B has columns more than rows, each twice in a chain: all
+/// of them are listed, once, with K phi = 0, whatever rounding makes of the chains.
+TEST(LowestDampedModes, AllMotionsAtZeroOfABodyWithMasslessDofsAreFound) {
+  const int n = 46, massless = 4, zeros = 6, count = 10;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::srand(seed);
+    const Matrix B = Matrix::Random(n - zeros, n);
+    const Matrix K = B.transpose() * B;
+    Matrix M = Vector::LinSpaced(n, 0.5, 2.0).asDiagonal();
+    M.bottomRightCorner(massless, massless).setZero();
+    const auto modes = lowestDampedModes(sparse(M), Sparse(n, n), sparse(K), count);
+    ASSERT_EQ(modes.values.size(), count) << seed;
+    Eigen::MatrixXcd shapes = modes.vectors.leftCols(zeros);
+    for (int j = 0; j < count; ++j) {
+      if (j >= zeros) {
+        EXPECT_GT(std::abs(modes.values[j]), 1e-3) << seed << ", mode " << j;
+        continue;
+      }
+      EXPECT_EQ(modes.values[j], 0.0) << seed << ", mode " << j;
+      shapes.col(j).normalize();
+      EXPECT_LT((K * shapes.col(j)).norm(), 1e-9 * K.norm()) << seed << ", mode " << j;
+    }
+    EXPECT_GT(singularValues(shapes).minCoeff(), 1e-3) << seed;  // independent
+  }
 }
 
 /// All finite s with Im s >= 0, by |s|, of a pencil whose dofs have mass, only damping, or neither:
