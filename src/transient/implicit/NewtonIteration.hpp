@@ -7,16 +7,14 @@
 
 #include "transient/Integrator.hpp"
 #include "transient/contact/CoupledPointSolve.hpp"
-#include "transient/implicit/StepEquations.hpp"
-#include "transient/implicit/StepFactor.hpp"
+#include "transient/implicit/StepParts.hpp"
 
 namespace tooljoint::transient {
 
 class NewtonIteration {
  public:
-  /// All of them must outlive this.
-  void bind(CompiledModel& model, StepEquations& equations, StepFactor& factor,
-            Strategies& strategies, int maxIterations);
+  /// What the parts are must outlive this.
+  void bind(const StepParts& parts);
   /// From a state whose linear residual is there; false on failure.
   bool solve(State& to, const StepScheme& scheme, Counters& counters);
 
@@ -27,13 +25,9 @@ class NewtonIteration {
   bool solveTroubledPoints(State& to, double before);
   void place(State& to, double fraction);
 
-  CompiledModel* model_ = nullptr;
-  StepEquations* equations_ = nullptr;
-  StepFactor* factor_ = nullptr;
-  Strategies* strategies_ = nullptr;
+  StepParts parts_;
   const StepScheme* scheme_ = nullptr;
   Counters* counters_ = nullptr;
-  int maxIterations_ = 0;
 
   bool fresh_ = false;  ///< the tangent in the factor is that of the current iterate
   CoupledPointSolve nodal_;

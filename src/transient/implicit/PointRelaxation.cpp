@@ -7,27 +7,22 @@
 
 namespace tooljoint::transient {
 
-void PointRelaxation::bind(CompiledModel& model, StepEquations& equations, StepFactor& factor,
-                           Strategies& strategies, int maxIterations) {
-  model_ = &model;
-  equations_ = &equations;
-  factor_ = &factor;
-  strategies_ = &strategies;
-  maxIterations_ = maxIterations;
-  points_.bind(model, strategies);
-  for (Vector* x : {&delta_, &q_, &guess_, &drift_, &others_}) x->setZero(model.size());
-  possible_ = strategies.has(Strategy::Relaxation);
-  for (const auto& batch : model.points())
+void PointRelaxation::bind(const StepParts& parts) {
+  parts_ = parts;
+  points_.bind(*parts.model, *parts.strategies);
+  for (Vector* x : {&delta_, &q_, &guess_, &drift_, &others_}) x->setZero(parts.model->size());
+  possible_ = parts.strategies->has(Strategy::Relaxation);
+  for (const auto& batch : parts.model->points())
     possible_ = possible_ && batch.width() <= ContactForceIteration::widest;
 }
 
 void PointRelaxation::prepare(const StepScheme& scheme) {
-  points_.setWeights(equations_->weight());
+  points_.setWeights(parts_.equations->weight());
   if (possible_) points_.setImpacts(scheme.h, scheme.impact);
 }
 
 void PointRelaxation::restore(const double*& memory, const StepScheme& scheme) {
-  if (scheme.h > 0) points_.setWeights(equations_->weight());
+  if (scheme.h > 0) points_.setWeights(parts_.equations->weight());
   points_.restore(memory);
   if (scheme.h > 0) points_.setImpacts(scheme.h, scheme.impact);
 }
@@ -35,13 +30,13 @@ void PointRelaxation::restore(const double*& memory, const StepScheme& scheme) {
 bool PointRelaxation::solve(State& to, const StepScheme& scheme, Counters& counters) {
   scheme_ = &scheme;
   counters_ = &counters;
-  if (compliance_ != factor_->number()) points_.setCompliance(factor_->factor());
-  compliance_ = factor_->number();
-  points_.start(to.q, equations_->linear());
+  if (compliance_ != parts_.factor->number()) points_.setCompliance(parts_.factor->factor());
+  compliance_ = parts_.factor->number();
+  points_.start(to.q, parts_.equations->linear());
   for (bool again = false;; again = true) {
     if (!settle(to, again)) return false;
     q_ = to.q + delta_;
-    if (!model_->addMissed(q_.data(), to.t)) break;
+    if (!parts_.model->addMissed(q_.data(), to.t)) break;
   }
   complete(to);
   return true;
@@ -57,8 +52,9 @@ void PointRelaxation::complete(State& to) const {
 /// goes on from there, at these points first.
 bool PointRelaxation::settle(const State& to, bool again) {
   const double c = scheme_->velocity;
-  const double norm = factor_->matrix().hasDrifted() ? factor_->matrix().driftNorm(*scheme_) : 0.0;
-  const double negligible = Tuned::rightEnough * equations_->tolerance();
+  const double norm =
+      parts_.factor->matrix().hasDrifted() ? parts_.factor->matrix().driftNorm(*scheme_) : 0.0;
+  const double negligible = Tuned::rightEnough * parts_.equations->tolerance();
   bool changed = false, near = false, phase = false;
   if (again)
     changed = join(to);
@@ -67,45 +63,45 @@ bool PointRelaxation::settle(const State& to, bool again) {
   double last = 0, work = again ? 0 : 1;
   int turn = -1;  // of the colours, once points take turns
   int idle = 0;   // pairs of sweeps in a row without progress
-  for (int iteration = 1; turn >= 0 || iteration <= maxIterations_; ++iteration) {
+  for (int iteration = 1; turn >= 0 || iteration <= parts_.maxIterations; ++iteration) {
     const bool joins = again && iteration == 1;
     if (!joins) {
       work += relaxOnce(to, near, norm);
       changed = false;
     }
-    const double error = equations_->error();
-    bool good = equations_->converged() && !joins && !phase;
-    if (phase && (equations_->converged() || points_.wrongShare() <= Tuned::counted)) {
-      factor_->phase().take(*scheme_, to.a, delta_);
+    const double error = parts_.equations->error();
+    bool good = parts_.equations->converged() && !joins && !phase;
+    if (phase && (parts_.equations->converged() || points_.wrongShare() <= Tuned::counted)) {
+      parts_.factor->phase().take(*scheme_, to.a, delta_);
       phase = false;
       changed = true;
     }
     if (norm > 0 &&
-        norm * model_->cut().largest((delta_ - guess_).cwiseAbs().maxCoeff()) > negligible) {
+        norm * parts_.model->cut().largest((delta_ - guess_).cwiseAbs().maxCoeff()) > negligible) {
       guess_ = delta_;
       findDrift();
-      factor_->charge(Tuned::driftPrice);
+      parts_.factor->charge(Tuned::driftPrice);
       changed = true;
       good = false;
     }
     if (good) {
-      factor_->account(work);
+      parts_.factor->account(work);
       return true;
     }
     if (!std::isfinite(error)) return false;
     if (turn < 0 && iteration % Tuned::colours == 0) {
       if (iteration > Tuned::colours && error > Tuned::slowestRelaxation * last) {
-        if (!strategies_->use(Strategy::Turns)) return false;
+        if (!parts_.strategies->use(Strategy::Turns)) return false;
         turn = 0;
       }
       last = error;
     } else if (turn > 0 && turn % (2 * Tuned::colours) == 0) {
       idle = error > Tuned::progress * last ? idle + 1 : 0;
-      if (turn >= Tuned::colours * maxIterations_ || idle > Tuned::mostIdle) return false;
+      if (turn >= Tuned::colours * parts_.maxIterations || idle > Tuned::mostIdle) return false;
       last = error;
     }
-    near = turn < 0 ? points_.correct(to.t, c, equations_->tolerance(), changed)
-                    : points_.sweepEveryFourth(to.t, c, equations_->tolerance(),
+    near = turn < 0 ? points_.correct(to.t, c, parts_.equations->tolerance(), changed)
+                    : points_.sweepEveryFourth(to.t, c, parts_.equations->tolerance(),
                                                turn++ % Tuned::colours) &&
                           !changed;
     if (!near) work += 1.0;
@@ -122,23 +118,23 @@ bool PointRelaxation::begin(const State& to, double norm) {
   points_.guess(to.t, c, to.v);
   if (norm > 0) {
     guess_ = to.v / c;
-    if (norm * model_->largest(guess_) > Tuned::rightEnough * equations_->tolerance())
+    if (norm * parts_.model->largest(guess_) > Tuned::rightEnough * parts_.equations->tolerance())
       findDrift();
     else
       guess_.setZero(), drift_.setZero();
   }
-  factor_->phase().leaveOut();
-  return factor_->phase().applies(*scheme_);
+  parts_.factor->phase().leaveOut();
+  return parts_.factor->phase().applies(*scheme_);
 }
 
 /// Take in the points that were missed; the phase correction stays as it is, since they have only
 /// just touched. True when one of them is an impact and there is none to be after all.
 bool PointRelaxation::join(const State& to) {
-  double force = equations_->reference();
+  double force = parts_.equations->reference();
   const double error =
-      points_.join(to.t, scheme_->velocity, delta_, equations_->tolerance(), force);
-  equations_->take(error, force);
-  PhaseCorrection& phase = factor_->phase();
+      points_.join(to.t, scheme_->velocity, delta_, parts_.equations->tolerance(), force);
+  parts_.equations->take(error, force);
+  PhaseCorrection& phase = parts_.factor->phase();
   if (!phase.isTaken() || phase.applies(*scheme_)) return false;
   phase.leaveOut();
   return true;
@@ -148,29 +144,29 @@ bool PointRelaxation::join(const State& to) {
 double PointRelaxation::relaxOnce(const State& to, bool near, double norm) {
   double work = 0;
   if (near) {
-    strategies_->count(Strategy::NearSolves);
-    points_.solveNear(factor_->factor(), equations_->tolerance(), delta_);
+    parts_.strategies->count(Strategy::NearSolves);
+    points_.solveNear(parts_.factor->factor(), parts_.equations->tolerance(), delta_);
     work = points_.nearShare();
   } else {
-    points_.solve(factor_->factor(), otherForces(norm), delta_);
+    points_.solve(parts_.factor->factor(), otherForces(norm), delta_);
   }
   ++counters_->newtonIterations;
-  double force = near ? equations_->reference() : equations_->linearReference();
+  double force = near ? parts_.equations->reference() : parts_.equations->linearReference();
   const double error =
-      points_.evaluate(to.t, scheme_->velocity, delta_, equations_->tolerance(), force);
-  equations_->take(error, force);
+      points_.evaluate(to.t, scheme_->velocity, delta_, parts_.equations->tolerance(), force);
+  parts_.equations->take(error, force);
   return work;
 }
 
 /// drift_ = (S(now) - S(then)) guess_
 void PointRelaxation::findDrift() {
   drift_.setZero();
-  factor_->matrix().addDrift(*scheme_, guess_, drift_);
+  parts_.factor->matrix().addDrift(*scheme_, guess_, drift_);
 }
 
 /// What acts beside the linear residual and the points, if anything.
 const Vector* PointRelaxation::otherForces(double norm) {
-  const PhaseCorrection& phase = factor_->phase();
+  const PhaseCorrection& phase = parts_.factor->phase();
   if (!(norm > 0)) return phase.isTaken() ? &phase.force() : nullptr;
   others_ = -drift_;
   if (phase.isTaken()) others_ += phase.force();

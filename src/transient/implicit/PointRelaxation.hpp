@@ -10,16 +10,14 @@
 
 #include "transient/Integrator.hpp"
 #include "transient/contact/ContactForceIteration.hpp"
-#include "transient/implicit/StepEquations.hpp"
-#include "transient/implicit/StepFactor.hpp"
+#include "transient/implicit/StepParts.hpp"
 
 namespace tooljoint::transient {
 
 class PointRelaxation {
  public:
-  /// All of them must outlive this.
-  void bind(CompiledModel& model, StepEquations& equations, StepFactor& factor,
-            Strategies& strategies, int maxIterations);
+  /// What the parts are must outlive this.
+  void bind(const StepParts& parts);
   /// Not where it is left out, or a point has too many coordinates.
   bool isPossible() const { return possible_; }
   /// The scheme or its step changed.
@@ -41,13 +39,9 @@ class PointRelaxation {
   void findDrift();
   const Vector* otherForces(double norm);
 
-  CompiledModel* model_ = nullptr;
-  StepEquations* equations_ = nullptr;
-  StepFactor* factor_ = nullptr;
-  Strategies* strategies_ = nullptr;
+  StepParts parts_;
   const StepScheme* scheme_ = nullptr;
   Counters* counters_ = nullptr;
-  int maxIterations_ = 0;
 
   ContactForceIteration points_;
   bool possible_ = false;

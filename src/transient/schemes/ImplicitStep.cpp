@@ -9,8 +9,9 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
   strategies_.leaveOut(options.without);
   equations_.bind(model, options.tolerance);
   factor_.bind(model);
-  relaxation_.bind(model, equations_, factor_, strategies_, options.maxIterations);
-  newton_.bind(model, equations_, factor_, strategies_, options.maxIterations);
+  const StepParts parts{&model, &equations_, &factor_, &strategies_, options.maxIterations};
+  relaxation_.bind(parts);
+  newton_.bind(parts);
 }
 
 void ImplicitStep::prepare(const StepScheme& scheme, double t) {

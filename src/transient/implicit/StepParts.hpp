@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "transient/implicit/StepEquations.hpp"
+#include "transient/implicit/StepFactor.hpp"
+
+namespace tooljoint::transient {
+
+/// What the iterations of an implicit step share, and at most so many of them.
+struct StepParts {
+  CompiledModel* model = nullptr;
+  StepEquations* equations = nullptr;
+  StepFactor* factor = nullptr;
+  Strategies* strategies = nullptr;
+  int maxIterations = 0;
+};
+
+}  // namespace tooljoint::transient
