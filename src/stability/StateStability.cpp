@@ -6,10 +6,12 @@
 #include <complex>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "common/Constants.hpp"
+#include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/EvaluationCounters.hpp"
@@ -77,6 +79,28 @@ std::vector<linalg::DampedMode> growingModes(const estimate::Linearised& tangent
   return growing;
 }
 
+/// Modes of the whole equations nearest to a projected one that Newton's method does not refine.
+constexpr int nearestModes = 6;
+
+/// What a growing mode of the projection stands for in the whole equations: the mode it is refined
+/// to, else the one that grows fastest of those nearest to it. Nothing where these could not be
+/// found.
+std::optional<linalg::DampedMode> ofWholeEquations(const estimate::Linearised& tangent,
+                                                   const linalg::DampedMode& ritz) {
+  const Sparse &M = tangent.mass, &C = tangent.damping, &K = tangent.stiffness;
+  if (auto exact = linalg::refine(M, C, K, ritz)) return exact;
+  try {
+    const auto near = linalg::dampedModesNear(
+        M, C, K, {{ritz.s.real(), std::abs(ritz.s.imag())}, 0.0, nearestModes});
+    if (near.values.size() == 0) return std::nullopt;
+    Eigen::Index fastest = 0;
+    near.values.real().maxCoeff(&fastest);
+    return linalg::DampedMode{near.values[fastest], near.vectors.col(fastest)};
+  } catch (const ConvergenceError&) {
+    return std::nullopt;
+  }
+}
+
 /// A chain of which a rank would have fewer dofs than this is left to all ranks alike.
 constexpr int fewestDofs = 2000;
 
@@ -96,17 +120,20 @@ std::shared_ptr<const linalg::ChainShare> shareOf(const model::SecondOrderModel&
   return linalg::ChainShare::of(linalg::firstRows(nodeOf), fewestDofs);
 }
 
-ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape) {
-  using Translation = Eigen::Matrix<double, 1, 3>;
+/// Translations [m] below this part of the largest entry [rad] belong to a torsional mode.
+constexpr double leastShare = 1e-3;
+
+/// Of the translations, or of the rotations, of a shape; empty where they are no part of it.
+ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape,
+                       coupling::ComponentKind kind) {
+  using Motion = Eigen::Matrix<double, 1, 6>;
   const auto& names = model.componentNames;
-  std::map<std::int64_t, Translation> nodes;
+  std::map<std::int64_t, Motion> nodes;
   for (std::size_t i = 0; i < model.dofs.size(); ++i) {
     const auto& dof = model.dofs[i];
-    if (dof.kind != model::DofLabel::Kind::Physical || dof.component >= 3) continue;
-    if (coupling::kindOf(names[static_cast<std::size_t>(dof.component)]) !=
-        coupling::ComponentKind::Translation)
-      continue;
-    auto& d = nodes.try_emplace(dof.entity, Translation::Zero()).first->second;
+    if (dof.kind != model::DofLabel::Kind::Physical || dof.component >= 6) continue;
+    if (coupling::kindOf(names[static_cast<std::size_t>(dof.component)]) != kind) continue;
+    auto& d = nodes.try_emplace(dof.entity, Motion::Zero()).first->second;
     d[dof.component] = shape[static_cast<Eigen::Index>(i)];
   }
   ShapeOutline found;
@@ -115,7 +142,7 @@ ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape
       nodes.begin(), nodes.end(),
       [](const auto& a, const auto& b) { return a.second.squaredNorm() < b.second.squaredNorm(); });
   const double largest = widest->second.norm();
-  if (!(largest > 0.0)) return found;
+  if (largest < leastShare * shape.cwiseAbs().maxCoeff()) return found;
   double last = 0.0;
   for (const auto& [node, d] : nodes) {
     const double along = d.dot(widest->second) / largest;
@@ -128,6 +155,12 @@ ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape
   found.node = widest->first;
   found.component = names[static_cast<std::size_t>(component)];
   return found;
+}
+
+ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape) {
+  using coupling::ComponentKind;
+  const auto moved = outlineOf(model, shape, ComponentKind::Translation);
+  return moved.node != 0 ? moved : outlineOf(model, shape, ComponentKind::Rotation);
 }
 
 }  // namespace
@@ -167,7 +200,7 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   count("modes of the static state", modes.count());
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
   for (const auto& ritz : growingModes(tangent, modes.vectors)) {
-    const auto exact = linalg::refine(tangent.mass, tangent.damping, tangent.stiffness, ritz);
+    const auto exact = ofWholeEquations(tangent, ritz);
     const auto& mode = exact ? *exact : ritz;
     if (!isGrowth(mode.s)) continue;
     found.refined = exact.has_value();

@@ -12,10 +12,10 @@
 
 namespace tooljoint::stability {
 
-/// Where a shape is largest, and how often it changes sign in the direction it has there; nodes in
-/// the order of their labels.
+/// Where a shape is largest, and how often it changes sign in the direction it has there, by its
+/// translations, of a torsional mode by its rotations; nodes in the order of their labels.
 struct ShapeOutline {
-  std::int64_t node = 0;  ///< label of the node that moves most; 0 where nothing translates
+  std::int64_t node = 0;  ///< label of the node that moves most; 0 where nothing moves
   std::string component;  ///< component that moves most there
   int halfWaves = 0;
 };
@@ -57,7 +57,8 @@ constexpr double slowestGrowth = 1e-3;
 /// by Sylvester's law of inertia. Where there are some, or where friction or skew stiffness can
 /// make a motion grow without them, the damped equations are projected on the lowest modes of the
 /// symmetric tangent, and a growing mode found there is refined with the whole equations; where the
-/// refinement does not converge, the projected mode is kept (`refined` false). Growth that needs
+/// refinement does not converge, those of their modes that are nearest decide, and where they are
+/// not found, the projected mode is kept (`refined` false). Growth that needs
 /// motions beyond these modes, or the states of point laws, is not seen (`tooljoint modes` lists
 /// more modes). The cost is linear in the
 /// number of dofs. ModelError, ConvergenceError: the pivots could not be counted or the modes not
