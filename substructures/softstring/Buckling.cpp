@@ -22,7 +22,8 @@ double leastRoot(const well::WellPoint& point, double weight, double ratio, doub
   const auto excess = [&](double F) {
     return F * F - factor * factor * ratio * sideForce(point, -F, weight);
   };
-  const double scale = factor * std::sqrt(ratio * weight) + ratio * point.curvature.norm();
+  const double scale =
+      factor * std::sqrt(ratio * std::abs(weight)) + ratio * point.curvature.norm();
   double low = 0.0, high = 1e-4 * scale;
   while (excess(high) < 0.0 && high < most * scale) low = high, high *= growth;
   if (excess(high) < 0.0) return std::numeric_limits<double>::infinity();

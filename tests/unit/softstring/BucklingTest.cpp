@@ -52,6 +52,15 @@ TEST(Buckling, IsLaterInABuild) {
   EXPECT_NEAR(bucklingLimits(point, weight, EI, r).sinusoidal, F, 1e-9 * F);
 }
 
+/// The mud presses a string that is lighter against the upper side as hard as weight would.
+TEST(Buckling, OfALightStringInHeavyMud) {
+  const auto point = well::straight(100, 60 * degree)->at(50);
+  const auto heavy = bucklingLimits(point, weight, EI, r),
+             light = bucklingLimits(point, -weight, EI, r);
+  EXPECT_NEAR(light.sinusoidal, heavy.sinusoidal, 1e-9 * heavy.sinusoidal);
+  EXPECT_NEAR(light.helical, heavy.helical, 1e-9 * heavy.helical);
+}
+
 TEST(Buckling, NeedsClearance) {
   const auto point = well::straight(100, 1.0)->at(50);
   EXPECT_TRUE(std::isinf(bucklingLimits(point, weight, EI, 0.0).sinusoidal));
