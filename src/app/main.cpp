@@ -4,6 +4,7 @@
 /// sentence and its exit code.
 #include <CLI/CLI.hpp>
 #include <Tpetra_Core.hpp>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -39,6 +40,24 @@ int code(ExitCode exit) { return static_cast<int>(exit); }
 void say(std::ostream& out, const std::string& text) {
   if (tooljoint::parallel::rank() == 0) out << text << std::flush;
 }
+
+/// Numbers that an option takes; the validators of CLI tell their bounds with 300 digits, and take
+/// "nan".
+CLI::Validator finiteNumber(const std::string& expected, bool (*good)(double)) {
+  return CLI::Validator(
+      [expected, good](std::string& text) {
+        double value = 0.0;
+        const bool read = CLI::detail::lexical_cast(text, value);
+        return read && std::isfinite(value) && good(value)
+                   ? std::string()
+                   : tooljoint::inQuotes(text) + " was given; expected is " + expected + ".";
+      },
+      "");
+}
+const auto anyNumber = finiteNumber("a number", [](double) { return true; });
+const auto aboveZero = finiteNumber("a number above 0", [](double value) { return value > 0.0; });
+const auto zeroOrMore =
+    finiteNumber("a number from 0 on", [](double value) { return value >= 0.0; });
 
 /// Runs the command; every error that leaves it ends here.
 int guarded(const std::function<void()>& command) {
@@ -146,7 +165,7 @@ void addRowOptions(CLI::App& command, Options& options, const std::string& row) 
   auto* width = command
                     .add_option("--ranks-per-row", options.ranksPerRow,
                                 "ranks that work on a row together; the others take other rows")
-                    ->check(CLI::PositiveNumber);
+                    ->check(aboveZero);
   auto* output = command.get_option("--output");
   auto* plan = command
                    .add_option("--plan", options.plan,
@@ -209,10 +228,10 @@ void addParaview(CLI::App& program, tooljoint::app::ParaviewOptions& options,
   paraview
       ->add_option("--magnify", options.magnify,
                    "factor of the displacements and of the clearance (default 1)")
-      ->check(CLI::PositiveNumber);
+      ->check(aboveZero);
   paraview
       ->add_option("--pictures", options.pictures, "pictures of the motion, at most (default 200)")
-      ->check(CLI::PositiveNumber);
+      ->check(aboveZero);
   paraview->callback([&] { command = [&] { tooljoint::app::paraview(options); }; });
 }
 
@@ -244,15 +263,17 @@ void addAnalyses(CLI::App& program, Options& options, std::function<void()>& com
       "modes", "eigenfrequencies and damping of the full and the coupled model; bases on request");
   addDeckOptions(*modesCommand, options, Output::Wanted);
   modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
-      ->check(CLI::PositiveNumber);
+      ->check(aboveZero);
   modesCommand->add_flag("--coupled",
                          "undamped modes of the coupled model and their estimated errors only: the "
                          "full model is not solved");
   modesCommand->add_flag("--bases",
                          "the vectors of the basis of each part too, behind the frequencies");
-  modesCommand->add_option("--time", options.modeTime,
-                           "when the laws of time (rotary speed) are looked at for damped modes "
-                           "[s] (default: the end of the motion)");
+  modesCommand
+      ->add_option("--time", options.modeTime,
+                   "when the laws of time (rotary speed) are looked at for damped modes "
+                   "[s] (default: the end of the motion)")
+      ->check(anyNumber);
   modesCommand->callback([&, modesCommand] {
     const tooljoint::app::ModesChoice choice{modesCommand->count("--coupled") > 0,
                                              modesCommand->count("--bases") > 0};
@@ -325,12 +346,14 @@ void addCompare(CLI::App& program, tooljoint::app::CompareOptions& comparison,
       ->add_option("REFERENCE", comparison.reference, "results folder of the reference run")
       ->type_name("DIR")
       ->required();
-  compareCommand->add_option("--from", comparison.begin, "start of the window [s]");
-  compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)");
+  compareCommand->add_option("--from", comparison.begin, "start of the window [s]")
+      ->check(anyNumber);
+  compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)")
+      ->check(anyNumber);
   compareCommand
       ->add_option("--fail-above", comparison.failAbove,
                    "end with exit code 4 when the vibration error is larger than this")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zeroOrMore);
   compareCommand->add_flag("--json", comparison.json, "print the errors and the window as JSON");
   compareCommand->callback([&] { command = [&] { tooljoint::app::compare(comparison); }; });
 }

@@ -83,7 +83,8 @@ def comparisons(times):
         expect(f"--fail-above {factor} vibration errors: the limit is named {code // 4} times", done.stderr.count("of --fail-above") == code // 4, done.stderr)
     same = json.loads(tooljoint("compare", "full", "full", "--fail-above", "0", "--json").stdout)
     expect("a run is its own equal", same["vibration_error"] == same["eps_t"]["max"] == same["eps_n"]["max"] == 0.0, str(same))
-    for arguments, code, sentence in ((["reduced", "full", "--fail-above", "-1"], 1, "--fail-above"), (["reduced", "full", "--from", "7", "--to", "9"], 1, "full holds 0 samples"),
+    for arguments, code, sentence in ((["reduced", "full", "--fail-above", "-1"], 1, '--fail-above: "-1" was given; expected is a number from 0 on.'),
+                                      (["reduced", "full", "--fail-above", "nan"], 1, '--fail-above: "nan" was given'), (["reduced", "full", "--from", "7", "--to", "9"], 1, "full holds 0 samples"),
                                       (["brief", "full"], 1, f"brief holds {len(times['brief'])} samples from 0 to 0.1 s and full holds {len(whole)} samples from 0 to 0.2 s"),
                                       (["reduced", "nowhere"], 5, "nowhere"), (["reduced", "parts"], 1, "hold the motion of different scenes")):
         done = tooljoint("compare", *arguments)
