@@ -71,10 +71,10 @@ void readSweep(const ParameterList& list, ResponseSettings& settings) {
       throw DeckError(list.name() + "/" + other + " has no effect in a sweep by " +
                       (bySpeed ? "speed" : "frequency") + ". Leave it out.");
   if (bySpeed) {
-    settings.speeds = evenly(list, "Lowest Speed", "Highest Speed");
+    settings.speeds = evenly(list, "Lowest Speed", "Highest Speed", "rad/s");
     settings.order = list.get<double>("Order");
   } else {
-    settings.frequencies = evenly(list, "Lowest Frequency", "Highest Frequency");
+    settings.frequencies = evenly(list, "Lowest Frequency", "Highest Frequency", "Hz");
     settings.rotarySpeed = list.get<double>("Rotary Speed");
   }
 }

@@ -4,6 +4,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 
 namespace tooljoint::response {
 
@@ -28,11 +29,11 @@ bool wantsFriction(const Teuchos::ParameterList& list) {
 }
 
 std::vector<double> evenly(const Teuchos::ParameterList& list, const std::string& from,
-                           const std::string& to) {
+                           const std::string& to, const std::string& unit) {
   const double first = list.get<double>(from), last = list.get<double>(to);
   if (!(last > first))
-    throw DeckError(list.name() + "/" + to + " is " + formatNumber(last) + ", but " + from +
-                    " is " + formatNumber(first) + ". Give a larger one.");
+    throw DeckError(list.name() + "/" + to + " is " + deck::printed(last, unit, 6) + ", but " +
+                    from + " is " + deck::printed(first, unit, 6) + ". Give a larger one.");
   const int count = list.get<int>("Points");
   std::vector<double> values;
   for (int i = 0; i < count; ++i) values.push_back(first + (last - first) * i / (count - 1));

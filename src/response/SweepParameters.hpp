@@ -17,7 +17,7 @@ bool wantsFriction(const Teuchos::ParameterList& list);
 /// So many values as the list's `Points`, from one parameter to another. DeckError when they do not
 /// increase.
 std::vector<double> evenly(const Teuchos::ParameterList& list, const std::string& from,
-                           const std::string& to);
+                           const std::string& to, const std::string& unit);
 /// Positions of `count` of `size` points, spread from the first to the last.
 std::vector<std::size_t> spread(std::size_t size, int count);
 

@@ -101,7 +101,7 @@ void readWindow(const Teuchos::ParameterList& list, CampbellSettings& settings) 
 
 CampbellSettings readCampbell(const Teuchos::ParameterList& list) {
   CampbellSettings settings;
-  settings.speeds = evenly(list, "Lowest Speed", "Highest Speed");
+  settings.speeds = evenly(list, "Lowest Speed", "Highest Speed", "rad/s");
   settings.modes = list.get<int>("Modes");
   readWindow(list, settings);
   readLines(list, settings);
