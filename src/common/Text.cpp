@@ -121,6 +121,15 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
   return fmt::format("{}", fmt::join(parts, separator));
 }
 
+std::string firstLines(std::vector<std::string> lines, std::size_t most, const std::string& where) {
+  if (lines.size() > most) {
+    const auto more = lines.size() - most;
+    lines.resize(most);
+    lines.push_back(fmt::format("{}: {} more errors follow.", where, more));
+  }
+  return join(lines, "\n");
+}
+
 std::string excerpt(std::string_view text, std::size_t most) {
   constexpr std::string_view dots = "...";
   if (text.size() <= most) return std::string(text);

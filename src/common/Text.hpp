@@ -32,6 +32,10 @@ std::string upper(std::string_view text);
 std::vector<std::string> split(std::string_view text, char separator);
 std::string join(const std::vector<std::string>& parts, const std::string& separator);
 
+/// The first `most` lines of a message, and "WHERE: 12 more errors follow." below them where there
+/// are more.
+std::string firstLines(std::vector<std::string> lines, std::size_t most, const std::string& where);
+
 /// Characters of a value that messages quote at most.
 constexpr std::size_t longestQuote = 200;
 

@@ -68,6 +68,7 @@ class SurveyReader {
 
   SurveyTable read() {
     const deck::DelimitedText text = split();
+    marks_ = deck::DecimalMarks(text.separator);
     for (const deck::DelimitedRow& row : text.rows) take(row);
     finish();
     remark(text);
@@ -146,14 +147,7 @@ class SurveyReader {
   }
 
   void raise() const {
-    if (faults_.empty()) return;
-    std::vector<std::string> first(
-        faults_.begin(),
-        faults_.begin() + static_cast<std::ptrdiff_t>(std::min(mostFaults, faults_.size())));
-    if (first.size() < faults_.size())
-      first.push_back(file_ + ": " + std::to_string(faults_.size() - first.size()) +
-                      " more errors follow.");
-    throw DeckError(join(first, "\n"));
+    if (!faults_.empty()) throw DeckError(firstLines(faults_, mostFaults, file_));
   }
 
   void take(const deck::DelimitedRow& row) {
@@ -258,14 +252,8 @@ class SurveyReader {
             " is not a finite number.");
       return std::nullopt;
     }
-    int& line = read->comma ? commaLine_ : pointLine_;
-    if ((read->comma || read->point) && line == 0) line = line_;
-    if ((read->comma && pointLine_ > 0) || (read->point && commaLine_ > 0)) {
-      fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) + " has a decimal " +
-            (read->comma ? "comma" : "point") + ", but there is a decimal " +
-            (read->comma ? "point" : "comma") + " in line " +
-            std::to_string(read->comma ? pointLine_ : commaLine_) +
-            ". Write one of them, and no groups of thousands.");
+    if (const std::string wrong = marks_.fault(*read, line_); !wrong.empty()) {
+      fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) + wrong);
       return std::nullopt;
     }
     return read->value * factor_[k];
@@ -308,7 +296,7 @@ class SurveyReader {
     if (text.separator != ',')
       how.push_back(text.separator == ';' ? "cells separated by semicolons"
                                           : "cells separated by tabs");
-    if (commaLine_ > 0) how.emplace_back("decimal commas");
+    if (marks_.commas()) how.emplace_back("decimal commas");
     std::vector<std::string> left;
     if (!ignored_.empty())
       left.push_back((ignored_.size() == 1 ? "column " : "columns ") + quotedList(ignored_));
@@ -335,8 +323,7 @@ class SurveyReader {
   std::size_t preamble_ = 0;  ///< lines of text above the header
   bool started_ = false, afterHeader_ = false;
   int line_ = 0;
-  int commaLine_ = 0,
-      pointLine_ = 0;  ///< first line with a decimal comma, and with a decimal point
+  deck::DecimalMarks marks_;
   std::vector<std::string> ignored_, faults_;
   SurveyTable table_;
 };

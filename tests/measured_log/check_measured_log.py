@@ -238,7 +238,7 @@ def bad_files(times):
     refused("times that fall", 'bad.csv:4: the time "0.05" does not increase', "Time [s], BIT_RPM [rpm]\n0, 1\n0.1, 2\n0.05, 3\n")
     refused("a row that is short", "bad.csv:3: found 1 cells where the header has 2.", "Time [s], BIT_RPM [rpm]\n0, 1\n0.1\n0.2, 1\n")
     refused("one value", 'the column "BIT_RPM" has 1 values, at least two are needed.', "Time [s], BIT_RPM [rpm]\n0, 1\n0.1,\n")
-    refused("decimal points and commas", "has a decimal comma, line 2 a decimal point", "Time [s]; BIT_RPM [rpm]\n0.0; 1\n0,1; 2\n")
+    refused("decimal points and commas", "has a decimal comma, but there is a decimal point in line 2", "Time [s]; BIT_RPM [rpm]\n0.0; 1\n0,1; 2\n")
     refused("another file altogether", "holds bytes of zero", b"\x00\x01\x02")
     refused("another time", "has 0 samples of the column \"BIT_RPM\" from 0 to 0.3 s", good, "--set", "Measured Log/Time Offset=10")
     refused("LAS 3.0", 'bad.las:2: the version is "3.0", read are 2.0 and 1.2.', las.replace("VERS. 2.0", "VERS. 3.0") + "0 1\n1 2\n", file="bad.las")

@@ -357,13 +357,9 @@ void raise(std::vector<Finding> findings, const std::string& file) {
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.place.before(b.place); });
   constexpr std::size_t most = 100;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, findings.size()); ++i) {
-    text += (i == 0 ? "" : "\n") + findings[i].place.text(file) + ": " + findings[i].text;
-  }
-  if (findings.size() > most)
-    text += "\n" + file + ": " + std::to_string(findings.size() - most) + " more errors follow.";
-  throw DeckError(text);
+  std::vector<std::string> lines;
+  for (const Finding& one : findings) lines.push_back(one.place.text(file) + ": " + one.text);
+  throw DeckError(firstLines(std::move(lines), most, file));
 }
 
 std::string readTextFile(const std::string& file) {

@@ -98,4 +98,17 @@ std::optional<CellNumber> cellNumber(const std::string& cell) {
   return number;
 }
 
+std::string DecimalMarks::fault(const CellNumber& number, int line) {
+  if (number.comma && separator_ == ',')
+    return " has a comma, but commas separate the cells. Write a decimal point, and no groups of "
+           "thousands.";
+  int& own = number.comma ? commaLine_ : pointLine_;
+  if ((number.comma || number.point) && own == 0) own = line;
+  if (!(number.comma && pointLine_ > 0) && !(number.point && commaLine_ > 0)) return "";
+  return std::string(" has a decimal ") + (number.comma ? "comma" : "point") +
+         ", but there is a decimal " + (number.comma ? "point" : "comma") + " in line " +
+         std::to_string(number.comma ? pointLine_ : commaLine_) +
+         ". Write one of them, and no groups of thousands.";
+}
+
 }  // namespace tooljoint::deck

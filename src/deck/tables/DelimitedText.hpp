@@ -40,4 +40,20 @@ struct CellNumber {
 /// both, no groups of thousands).
 std::optional<CellNumber> cellNumber(const std::string& cell);
 
+/// The decimal marks of one file: commas or points, and no commas where they separate cells.
+class DecimalMarks {
+ public:
+  explicit DecimalMarks(char separator = ' ') : separator_(separator) {}
+
+  /// What is wrong with the mark of a number of this line, to be put behind its name; empty where
+  /// nothing is.
+  std::string fault(const CellNumber& number, int line);
+
+  bool commas() const { return commaLine_ > 0; }
+
+ private:
+  char separator_;
+  int commaLine_ = 0, pointLine_ = 0;  ///< first line with a decimal comma, and with a point
+};
+
 }  // namespace tooljoint::deck

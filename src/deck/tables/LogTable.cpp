@@ -63,14 +63,7 @@ class Reader {
     faults_.push_back(file_ + ":" + std::to_string(line) + ": " + sentence);
   }
   void raise() const {
-    if (faults_.empty()) return;
-    auto told = faults_;
-    if (told.size() > mostFaults) {
-      told.resize(mostFaults);
-      told.push_back(file_ + ": " + std::to_string(faults_.size() - mostFaults) +
-                     " more errors follow.");
-    }
-    throw DeckError(join(told, "\n"));
+    if (!faults_.empty()) throw DeckError(firstLines(faults_, mostFaults, file_));
   }
 
   void load() {
@@ -97,6 +90,7 @@ class Reader {
     }
     if (table.rows.empty()) throw DeckError("The measured log " + file_ + " is empty.");
     rows_ = std::move(table.rows);
+    marks_ = DecimalMarks(table.separator);
     header();
   }
 
@@ -224,16 +218,8 @@ class Reader {
                             : "Leave the cell empty where nothing was measured."));
       return std::nullopt;
     }
-    if (read->comma && pointLine_ > 0)
-      fault(line, "the value " + inQuotes(cell) + " has a decimal comma, line " +
-                      std::to_string(pointLine_) +
-                      " a decimal point. Write one of them, and no groups of thousands.");
-    if (read->point && commaLine_ > 0)
-      fault(line, "the value " + inQuotes(cell) + " has a decimal point, line " +
-                      std::to_string(commaLine_) +
-                      " a decimal comma. Write one of them, and no groups of thousands.");
-    if (read->comma && commaLine_ == 0) commaLine_ = line;
-    if (read->point && pointLine_ == 0) pointLine_ = line;
+    if (const std::string wrong = marks_.fault(*read, line); !wrong.empty())
+      fault(line, "the value " + inQuotes(cell) + wrong);
     return read->value * column.factor;
   }
 
@@ -244,8 +230,8 @@ class Reader {
   std::vector<DelimitedRow> rows_;
   std::size_t firstRow_ = 0;
   std::optional<double> null_, lastTime_;
-  int commaLine_ = 0, pointLine_ = 0;  ///< first line with such a number
-  std::vector<Column> columns_;        ///< the time first
+  DecimalMarks marks_;
+  std::vector<Column> columns_;  ///< the time first
   std::vector<LogSignal> signals_;
   std::vector<std::string> faults_;
 };

@@ -37,6 +37,7 @@ class Reader {
   std::vector<Measurement> read() {
     const auto text = deck::splitDelimited(readInput(file_, largestFile));
     if (text.rows.empty()) throw DeckError(file_ + ": the table of measurements is empty.");
+    marks_ = deck::DecimalMarks(text.separator);
     header(text.rows.front());
     for (std::size_t i = 1; i < text.rows.size() && faults_.empty(); ++i) row(text.rows[i]);
     if (faults_.empty() && found_.empty()) fault(text.rows.front().line, "no measurement follows.");
@@ -118,6 +119,8 @@ class Reader {
                 " is not a finite number. Leave the cell empty where nothing was measured.");
       return std::nullopt;
     }
+    if (const std::string wrong = marks_.fault(*read, row.line); !wrong.empty())
+      fault(row.line, "the " + std::string(measuredColumns[k].name) + " " + inQuotes(text) + wrong);
     return read->value * factor_[k];
   }
 
@@ -125,6 +128,7 @@ class Reader {
   const std::vector<std::string>& operations_;
   std::array<int, kinds> position_{};
   std::array<double, kinds> factor_{};
+  deck::DecimalMarks marks_;
   std::vector<Measurement> found_;
   std::vector<std::string> faults_;
 };

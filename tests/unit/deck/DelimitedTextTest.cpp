@@ -55,5 +55,19 @@ TEST(CellNumber, TakesAPointOrAComma) {
     EXPECT_FALSE(cellNumber(bad)) << bad;
 }
 
+TEST(DecimalMarks, AreOfOneKindAndDoNotSeparateCells) {
+  const auto comma = *cellNumber("1,5"), point = *cellNumber("1.5"), whole = *cellNumber("15");
+  DecimalMarks marks(';');
+  EXPECT_EQ(marks.fault(whole, 2), "");
+  EXPECT_EQ(marks.fault(comma, 3), "");
+  EXPECT_TRUE(marks.commas());
+  EXPECT_EQ(marks.fault(point, 4),
+            " has a decimal point, but there is a decimal comma in line 3. Write one of them, and "
+            "no groups of thousands.");
+  DecimalMarks separated(',');
+  EXPECT_EQ(separated.fault(point, 3), "");
+  EXPECT_NE(separated.fault(comma, 4).find("commas separate the cells"), std::string::npos);
+}
+
 }  // namespace DelimitedTextTest
 }  // namespace tooljoint::deck

@@ -181,6 +181,10 @@ TEST(SurveyFile, DecimalCommasAndPointsDoNotMix) {
       << mixed;
   EXPECT_NE(errorOf("MD;Inc;Azi\n0;0;0\n1.234,5;1;0\n").find("\"1.234,5\" is not a finite number"),
             std::string::npos);
+  // groups of thousands, as spreadsheets write them: not 1.5 and 3.6 m
+  EXPECT_NE(errorOf("MD,Inc,Azi\n0,0,0\n\"1,500\",5,0\n\"3,600\",30,0\n")
+                .find("F:3: the measured depth \"1,500\" has a comma, but commas separate"),
+            std::string::npos);
 }
 
 TEST(SurveyFile, UTF16AndPipesAreRefused) {
