@@ -45,8 +45,9 @@ std::optional<double> lengthOf(const ComponentLibrary& library, const std::strin
   return length;
 }
 
-/// The assembly with as many of its first component as reach from the bit to the surface.
-std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit) {
+/// The assembly with as many of its first component as reach from the bit to the surface; without
+/// any where an analysis asks for a bit that is not as deep as the others are long.
+std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit, bool asked) {
   auto assembly = settings.assembly;
   std::vector<double> lengths;
   for (const AssemblyEntry& entry : assembly) {
@@ -57,11 +58,13 @@ std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit) {
   const double whole = std::accumulate(lengths.begin(), lengths.end(), 0.0);
   if (!assembly.empty() && assembly.front().fill) {
     const double below = whole - lengths.front();
-    if (!(bit > below))
+    if (!(bit > below)) {
+      if (asked) return {assembly.begin() + 1, assembly.end()};
       throw DeckError(settings.assemblyWhere + ": the string below " +
                       inQuotes("fill*" + assembly.front().name) + " is " + formatNumber(below) +
                       " m long, but the bit is at " + formatNumber(bit) +
                       " m. Give a deeper Bit Depth, or leave components out.");
+    }
     assembly.front().count =
         std::max(1, static_cast<int>(std::ceil((bit - below) / lengths.front() - roundOff)));
   } else if (whole < bit * (1.0 - roundOff)) {
@@ -143,9 +146,10 @@ StringSettings readDrillstring(const deck::Deck& deck) {
 DrillString buildDrillString(const StringSettings& settings, const well::Well& well,
                              std::optional<double> bit) {
   const bool fills = !settings.assembly.empty() && settings.assembly.front().fill;
+  const bool asked = bit.has_value();
   if (!bit) bit = settings.bitDepth;
   if (!bit && fills) bit = well.length();
-  const auto assembly = bit ? filled(settings, *bit) : settings.assembly;
+  const auto assembly = bit ? filled(settings, *bit, asked) : settings.assembly;
   DrillString string =
       buildDrillString(settings.library, assembly, well, settings.assemblyWhere, bit);
   string.toolFace = settings.toolFace;

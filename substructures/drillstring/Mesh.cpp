@@ -31,6 +31,12 @@ constexpr double shortestRest = 0.1;
 /// More elements than this are taken for a slip in a repeat count.
 constexpr int mostElements = 200000;
 
+/// Faults told at most: every stand of a string has those of its components.
+constexpr std::size_t mostFaults = 10;
+
+/// A length as messages tell it, without the rounding of a sum or of a diameter in inches.
+std::string metres(double length) { return formatNumber(std::round(length * 1e9) / 1e9); }
+
 /// A place on one occurrence of a component.
 struct Place {
   double s;  ///< [m]
@@ -60,7 +66,7 @@ class Mesher {
       setPads();
       warnOfUnseenBores();
     }
-    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    if (!faults_.empty()) throw DeckError(firstLines(faults_, mostFaults, where_));
     return std::move(out_);
   }
 
@@ -96,7 +102,8 @@ class Mesher {
     }
     if (out_.elementCount() > mostElements) {
       fault(where_, "The string has more than " + std::to_string(mostElements) +
-                        " elements; look at the repeat counts.");
+                        " elements; look at the repeat counts and at the "
+                        "length of elements.");
       return false;
     }
     const bool top = parent.empty();
@@ -216,9 +223,8 @@ class Mesher {
 
   void checkLength() {
     if (out_.length() > well_.length() + samePlace)
-      fault(where_, "The string is " + formatNumber(out_.length()) +
-                        " m long, but the well ends at " + formatNumber(well_.length()) +
-                        " m. Shorten the string or lengthen the well.");
+      fault(where_, "The string is " + metres(out_.length()) + " m long, but the well ends at " +
+                        metres(well_.length()) + " m. Shorten the string or lengthen the well.");
   }
 
   /// Smaller of the clearances on both sides of a node; the bore is looked up a hair inside the
@@ -248,9 +254,9 @@ class Mesher {
     const Instance& instance = out_.instances[static_cast<std::size_t>(element.instance)];
     if (!tooWide_.insert(element.instance).second) return;  // one line per occurrence
     fault(library_.at(instance.component).where,
-          "The outer radius " + formatNumber(element.section().outerRadius()) + " m of " +
-              instance.path + " does not fit into the hole of radius " + formatNumber(bore) +
-              " m at " + formatNumber(out_.nodes[static_cast<std::size_t>(node)].s) + " m (node " +
+          "The outer radius " + metres(element.section().outerRadius()) + " m of " + instance.path +
+              " does not fit into the hole of radius " + metres(bore) + " m at " +
+              metres(out_.nodes[static_cast<std::size_t>(node)].s) + " m (node " +
               std::to_string(node + 1) + ").");
   }
 
@@ -267,25 +273,35 @@ class Mesher {
     const double bore =
         std::min(well_.boreRadius(node.s - samePlace), well_.boreRadius(node.s + samePlace));
     const double clearance = bore - gauge.gaugeRadius;
-    const std::string gaugeText = "The gauge radius " + formatNumber(gauge.gaugeRadius) + " m ";
+    const std::string gaugeText = "The gauge radius " + metres(gauge.gaugeRadius) + " m ";
     if (clearance < tightFit)
-      fault(gauge.where, gaugeText + "does not fit into the hole of radius " + formatNumber(bore) +
-                             " m at " + formatNumber(node.s) + " m (node " +
-                             std::to_string(at + 1) + ").");
-    if (clearance - gauge.gaugeOffset > node.clearance - tightFit)
-      fault(gauge.where, gaugeText + "is below the outer radius of the body at " +
-                             formatNumber(node.s) + " m, " + formatNumber(node.contactRadius) +
-                             " m, so it would never touch.");
+      fault(gauge.where, gaugeText + "does not fit into the hole of radius " + metres(bore) +
+                             " m at " + metres(node.s) + " m (node " + std::to_string(at + 1) +
+                             ").");
+    const double body = bodyRadius(place, at), reach = gauge.gaugeRadius + gauge.gaugeOffset;
+    if (reach < body + tightFit)
+      fault(gauge.where, gaugeText + "is below the outer radius of the body at " + metres(node.s) +
+                             " m, " + metres(body) + " m, so it would never touch.");
     if (gauge.gaugeOffset > bore)
-      fault(gauge.where, "The Gauge Offset " + formatNumber(gauge.gaugeOffset) +
-                             " m is above the radius of the hole, " + formatNumber(bore) +
+      fault(gauge.where, "The Gauge Offset " + metres(gauge.gaugeOffset) +
+                             " m is above the radius of the hole, " + metres(bore) +
                              " m. Give the distance between the centres of gauge and string.");
+    if (reach < node.contactRadius + tightFit) return;  // the next body is wider and touches first
     node.clearance = std::max(0.0, clearance);
     node.contactRadius = gauge.gaugeRadius;
     node.gauge = true;
     node.component = gauge.name;
     if (gauge.gaugeOffset > 0.0)
       out_.eccentricGauges.push_back({at, gauge.gaugeOffset, gauge.gaugeDirection});
+  }
+
+  /// Outer radius of the component of a place beside its node [m].
+  double bodyRadius(const Place& place, int node) const {
+    double radius = 0.0;
+    for (const int e : {node - 1, node})
+      if (e >= place.firstNode && e < place.lastNode)
+        radius = std::max(radius, out_.elements[at(e)].section().outerRadius());
+    return radius;
   }
 
   void setBends() {
@@ -320,10 +336,9 @@ class Mesher {
       distance = std::abs(s - place.s);
       nearest = s - start;
     }
-    fault(place.component->where, std::string("The ") + parameter + " " +
-                                      formatNumber(std::round(place.position * 1e9) / 1e9) +
+    fault(place.component->where, std::string("The ") + parameter + " " + metres(place.position) +
                                       " m is not at a node of the component; the nearest is at " +
-                                      formatNumber(std::round(nearest * 1e9) / 1e9) +
+                                      metres(nearest) +
                                       " m. Move it or change the number of Elements.");
     return -1;
   }

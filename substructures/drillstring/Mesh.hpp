@@ -16,7 +16,7 @@ namespace tooljoint::drillstring {
 /// Meshes the assembly from the surface down and finds the radial clearance of every node: bore
 /// radius minus outer radius, the smaller one where the section or the bore changes, with R_c the
 /// radius of the section whose clearance counts; at a gauge bore radius minus gauge radius (this
-/// reproduces the published contact count of Nguyen et al. 2020).
+/// reproduces the published contact count of Nguyen et al. 2020), unless a wider body begins there.
 ///
 /// Throws DeckError with one line per fault: unknown component, a component inside itself, a string
 /// longer than the well, a body or gauge that does not fit into the hole, a gauge that is not at a

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/Mesh.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "common/report/Log.hpp"
@@ -109,6 +110,26 @@ TEST(Mesh, FillsTheStringUpToTheSurface) {
   EXPECT_EQ(build(filling("fill*stand, bit", "32")).instances.size(), 4u)
       << "no sliver of a fourth";
   EXPECT_NEAR(build(filling("5*stand, bit", "33.5")).length(), 33.5, 1e-12) << "cut without a fill";
+}
+
+TEST(Mesh, HangsWithoutAFillWhereTheOthersReachTheSurface) {
+  const auto settings = readDrillstring(scene(filling("fill*stand, 4*bit")));
+  const DrillString string = buildDrillString(settings, verticalWell(), 5.0);
+  EXPECT_NEAR(string.length(), 5.0, 1e-12);
+  EXPECT_EQ(string.instances.front().path, "bit 2") << "of 8 m of bits the lower 5";
+}
+
+/// A tool joint at the end of a pipe above a wider collar: the collar touches first.
+TEST(Mesh, LeavesAGaugeBesideAWiderBodyToThatBody) {
+  const std::string gauge = real("Gauge Position", "9") + real("Gauge Radius", "0.08");
+  const DrillString string = build(list("Components", tube("pipe", 9.0, 3, 0.06, 0.05, gauge) +
+                                                          tube("collar", 9.0, 3, 0.09, 0.03)) +
+                                   array("Assembly", "2*pipe, collar"));
+  EXPECT_TRUE(string.nodes[3].gauge);
+  EXPECT_NEAR(string.nodes[3].clearance, 0.028, 1e-12);
+  EXPECT_FALSE(string.nodes[6].gauge);
+  EXPECT_NEAR(string.nodes[6].clearance, 0.018, 1e-12);
+  EXPECT_EQ(string.nodes[6].contactRadius, 0.09);
 }
 
 TEST(Mesh, DropsAGaugeWhoseNodeTheCutRemoves) {
@@ -263,6 +284,11 @@ TEST(MeshErrors, Gauges) {
               array("Assembly", "stab")),
       "Gauge Radius is missing");
   EXPECT_EQ(errorOf(gauged("1", "0.108")), "no error");
+  std::string many = gauged("1", "0.07");
+  many.replace(many.find("2*stab"), 1, "30");
+  const std::string message = errorOf(many);
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 10) << message;
+  has(message, "20 more errors follow.");
 }
 
 TEST(ComponentErrors, AreAllReported) {
