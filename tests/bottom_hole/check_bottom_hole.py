@@ -323,6 +323,7 @@ def refused():
             ("leaves out dofs that a bottom-hole assembly needs", ["Supports/Dofs=lateral"], []),
             ("modelled at rest alone. Leave Transient out, or a bend", ["Transient/End Time=1", "Transient/Step=0.01", "Transient/Sampling Interval=0.1", "Transient/Integrator=Generalized-alpha"], []),
             ("turns by 200 deg over the 30 m", ["Bottom-Hole Assembly/Inclination={40 deg}", "Bottom-Hole Assembly/Build Rate=200 deg/30m"], []),
+            ("elements; at most 10000 are possible. Give a longer one", ["Bottom-Hole Assembly/Element Length=1e-9"], []),
             ("out of range: it must be > 0", ["Bottom-Hole Assembly/Length=-3 m"], [])):
         arguments = [part for one in settings for part in ("--set", one)] + [part for one in without for part in ("--without", one)]
         done = tooljoint("bha", good, "--output", "refused", *arguments)

@@ -225,6 +225,8 @@ def tables_and_refusals():
         ("no friction", "Add the list Contact", ["torque-drag", DECK, "--without", "Contact"]),
         ("no weight", "Add the list Loads", ["torque-drag", DECK, "--without", "Loads"]),
         ("too deep", "longer string", ["torque-drag", DECK, "--set", "Torque and Drag/Depths={9000}"]),
+        ("a depth twice", "holds 500 m twice", ["torque-drag", DECK, "--set", "Torque and Drag/Depths={500, 500}"]),
+        ("an operation twice", 'holds "Trip in" twice', ["torque-drag", DECK, "--set", "Torque and Drag/Operations={Trip in, Trip in}"]),
     ):
         done = tooljoint(*arguments)
         expect(f"refused: {name}", done.returncode == 2 and words in done.stderr, f"{done.returncode} {done.stderr}")

@@ -122,6 +122,14 @@ std::vector<double> depthsOfStiffString(const softstring::TorqueDragSettings& se
   return {*std::max_element(settings.depths.begin(), settings.depths.end())};
 }
 
+/// The first value that a list holds a second time; its end where there is none.
+template <class T>
+typename std::vector<T>::const_iterator repeated(const std::vector<T>& values) {
+  return std::find_if(values.begin(), values.end(), [&](const T& value) {
+    return std::count(values.begin(), values.end(), value) > 1;
+  });
+}
+
 }  // namespace
 
 softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
@@ -133,8 +141,13 @@ softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
   if (settings.depths.empty())
     for (int i = 1; i <= settings.count; ++i)
       settings.depths.push_back(scene.string.length() * i / settings.count);
-  for (const double depth : settings.depths)
-    requireReach(scene, depth, scene.deck.error("Torque and Drag/Depths", "holds"));
+  const std::string depths = scene.deck.error("Torque and Drag/Depths", "holds");
+  for (const double depth : settings.depths) requireReach(scene, depth, depths);
+  if (const auto twice = repeated(settings.depths); twice != settings.depths.end())
+    throw DeckError(depths + " " + deck::printed(*twice, "m", 8) + " twice. Leave one out.");
+  if (const auto twice = repeated(settings.operations); twice != settings.operations.end())
+    throw DeckError(scene.deck.error("Torque and Drag/Operations", "holds") + " " +
+                    inQuotes(*twice) + " twice. Leave one out.");
   return settings;
 }
 

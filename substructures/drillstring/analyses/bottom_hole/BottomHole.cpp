@@ -29,6 +29,9 @@ const std::string here = "Bottom-Hole Assembly";
 /// The cut is held on the axis of the hole; the tilt is free.
 constexpr DofFlags heldAtCut = {true, true, true, false, false, true};
 
+/// Elements of a segment at most, as in the deck.
+constexpr double mostPieces = 10000;
+
 /// The whole string with elements of at most this length [m]. Nodes of the deck stay.
 DrillString divided(const Scene& scene, double longest) {
   auto settings = readDrillstring(scene.deck);
@@ -36,6 +39,12 @@ DrillString divided(const Scene& scene, double longest) {
     for (auto& segment : component.segments) {
       constexpr double rounding = 1e-9;
       const double pieces = segment.length / segment.elements / longest;
+      if (pieces * segment.elements > mostPieces)
+        throw DeckError(scene.deck.error(here + "/Element Length", "is") + " " +
+                        deck::printed(longest, "m") + ", which cuts " +
+                        deck::printed(segment.length, "m") + " of " + inQuotes(name) + " into " +
+                        countText(pieces * segment.elements) + " elements; at most " +
+                        countText(mostPieces) + " are possible. Give a longer one.");
       segment.elements *= std::max(1, static_cast<int>(std::ceil(pieces - rounding)));
     }
   return buildDrillString(settings, scene.well);
