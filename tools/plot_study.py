@@ -232,7 +232,7 @@ def draw_bases(study):
             if points:
                 axes.plot(*zip(*points), marker=study.marker[name], markersize=4.5, linewidth=1.2, color=study.colour[name], label=name, markeredgecolor="white",
                           markeredgewidth=0.4)
-        axes.set_yscale("log"), axes.set_xlabel(xlabel), axes.set_ylabel(ylabel)
+        axes.set_yscale("log"), logarithmic(axes.yaxis), axes.set_xlabel(xlabel), axes.set_ylabel(ylabel)
         if x is not dofs:
             axes.set_xscale("log"), logarithmic(axes.xaxis)
     full = known([run for run in study.methods if not run.reduced], cpu, vibration_error)

@@ -189,6 +189,7 @@ def draw_spectrum(axes, values, interval, **line):
     frequency, power = plots.spectrum(values, interval)
     if len(frequency) > 2 and power[1:].max() > 0:
         axes.plot(frequency[1:], np.where(power[1:] > FLOOR * power[1:].max(), power[1:], np.nan), linewidth=0.9, **line)
+        plots.logarithmic(axes.yaxis)
 
 
 def spectra(run, motion, chosen):

@@ -135,6 +135,7 @@ def modes_figure(rows):
     estimated = [row for row in made_of if isinstance(row.get("estimate"), float) and row["estimate"] > 0]
     if estimated:
         axes.plot(numbers(estimated, "mode"), numbers(estimated, "estimate"), "s", markersize=4, markerfacecolor="none", color=COLOURS[1], label="estimate")
+    plots.logarithmic(axes.yaxis)
     axes.set_xlabel("mode"), axes.set_ylabel("relative error of the frequency [1]")
     plots.legend_above(axes)
     return [Figure("mode-errors", made, "Errors of the coupled frequencies, and their estimates without the full model.", True)]

@@ -19,6 +19,7 @@ COLOURS = ["#0072B2", "#C24E00", "#009E73", "#B8860B", "#CC4C99", "#3F9BD4", "#7
 MARKERS = "osD^vPX*hp<>d"  # their number has no divisor in common with that of the colours, so that no pair comes twice
 GREY = "#8a8a8a"
 PALE = "#d9d9d9"
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")  # as text: matplotlib takes 10 ms for a formula
 MAP = "cividis"  # of forces and stresses: the same for all eyes, and in grey
 STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 10, "axes.titleweight": "bold", "axes.titlelocation": "left",
          "axes.edgecolor": "#555555", "xtick.color": "#555555", "ytick.color": "#555555", "axes.grid": True, "grid.color": "#e6e6e6", "grid.linewidth": 0.6,
@@ -133,14 +134,14 @@ def plain(value: float) -> str:
     """Numbers on logarithmic axes as people write them.
 
     >>> plain(0.02), plain(1e-6), plain(0)
-    ('0.02', '$10^{-6}$', '')
+    ('0.02', '10⁻⁶', '')
     """
     if value <= 0:
         return ""
     if 1e-3 <= value < 1e4:
         return f"{value:g}"
     exponent = math.floor(math.log10(value) + 1e-9)
-    return rf"$10^{{{exponent}}}$"
+    return "10" + str(exponent).translate(SUPERSCRIPTS)
 
 
 def percent(value: float) -> str:
@@ -153,12 +154,14 @@ def percent(value: float) -> str:
 
 
 def logarithmic(axis: Any, formatter: Callable[[float], str] = plain) -> None:
-    """Ticks of a logarithmic axis that has its limits: decades, and 2, 3, 5 where there is less than a decade and a half."""
+    """Ticks of a logarithmic axis that has its limits: decades, what is between them unless there are many, and 2, 3, 5 with numbers where
+    there is less than a decade and a half."""
     axis.set_major_locator(ticker.LogLocator(base=10, numticks=20))
     axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: formatter(value)))
     low, high = axis.get_view_interval()
     narrow = low > 0 and high < 30 * low
-    axis.set_minor_locator(ticker.LogLocator(base=10, subs=(2, 3, 5) if narrow else range(2, 10), numticks=40))
+    wide = low > 0 and high > 1e6 * low
+    axis.set_minor_locator(ticker.NullLocator() if wide else ticker.LogLocator(base=10, subs=(2, 3, 5) if narrow else range(2, 10), numticks=40))
     axis.set_minor_formatter(ticker.FuncFormatter(lambda value, _: formatter(value)) if narrow else ticker.NullFormatter())
 
 
