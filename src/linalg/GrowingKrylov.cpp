@@ -114,10 +114,8 @@ template <class Scalar>
 RitzPairs GrowingKrylov<Scalar>::ritz() const {
   const auto m = static_cast<Eigen::Index>(done_.size());
   Block H(m, m), rest(static_cast<Eigen::Index>(open_.size()), m);
-  Block V(size_, m);
   for (Eigen::Index j = 0; j < m; ++j) {
     const int column = done_[static_cast<std::size_t>(j)];
-    V.col(j) = directions_.col(column);
     for (Eigen::Index i = 0; i < m; ++i)
       H(i, j) = projected_(done_[static_cast<std::size_t>(i)], column);
     for (std::size_t i = 0; i < open_.size(); ++i)
@@ -128,15 +126,23 @@ RitzPairs GrowingKrylov<Scalar>::ritz() const {
     throw ConvergenceError("The QR iteration of a projected eigenproblem did not converge.");
   RitzPairs pairs;
   pairs.values = solver.eigenvalues();
-  const Eigen::MatrixXcd c = solver.eigenvectors();
-  pairs.vectors = V * c;
+  pairs.coefficients = solver.eigenvectors();
   pairs.residuals.resize(m);
   for (Eigen::Index j = 0; j < m; ++j) {
     const double size = std::abs(pairs.values[j]);
-    const double left = rest.rows() > 0 ? Eigen::VectorXcd(rest * c.col(j)).norm() : 0.0;
+    const double left =
+        rest.rows() > 0 ? Eigen::VectorXcd(rest * pairs.coefficients.col(j)).norm() : 0.0;
     pairs.residuals[j] = size > 0 ? left / size : 0.0;
   }
   return pairs;
+}
+
+template <class Scalar>
+Eigen::VectorXcd GrowingKrylov<Scalar>::vector(const RitzPairs& pairs, Eigen::Index j) const {
+  Eigen::VectorXcd z = Eigen::VectorXcd::Zero(size_);
+  for (std::size_t i = 0; i < done_.size(); ++i)
+    z += directions_.col(done_[i]) * pairs.coefficients(static_cast<Eigen::Index>(i), j);
+  return z;
 }
 
 template class GrowingKrylov<double>;

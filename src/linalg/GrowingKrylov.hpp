@@ -15,9 +15,9 @@ namespace tooljoint::linalg {
 
 /// Ritz pairs A z = nu z, |z| = 1.
 struct RitzPairs {
-  Eigen::VectorXcd values;   ///< nu; of a real operator conjugate pairs exactly
-  Eigen::MatrixXcd vectors;  ///< z, size x values
-  Vector residuals;          ///< |A z - nu z| / |nu|
+  Eigen::VectorXcd values;        ///< nu; of a real operator conjugate pairs exactly
+  Eigen::MatrixXcd coefficients;  ///< c, of the directions of the space: z = V c
+  Vector residuals;               ///< |A z - nu z| / |nu|
 };
 
 /// Block Arnoldi with full orthogonalisation. Nothing is thrown away and no Schur form is
@@ -46,6 +46,8 @@ class GrowingKrylov {
   /// Nothing is left to apply the operator to.
   bool invariant() const { return open_.empty(); }
   RitzPairs ritz() const;
+  /// z = V c of the j-th pair, of pairs found since the space has grown.
+  Eigen::VectorXcd vector(const RitzPairs& pairs, Eigen::Index j) const;
 
  private:
   using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;

@@ -110,12 +110,13 @@ class Nearby {
 };
 
 DampedModes checkedNearby(const ScaledPencil& pencil, const ComplexInverse& inverse,
-                          const Nearby& nearby, const RitzPairs& ritz) {
+                          const GrowingKrylov<Complex>& space, const Nearby& nearby,
+                          const RitzPairs& ritz) {
   DampedModes out;
   for (const auto j : nearby.wanted()) {
     Complex s = nearby.s(j);
     if (s.imag() < 0.0) continue;
-    const ComplexVector phi = ritz.vectors.col(nearby.column(j)).head(pencil.size());
+    const ComplexVector phi = space.vector(ritz, nearby.column(j)).head(pencil.size());
     ComplexVector better = inverse.again(s, phi);
     const double error = (better - phi).norm() / better.norm();
     const double allowed = acceptedError + roundingOfValue(pencil, s - inverse.shift(), better);
@@ -157,7 +158,7 @@ QuadraticModes dampedModesNear(const Sparse& M, const Sparse& C, const Sparse& K
     const Nearby nearby(ritz, inverse->shift(), target);
     const bool known = nearby.settled() || space.invariant();
     if (whole || (known && nearby.wanted().size() == confirmed)) {
-      const auto found = checkedNearby(pencil, *inverse, nearby, ritz);
+      const auto found = checkedNearby(pencil, *inverse, space, nearby, ritz);
       return presented(pencil, found, static_cast<int>(found.values.size()));
     }
     if (known) {

@@ -223,13 +223,13 @@ std::string placeOf(const ScaledPencil& pencil, Complex s, const ComplexVector& 
 /// The first `wanted` pairs, without those that are infinite and repeated zeros. ConvergenceError
 /// where a finite one is not accurate.
 DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse,
-                         const Upper& found, const RitzPairs& ritz, std::size_t wanted,
-                         const DofNamer& name) {
+                         const GrowingKrylov<double>& space, const Upper& found,
+                         const RitzPairs& ritz, std::size_t wanted, const DofNamer& name) {
   DampedModes out;
   std::size_t zeros = 0;
   const double farthest = 1.0 / infiniteNu(ritz, inverse.shift());
   for (std::size_t j = 0; j < std::min(wanted, found.s.size()); ++j) {
-    const ComplexVector phi = ritz.vectors.col(found.column[j]).head(pencil.size());
+    const ComplexVector phi = space.vector(ritz, found.column[j]).head(pencil.size());
     Complex s = found.s[j];
     ComplexVector better = inverse.again(s, phi);
     const double error = (better - phi).norm() / better.norm();
@@ -296,7 +296,7 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
       before = worst;
       continue;
     }
-    DampedModes modes = checkedModes(pencil, *inverse, found, ritz, wanted, name);
+    DampedModes modes = checkedModes(pencil, *inverse, space, found, ritz, wanted, name);
     if (static_cast<int>(modes.values.size()) >= count || found.s.size() <= wanted) return modes;
     wanted +=
         static_cast<std::size_t>(count) - modes.values.size();  // chains at zero have been left out
