@@ -38,9 +38,8 @@ struct Rotor {
   }
 };
 
-/// Values of all modes with Im s >= 0 that are in the target, by |s|.
-std::vector<Complex> expected(const Rotor& rotor, const DampedTarget& target) {
-  const auto all = dampedModes(Matrix(rotor.M), Matrix(rotor.C), Matrix(rotor.K));
+/// Values of modes with Im s >= 0 that are in the target, by |s|.
+std::vector<Complex> inTarget(const QuadraticModes& all, const DampedTarget& target) {
   std::vector<Complex> values;
   for (Eigen::Index i = 0; i < all.values.size(); ++i)
     if (all.values[i].imag() >= 0.0) values.push_back(all.values[i]);
@@ -71,12 +70,13 @@ TEST(NearbyModes, AreThoseOfTheTargetAmongAll) {
     for (const double g : {0.0, 0.4})
       for (const double c : {0.0, 0.1}) {
         const Rotor rotor(n, g, c);
+        const auto all = dampedModes(Matrix(rotor.M), Matrix(rotor.C), Matrix(rotor.K));
         for (const DampedTarget& target :
              {DampedTarget{{0, 9.0}, 0.0, 6}, DampedTarget{{0, 9.0}, 1.5, 0},
               DampedTarget{{0, 2.0}, 2.0, 0}}) {
           SCOPED_TRACE(::testing::Message() << n << " g " << g << " c " << c << " target "
                                             << target.centre << " " << target.radius);
-          compare(dampedModesNear(rotor.M, rotor.C, rotor.K, target), expected(rotor, target));
+          compare(dampedModesNear(rotor.M, rotor.C, rotor.K, target), inTarget(all, target));
         }
       }
 }
@@ -92,18 +92,18 @@ TEST(NearbyModes, FindAllCopiesOfRepeatedValues) {
     EXPECT_NEAR(modes.values[i].imag(), exact, 2e-4 * exact);  // of 40 elements
 }
 
-// lambda_j = 4 k/m sin^2(j pi/(2 (n + 1))): the modes about the middle of 4000.
+// lambda_j = 4 k/m sin^2(j pi/(2 (n + 1))): the modes about the middle of 1000.
 TEST(NearbyModes, OfALongChainAreFoundInItsMiddle) {
-  const int n = 4000;
+  const int n = 1000;
   const auto chain = springChain(n, 100.0, 1.0);
   const auto omega = [&](int j) { return 20.0 * std::sin(j * constants::pi / (2.0 * (n + 1))); };
   const Sparse none(n, n);
-  const double low = omega(2000) - 1e-6, high = omega(2011) + 1e-6;
+  const double low = omega(500) - 1e-6, high = omega(511) + 1e-6;
   const auto modes =
       dampedModesNear(chain.M, none, chain.K, {{0.0, 0.5 * (low + high)}, 0.5 * (high - low), 0});
   ASSERT_EQ(modes.values.size(), 12);
   for (int i = 0; i < 12; ++i)
-    EXPECT_NEAR(modes.values[i].imag(), omega(2000 + i), 1e-9 * omega(2000));
+    EXPECT_NEAR(modes.values[i].imag(), omega(500 + i), 1e-9 * omega(500));
 }
 
 TEST(NearbyModes, AnEmptyWindowHasNone) {
