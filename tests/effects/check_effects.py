@@ -23,6 +23,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 STUDY = "../study/study.xml"
 MAP = "../study/map.xml"
 COMMANDS = {STUDY: "study", MAP: "map"}  # of decks that are not run
+SHORT = {STUDY: ["Study/End Time=0.2", "Study/Window=0.1"], MAP: ["Map/Pictures=false"]}  # before the overrides of a row
 ANALYSES = {  # command -> its tables; the keys of its figures begin with its name
     "torque-drag": ["file:torque_drag.csv", "file:torque_drag_broomstick.csv", "file:torque_drag_calibration.csv"],
     "bha": ["file:bha.csv", "file:bha_profile.csv"],
@@ -53,7 +54,7 @@ class Runs:
         if key not in self.done:
             folder = pathlib.Path("run_" + hashlib.sha1(key.encode()).hexdigest()[:12])
             command = [self.program, command, str(HERE / scene), "--output", str(folder)]
-            for override in overrides:
+            for override in [*SHORT.get(scene, []), *overrides]:
                 command += ["--without", override[1:]] if override.startswith("!") else ["--set", override]
             result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
             if result.returncode != 0:
@@ -91,7 +92,7 @@ def holds(effect, before, after):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--shard", default="1/1", help="I/N: every N-th row, beginning with the I-th")
+    parser.add_argument("--shard", default="1/1", help="I/N: the I-th of N pieces of the rows; those of one scene stand together and share its runs")
     options = parser.parse_args()
     table = json.loads((HERE / "effects.json").read_text(encoding="utf-8"))
     manual = json.loads(subprocess.run([options.program, "doc", "--format", "json"], stdout=subprocess.PIPE, text=True, check=True).stdout)
@@ -102,7 +103,7 @@ def main():
 
     runs = Runs(options.program)
     shard, shards = (int(x) for x in options.shard.split("/"))
-    rows = table["effects"][shard - 1::shards]
+    rows = table["effects"][len(table["effects"]) * (shard - 1) // shards:len(table["effects"]) * shard // shards]
     for row in rows:
         try:
             scene = {"Study": STUDY, "Map": MAP}.get(row["parameter"].split("/")[0], row.get("scene", "scene.xml"))
