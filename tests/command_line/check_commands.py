@@ -24,7 +24,8 @@ RUN = ("docs/drilling.md", "docs/report.md", "docs/guide/decks.md", "docs/guide/
        "docs/guide/studies.md")
 CHECKED = "docs/validation.md"
 SHORT = {"run": ["Transient/End Time=0.02"], "study": ["Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"],
-         "map": ["Transient/End Time=0.02", "Map/Pictures=false"], "torque-drag": ["Torque and Drag/Count=1"]}
+         "map": ["Transient/End Time=0.02", "Map/Pictures=false", "Map/Grid/speed/Count=2", "Map/Grid/weight on bit/Values={10 kN, 20 kN}"],
+         "torque-drag": ["Torque and Drag/Count=1", "Torque and Drag/Operations={Drill rotating}"], "campbell": ["Campbell/Points=2", "Campbell/Modes=2"]}
 OPTIONS_OF_DECKS = ("--set", "--without")
 PLACES = re.compile(r"\b(DECK|DIR|FILE|NAME|[A-Z]{2,})\b")
 

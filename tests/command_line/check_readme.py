@@ -5,8 +5,9 @@
 Without PAGE the block "Go on" of README.md; with one, a tutorial: its blocks `sh`, one after the other in one shell. Each line of its blocks `text`
 must stand in what the commands before it have printed.
 
-They run in a scratch folder that looks like the project. What stands there as build/release/tooljoint hands its arguments to PROGRAM; a study,
-which takes minutes, is given fewer runs and a shorter motion on the way, so that all words are tried and the test takes seconds.
+They run in a scratch folder that looks like the project. What stands there as build/release/tooljoint hands its arguments to PROGRAM; motions, maps
+and studies, which take minutes, are made shorter on the way, so that all words are tried and the test takes seconds. Tutorials show numbers
+of the whole motions.
 """
 import json
 import pathlib
@@ -20,7 +21,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish  # noqa: E402
 
 PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-SHORT_STUDY = ["--set", "Study/End Time=0.06", "--set", "Study/Window=0.03", "--set", "Study/Repeats=1", "--set", "Study/Pictures=false"]
+SHORT = {"study": ["Study/End Time=0.03", "Study/Window=0.015", "Study/Repeats=1", "Study/Pictures=false"],
+         "run": ["Transient/End Time=1"], "map": ["Transient/End Time=0.1", "Map/Grid/speed/Count=2"]}
 
 
 def block():
@@ -30,15 +32,15 @@ def block():
     return [line[4:] for line in section.group(1).splitlines()]
 
 
-def stage(folder):
-    """A folder that looks like the project to the block."""
+def stage(folder, settings):
+    """A folder that looks like the project to the block; `settings` of commands, which its program adds."""
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "build/release").mkdir(parents=True)
     for name in ("tools", "xml"):
         (folder / name).symlink_to(PROJECT / name)
     program = folder / "build/release/tooljoint"
-    short = " ".join(shlex.quote(word) for word in SHORT_STUDY)
-    program.write_text(f'#!/bin/bash\nif [ "$1" = study ]; then set -- "$@" {short}; fi\nexec {shlex.quote(str(PROGRAM))} "$@"\n', encoding="utf-8")
+    cases = "".join(f'{name}) set -- "$@"' + "".join(f" --set {shlex.quote(text)}" for text in texts) + " ;; " for name, texts in settings.items())
+    program.write_text(f'#!/bin/bash\ncase "$1" in {cases}esac\nexec {shlex.quote(str(PROGRAM))} "$@"\n', encoding="utf-8")
     program.chmod(0o755)
 
 
@@ -89,10 +91,11 @@ def check_page(folder, page):
 
 def main():
     folder = pathlib.Path("project")
-    stage(folder)
     if len(sys.argv) > 3:
+        stage(folder, {})
         check_page(folder, sys.argv[3])
     else:
+        stage(folder, SHORT)
         check_readme(folder)
     return finish()
 

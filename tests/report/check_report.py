@@ -305,7 +305,8 @@ def end_of_run():
     expect("a run ends with a report", path.is_file() and "report      ended/report.html" in done.stdout, done.stdout[-300:])
     done = tooljoint("run", STRING, "--output", "ended", "--set", "Output/Report=false")
     expect("told not to, it leaves none, and takes that of the run before away", done.returncode == 0 and not path.exists())
-    for command, deck, settings in (("torque-drag", STRING, ("Torque and Drag/Depths={40}",)), ("map", str(ROOT / "tests/study/map.xml"), ()), ("study", STUDY, ())):
+    for command, deck, settings in (("torque-drag", STRING, ("Torque and Drag/Depths={40}",)), ("map", str(ROOT / "tests/study/map.xml"), ("Map/Pictures=false",)),
+                                    ("study", STUDY, ("Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1"))):
         done = tooljoint(command, deck, "--output", f"ended_{command}", *[part for one in settings for part in ("--set", one)])
         expect(f"{command} ends with a report", done.returncode == 0 and pathlib.Path(f"ended_{command}/report.html").is_file(), done.stderr)
     os.environ["PYTHONHOME"] = "/nowhere"  # no python3 starts
@@ -318,7 +319,7 @@ def end_of_run():
     os.environ["TOOLJOINT_REPORT"] = "off"
     run("ended", STRING)
     expect("TOOLJOINT_REPORT=off: no report", not path.exists())
-    done = tooljoint("report", "ended", "--output", "two.html", ranks=2)
+    done = tooljoint("report", "assembly", "--output", "two.html", ranks=2)
     expect("two ranks write one report", done.returncode == 0 and pathlib.Path("two.html").is_file() and done.stdout.count("report  ") == 1, done.stderr)
     done = tooljoint("report", "nowhere", ranks=2)
     expect("and end alike", done.returncode == 5 and done.stderr.count("is no folder") == 1, f"({done.returncode}) {done.stderr}")
@@ -352,7 +353,7 @@ def refusals():
     refuse("no summary", "damaged", "damaged/summary.json cannot be read")
     pathlib.Path("damaged/results.h5").rename("damaged/results.h5.part")
     refuse("a run that has not ended", "damaged", "results of a run that has not ended")
-    refuse("a file that cannot be written", "full", "cannot be written", "--output", "nowhere/page.html")
+    refuse("a file that cannot be written", "assembly", "cannot be written", "--output", "nowhere/page.html")
     done = tooljoint("report")
     expect("no folder named: exit code 1", done.returncode == 1 and "DIR" in done.stderr, done.stderr)
 
