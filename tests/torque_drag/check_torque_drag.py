@@ -193,11 +193,12 @@ def weight_on_bit():
 
 
 def locked():
-    """Pushed so hard that it locks up, a string has no loads at the surface, and its profile ends below the lock-up."""
+    """Pushed so hard that it locks up, a string has no loads at the surface, and its profile ends below the lock-up. With bending stiffness it
+    has no result, which few iterations show as well as many."""
     survey = pathlib.Path("horizontal.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 90, 0\n2000, 90, 0\n", encoding="utf-8")
     table = run("locked", "Well/Trajectory=Survey", f"Well/Survey/File={survey}", "Torque and Drag/Count=1",
-                "Torque and Drag/Operations={Drill sliding}", "Loads/Weight On Bit=600 kN")
+                "Torque and Drag/Operations={Drill sliding}", "Loads/Weight On Bit=600 kN", "Static/Max Iterations=20")
     row = table[0]
     expect("it locks up", row["lock_up_depth"] != "" and 0 < float(row["lock_up_depth"]) < 1425, row)
     expect("no loads at the surface", all(row[key] == "" for key in ("hook_load", "surface_torque", "twist", "stretch")), row)
@@ -245,23 +246,23 @@ def stopped(folder, how, settings):
 
 def resumed():
     """A command that was stopped goes on: the depths it had are not computed again, and the tables are those of one that was not."""
-    settings = ("Torque and Drag/Count=12", "Torque and Drag/Stiff String=All Depths", "Torque and Drag/Operations={Trip out, Drill rotating}")
+    settings = ("Torque and Drag/Count=6", "Torque and Drag/Stiff String=All Depths", "Torque and Drag/Operations={Trip out, Drill rotating}")
     whole = run("whole", *settings)
     arguments = [part for setting in settings for part in ("--set", setting)]
     for how in (signal.SIGTERM, signal.SIGKILL):
         folder = f"stopped_{how.name}"
         shutil.rmtree(folder, ignore_errors=True)  # what a test that was cut off has left
         code, left = stopped(folder, how, settings)
-        expect(f"{how.name}: it stops with some depths done", code == (130 if how == signal.SIGTERM else -9) and 2 <= left < 12, f"{code} {left}")
+        expect(f"{how.name}: it stops with some depths done", code == (130 if how == signal.SIGTERM else -9) and 2 <= left < 6, f"{code} {left}")
         done = tooljoint("torque-drag", DECK, "--output", folder, *arguments)
-        expect(f"{how.name}: they are known", f"{left} of 12 depths are known from before" in done.stdout and done.stdout.count("stiff string, bit at") == 12 - left, done.stdout[-800:])
+        expect(f"{how.name}: they are known", f"{left} of 6 depths are known from before" in done.stdout and done.stdout.count("stiff string, bit at") == 6 - left, done.stdout[-800:])
         expect(f"{how.name}: the same table", rows(folder) == whole)
     done = tooljoint("torque-drag", DECK, "--output", "stopped_SIGKILL", *arguments, ranks=2)
-    expect("all are known to two ranks", "12 of 12 depths" in done.stdout and rows("stopped_SIGKILL") == whole, done.stdout[-800:])
+    expect("all are known to two ranks", "6 of 6 depths" in done.stdout and rows("stopped_SIGKILL") == whole, done.stdout[-800:])
     done = tooljoint("torque-drag", DECK, "--output", "stopped_SIGKILL", *arguments, "--set", "Loads/Weight On Bit=60 kN")
-    expect("another deck: all depths are computed, and that is said", "depths of another deck" in " ".join(done.stdout.split()) and done.stdout.count("stiff string, bit at") == 12, done.stdout[-800:])
+    expect("another deck: all depths are computed, and that is said", "depths of another deck" in " ".join(done.stdout.split()) and done.stdout.count("stiff string, bit at") == 6, done.stdout[-800:])
     done = tooljoint("torque-drag", DECK, "--output", "stopped_SIGTERM", *arguments, "--fresh")
-    expect("--fresh forgets them", "known" not in done.stdout and done.stdout.count("stiff string, bit at") == 12, done.stdout[-800:])
+    expect("--fresh forgets them", "known" not in done.stdout and done.stdout.count("stiff string, bit at") == 6, done.stdout[-800:])
 
 
 def files():
