@@ -264,9 +264,9 @@ TEST(MotionTolerance, IsMetAtTheStartOfEveryOtherScene) {
     if (file == "helical_170m.xml") continue;
     if (file == "stick_slip_2500m.xml")
       continue;  // laws with states have no estimate of the motion
-    const Case c(file, {"Transient/End Time=0.2", "Transient/Progress=false",
+    const Case c(file, {"Transient/End Time=0.1", "Transient/Progress=false",
                         "Transient/Step Error Limit=1000"});
-    std::printf("%s, 0.2 s: ", file.c_str());
+    std::printf("%s, 0.1 s: ", file.c_str());
     EXPECT_LE(chosen(c, testing_::move(c.scene, c.full), 2e-2), 2e-2) << file;
   }
 }
