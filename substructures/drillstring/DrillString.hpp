@@ -44,8 +44,9 @@ struct Instance {
   std::string component;  ///< name of the component
   std::string path;  ///< where it stands: "pipe 3", "stand 2/pipe 1"; the number counts equal names
                      ///< on one level
-  int firstElement = 0;  ///< 0-based
-  int lastElement = 0;   ///< 0-based, inclusive
+  int firstElement = 0;      ///< 0-based
+  int lastElement = 0;       ///< 0-based, inclusive
+  double gaugeRadius = 0.0;  ///< of the widest gauge in an entry of the assembly, 0: none [m]
 };
 
 /// Straight chain of elements from the surface (node 0) to the bit (last node).

@@ -267,18 +267,18 @@ class Mesher {
     }
   }
 
-  void setGauge(const Place& place, int at) {
+  void setGauge(const Place& place, int index) {
     const Component& gauge = *place.component;
-    Node& node = out_.nodes[static_cast<std::size_t>(at)];
+    Node& node = out_.nodes[at(index)];
     const double bore =
         std::min(well_.boreRadius(node.s - samePlace), well_.boreRadius(node.s + samePlace));
     const double clearance = bore - gauge.gaugeRadius;
     const std::string gaugeText = "The gauge radius " + metres(gauge.gaugeRadius) + " m ";
     if (clearance < tightFit)
       fault(gauge.where, gaugeText + "does not fit into the hole of radius " + metres(bore) +
-                             " m at " + metres(node.s) + " m (node " + std::to_string(at + 1) +
+                             " m at " + metres(node.s) + " m (node " + std::to_string(index + 1) +
                              ").");
-    const double body = bodyRadius(place, at), reach = gauge.gaugeRadius + gauge.gaugeOffset;
+    const double body = bodyRadius(place, index), reach = gauge.gaugeRadius + gauge.gaugeOffset;
     if (reach < body + tightFit)
       fault(gauge.where, gaugeText + "is below the outer radius of the body at " + metres(node.s) +
                              " m, " + metres(body) + " m, so it would never touch.");
@@ -286,13 +286,16 @@ class Mesher {
       fault(gauge.where, "The Gauge Offset " + metres(gauge.gaugeOffset) +
                              " m is above the radius of the hole, " + metres(bore) +
                              " m. Give the distance between the centres of gauge and string.");
+    const int own = index < place.lastNode ? index : index - 1;
+    double& widest = out_.instances[at(out_.elements[at(own)].instance)].gaugeRadius;
+    widest = std::max(widest, gauge.gaugeRadius);
     if (reach < node.contactRadius + tightFit) return;  // the next body is wider and touches first
     node.clearance = std::max(0.0, clearance);
     node.contactRadius = gauge.gaugeRadius;
     node.gauge = true;
     node.component = gauge.name;
     if (gauge.gaugeOffset > 0.0)
-      out_.eccentricGauges.push_back({at, gauge.gaugeOffset, gauge.gaugeDirection});
+      out_.eccentricGauges.push_back({index, gauge.gaugeOffset, gauge.gaugeDirection});
   }
 
   /// Outer radius of the component of a place beside its node [m].

@@ -72,13 +72,11 @@ std::vector<softstring::Stretch> stretches(const Scene& scene) {
   std::vector<softstring::Stretch> found;
   const auto& string = scene.string;
   const auto weight = weights(scene);
-  std::vector<double> widest(string.instances.size(), 0.0);
-  for (int e = 0; e < string.elementCount(); ++e) {
-    double& radius = widest[at(string.elements[at(e)].instance)];
-    for (const int node : {e, e + 1})
-      if (string.nodes[at(node)].gauge)
-        radius = std::max(radius, string.nodes[at(node)].contactRadius);
-    radius = std::max(radius, string.elements[at(e)].section().outerRadius());
+  std::vector<double> widest;
+  for (const Instance& one : string.instances) widest.push_back(one.gaugeRadius);
+  for (const Element& element : string.elements) {
+    double& radius = widest[at(element.instance)];
+    radius = std::max(radius, element.section().outerRadius());
   }
   for (int e = 0; e < string.elementCount(); ++e) {
     const Element& element = string.elements[at(e)];

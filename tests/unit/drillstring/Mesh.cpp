@@ -132,6 +132,21 @@ TEST(Mesh, LeavesAGaugeBesideAWiderBodyToThatBody) {
   EXPECT_EQ(string.nodes[6].contactRadius, 0.09);
 }
 
+/// The lever arm of friction in the soft string: a joint is of the entry it stands on, even where
+/// the node is that of the entry below, and where the body below is wider.
+TEST(Mesh, GivesAGaugeToTheEntryItStandsOn) {
+  const std::string gauge = real("Gauge Position", "9") + real("Gauge Radius", "0.08");
+  for (const double collar : {0.07, 0.09}) {
+    const DrillString string =
+        build(list("Components", tube("pipe", 9.0, 3, 0.06, 0.05, gauge) +
+                                     tube("collar", 9.0, 3, collar, 0.03) +
+                                     list("stand", array("Parts", "2*pipe"))) +
+              array("Assembly", "stand, collar"));
+    EXPECT_EQ(string.instances[0].gaugeRadius, 0.08);
+    EXPECT_EQ(string.instances[1].gaugeRadius, 0.0);
+  }
+}
+
 TEST(Mesh, DropsAGaugeWhoseNodeTheCutRemoves) {
   const std::string gauge = real("Gauge Position", "9") + real("Gauge Radius", "0.1");
   const std::string assembly =
