@@ -70,6 +70,27 @@ bool isClass(const Handle& type, H5T_class_t a, H5T_class_t b) {
   return found == a || found == b;
 }
 
+/// A text of a fixed length, filled up with zeros or blanks.
+bool isFixedText(const Handle& type) {
+  return H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) <= 0;
+}
+
+/// `count` of them; `read` fills the bytes with the type of the file.
+template <class Read>
+std::vector<std::string> fixedTexts(const Handle& type, std::size_t count, const Read& read) {
+  const std::size_t length = H5Tget_size(type.get());
+  std::vector<char> bytes(count * length);
+  std::vector<std::string> values;
+  if (!bytes.empty() && read(bytes.data()) < 0) return values;
+  const bool blanks = H5Tget_strpad(type.get()) == H5T_STR_SPACEPAD;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string text(bytes.data() + i * length, length);
+    values.push_back(text.substr(0, text.find('\0')));
+    if (blanks) values.back().erase(values.back().find_last_not_of(' ') + 1);
+  }
+  return values;
+}
+
 }  // namespace
 
 ResultsReader::ResultsReader(const std::string& path) : path_(path) {
@@ -186,8 +207,16 @@ std::vector<int> ResultsReader::integers(const std::string& path) const {
 std::vector<std::string> ResultsReader::texts(const std::string& path) const {
   const Handle dataset = openDataset(file_, path);
   if (!dataset.valid()) fail("dataset " + path);
-  std::vector<char*> raw(count(path, dataset.get()), nullptr);
+  const std::size_t number = count(path, dataset.get());
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  if (isFixedText(type)) {
+    const auto fixed = fixedTexts(type, number, [&](char* bytes) {
+      return H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes);
+    });
+    if (fixed.size() < number) fail("readable texts in " + path);
+    return fixed;
+  }
+  std::vector<char*> raw(number, nullptr);
   const Handle text = hdf5::textType();
   const Handle all(H5Dget_space(dataset.get()), H5Sclose);
   hsize_t bytes = 0;
@@ -216,6 +245,12 @@ std::string ResultsReader::textAttribute(const std::string& object, const std::s
       H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   if (!attribute.valid()) fail("attribute " + name + " of " + object);
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  if (isFixedText(type) && isSingle(attribute)) {
+    const auto fixed = fixedTexts(
+        type, 1, [&](char* bytes) { return H5Aread(attribute.get(), type.get(), bytes); });
+    if (fixed.empty()) fail("text in the attribute " + name + " of " + object);
+    return fixed.front();
+  }
   char* raw = nullptr;
   if (!isClass(type, H5T_STRING, H5T_STRING) || !isSingle(attribute) ||
       H5Aread(attribute.get(), hdf5::textType().get(), &raw) < 0) {

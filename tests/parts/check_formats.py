@@ -74,8 +74,8 @@ def hdf5(K, M, labels, positions, name="plate.h5", first=1):
     """The nodes are numbered from `first`."""
     labels = np.array(labels) + [first - 1, 0]
     with h5py.File(name, "w") as file:
-        file.attrs["format"] = "tooljoint part 1"
-        file["components"] = COMPONENTS
+        file.attrs["format"] = np.bytes_("tooljoint part 1")  # texts of a fixed length, as MATLAB and Fortran write them
+        file["components"] = np.array(COMPONENTS, "S8")
         file["dofs"] = labels
         file["mass"], file["stiffness"] = M, K
         file["positions"] = np.column_stack([np.arange(len(positions)) + first, positions])

@@ -36,7 +36,7 @@ std::vector<std::string> wordsOf(const std::string& text) {
   return out;
 }
 
-/// A Fortran format of equal fields, "(8I10)", "(1P,5E16.8)", "(1d25.15)".
+/// A Fortran format of equal fields, "(8I10)", "(1P,5E16.8)", "(3(1PE25.13))".
 struct FieldFormat {
   std::size_t count = 1, width = 0;
 };
@@ -135,7 +135,7 @@ class HbFile {
     for (auto& format : out) {
       const auto open = text_.find('(', at);
       if (open == std::string::npos) break;
-      const auto close = text_.find(')', open);
+      const auto close = closing(open);
       if (close == std::string::npos) break;
       format = formatOf(upper(text_.substr(open + 1, close - open - 1)));
       at = close;
@@ -149,18 +149,35 @@ class HbFile {
     return out;
   }
 
-  /// The last repeat count and the width before the point: 1P,4E20.12 -> 4 fields of 20 columns.
+  /// Where the bracket at `open` is closed, npos where it is not.
+  std::size_t closing(std::size_t open) const {
+    int depth = 0;
+    for (auto i = open; i < text_.size(); ++i) {
+      if (text_[i] == '(') ++depth;
+      if (text_[i] == ')' && --depth == 0) return i;
+    }
+    return std::string::npos;
+  }
+
+  /// Repeat counts and the width before the point: 1P,4E20.12 -> 4 fields of 20 columns,
+  /// 3(1PE25.13) -> 3 of 25.
   static FieldFormat formatOf(std::string text) {
-    FieldFormat out;
-    if (const auto scale = text.find('P'); scale != std::string::npos)
-      text = text.substr(scale + 1);
-    while (!text.empty() && (text[0] == ',' || text[0] == ' ')) text.erase(0, 1);
-    const auto letter = text.find_first_of("IEDFG");
-    if (letter == std::string::npos) return out;
-    const auto count = wholeNumber(letter == 0 ? "1" : text.substr(0, letter));
-    const auto width = wholeNumber(text.substr(letter + 1, text.find('.') - letter - 1));
-    if (count < 1 || count > 1024 || width < 1 || width > 1024) return out;
-    return {static_cast<std::size_t>(count), static_cast<std::size_t>(width)};
+    constexpr std::int64_t most = 1024;
+    const auto letter = text.find_first_of("(IEDFGP");
+    if (letter == std::string::npos) return {};
+    if (text[letter] == 'P') return formatOf(text.substr(letter + 1));
+    const auto repeat = trim(text.substr(0, letter));
+    const auto digits = repeat.find_first_not_of(", ");
+    const auto count = digits == std::string::npos ? 1 : wholeNumber(repeat.substr(digits));
+    FieldFormat field;
+    if (text[letter] == '(') {
+      field = formatOf(text.substr(letter + 1, text.rfind(')') - letter - 1));
+    } else {
+      const auto width = wholeNumber(text.substr(letter + 1, text.find('.') - letter - 1));
+      if (width >= 1 && width <= most) field.width = static_cast<std::size_t>(width);
+    }
+    if (count < 1 || count > most || field.count > most) return {};
+    return {static_cast<std::size_t>(count) * field.count, field.width};
   }
 
   /// Calls take(text) for `count` fields.

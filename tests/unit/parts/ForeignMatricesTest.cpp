@@ -254,9 +254,11 @@ TEST(HarwellBoeing, FreeBeamComesBackByItsMapping) {
 
 TEST(HarwellBoeing, SeveralNumbersALine) {
   const Folder folder;
-  folder.write("K.rsa",
-               "title\n 3 1 1 1\nRSA 2 2 3 0\n(3I4) (3I4) (1P,3E10.3)\n"
-               "   1   3   4\n   1   2   2\n 5.000E+00-3.000E+00 4.000E+00\n");
+  const auto giveStiffness = [&](const std::string& format) {
+    folder.write("K.rsa", "title\n 3 1 1 1\nRSA 2 2 3 0\n(3I4) (3I4) " + format +
+                              "\n   1   3   4\n   1   2   2\n 5.000E+00-3.000E+00 4.000E+00\n");
+  };
+  giveStiffness("(1P,3E10.3)");
   folder.write("M.rsa",
                "title\n 3 1 1 1\nRSA 2 2 1 0\n(3I4) (3I4) (3E10.3)\n   1   2   2\n   1\n 2.0\n");
   folder.write("map", "1 7 ROTX\n2 3 uy\n");
@@ -267,6 +269,14 @@ TEST(HarwellBoeing, SeveralNumbersALine) {
             (std::vector<DofLabel>{DofLabel::physical(3, 1), DofLabel::physical(7, 3)}));
   EXPECT_EQ(stiffness(part), (Matrix(2, 2) << 4, -3, -3, 5).finished());
   EXPECT_EQ(Matrix(part.part.model.mass), (Matrix(2, 2) << 0, 0, 0, 2).finished());
+  for (const char* format : {"(1P3E10.3)", "(3(1PE10.3))", "(1P, 3(e10.3))", "(1( 3E10.3 ))"}) {
+    giveStiffness(format);
+    EXPECT_EQ(stiffness(folder.read("part.json")), stiffness(part)) << format;
+  }
+  for (const char* format : {"(3(E10.3)", "(3(X))", "(0(3E10.3))", "(2000(2E10.3))"}) {
+    giveStiffness(format);
+    folder.expect("part.json", "K.rsa:4 should give the Fortran formats");
+  }
   folder.expect("K.rsa", "holds one matrix. Name a part.json");
 }
 
