@@ -14,6 +14,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Parallel.hpp"
+#include "common/Text.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
@@ -170,6 +171,13 @@ std::vector<std::string> setsWithStates(const model::SecondOrderModel& model) {
   for (const auto& set : model.points)
     if (model::stateSize(*set.law) > 0) names.push_back(set.name);
   return names;
+}
+
+std::string withoutStates(const std::vector<std::string>& held) {
+  if (held.empty()) return "";
+  return " The states of " + quotedList(held) +
+         " are held here, so that growth by them (by the delay of a cutting bit, by the control of "
+         "a drive) is not seen: the motion shows it.";
 }
 
 StateStability assess(const model::SecondOrderModel& model, double t) {

@@ -49,6 +49,9 @@ struct StateStability {
 /// Names of the point sets whose laws have states.
 std::vector<std::string> setsWithStates(const model::SecondOrderModel& model);
 
+/// What a verdict on these modes leaves out, as a sentence after a blank; empty without such sets.
+std::string withoutStates(const std::vector<std::string>& held);
+
 /// Growth rates below this are not reported [1/s]: a disturbance takes more than a quarter of an
 /// hour to grow by e.
 constexpr double slowestGrowth = 1e-3;

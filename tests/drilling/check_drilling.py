@@ -346,7 +346,7 @@ def cutting(program):
     for name, run in runs.items():
         without = run.summary["static"]["stability_without"]
         expect(f"{name}: the assessment of the static state says that it holds the delay", without == ["bit", "top drive"]
-               and "chatter by the delay" in run.output, str(without))
+               and "by the delay of a cutting bit" in run.output, str(without))
     figures(runs["reduced"], feed)
     hook = string(program, "cutting_hook", {**drive, "Hook": "Constant Load"}, short, **lists)
     near("constant hook load: weight at rest", hook.data("transient/weight_on_bit")[0], 4 * 0.108 * 0.6 * 1e6 * depth[0], 1e-3)

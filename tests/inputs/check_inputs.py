@@ -174,10 +174,16 @@ def check_refuses_what_run_refuses():
     explicit = ["--set", "Transient/Integrator=RK4", "--without", "Transient/Step"]
     short = ["--set", "Transient/End Time=0.01"]
     mass = ["--without", "Reduction/Mode Selection", "--set", "Reduction/Mode Selection/Effective Interface Mass=0.5"]
+    hooked = "hooked.xml"  # a spring in the place of a support
+    text = STRING.read_text(encoding="utf-8").rstrip().removesuffix("</ParameterList>")
+    pathlib.Path(hooked).write_text(text + """<ParameterList name="Coupling"><ParameterList name="Springs"><ParameterList name="hook">
+        <Parameter name="First" type="string" value="pipe 1:1"/><Parameter name="Component" type="string" value="w"/>
+        <Parameter name="Stiffness" type="double" value="1e6"/></ParameterList></ParameterList></ParameterList></ParameterList>""", encoding="utf-8")
     rows = [
         (STRING, ["--set", "Supports/Top=u v theta_z"], "The string floats: w is free at all of its"),
         (STRING, ["--set", "Supports/Top=w"], "The string floats: theta_z is free at all of its"),
         (STRING, ["--set", "Supports/Top=none", "--set", "Well/Trajectory=Vertical", "--set", "Well/Vertical/Length=60"], "The string floats: it has no support."),
+        (hooked, ["--set", "Supports/Top=u v theta_z"], "Springs of the list Coupling count from the static state"),
         (FRAME, [*macneal, *calm, *explicit], "is \"MacNeal\", which has a singular mass matrix, but the integrator \"RK4\" needs a nonsingular one"),
         (FRAME, [*dual, *calm, *explicit], "is \"Dual Craig-Bampton\", which has a singular mass matrix"),
         (FRAME, [*macneal, "--set", "Reduction/Error Estimate=Frequencies"], "Error Estimate needs an error estimate, but the basis \"MacNeal\""),

@@ -146,6 +146,13 @@ void addDrilling(const Scene& scene, StringModel& model) {
         drilling::driveOnString(drive, reactionAtTop(model, scene.startTime(), nodal::thetaZ)));
 }
 
+/// Said of a string that floats where springs seem to hold it.
+std::string notByCoupling(const Scene& scene) {
+  return scene.coupling ? " Springs of the list Coupling count from the static state, so they do "
+                          "not hold the string."
+                        : "";
+}
+
 /// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
 /// can touch, is singular. Throws ModelError naming the dof that moves most. `equations` are the
 /// same afterwards.
@@ -169,7 +176,7 @@ void requireHeld(const Scene& scene, StringModel& equations) {
     });
   } catch (const ModelError& error) {
     throw ModelError(std::string("The string floats: it has no support. ") + error.what() +
-                     " Hold that dof in the Supports list.");
+                     " Hold that dof in the Supports list." + notByCoupling(scene));
   }
 }
 
@@ -194,7 +201,8 @@ void explainFailure(const Scene& scene, const ConvergenceError& error) {
   throw ModelError("The string floats: " + dof + " is free at all of its " +
                    std::to_string(scene.string.nodeCount()) + " nodes, so the string " +
                    motion->does + ", and walls and bending cannot hold it. Hold " + dof +
-                   " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
+                   " of node 1 or of the bit in the Supports list." + notByCoupling(scene) + " (" +
+                   error.what() + ")");
 }
 
 /// Unstable states that "Perturb" leaves before it gives up.

@@ -2,10 +2,8 @@
 #include "substructures/drillstring/scene/StringStability.hpp"
 
 #include <fmt/format.h>
-#include <vector>
 
 #include "common/Error.hpp"
-#include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "deck/PrintedUnits.hpp"
 
@@ -20,15 +18,6 @@ constexpr const char* unrefined =
 
 std::string counted(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
-/// What the verdict leaves out.
-std::string withoutStates(const std::vector<std::string>& held) {
-  if (held.empty()) return "";
-  return " The states of " + quotedList(held) +
-         " are held here, so that growth by them (chatter by the delay of a cutting bit) is not "
-         "seen: "
-         "the motion shows it.";
 }
 
 /// "3 half waves, largest in u of node 13 (s = 6 m)".
@@ -50,14 +39,14 @@ std::string describeStability(const StaticStage& stage) {
     if (s.examined > 0)
       text +=
           ", no damped motion in the space of its " + counted(s.examined, "lowest mode") + " grows";
-    return "stable: " + text + "." + withoutStates(s.held);
+    return "stable: " + text + "." + stability::withoutStates(s.held);
   }
   const std::string motion = s.diverges()
                                  ? "the string leaves it"
                                  : fmt::format("a vibration of {:.4g} Hz grows", s.frequency);
   return fmt::format("unstable: {} as exp({:.4g} t) ({}); {}.{}", motion, s.growthRate,
                      modeText(stage), text, s.refined ? "" : unrefined) +
-         withoutStates(s.held);
+         stability::withoutStates(s.held);
 }
 
 void summariseStability(const StaticStage& stage, io::Summary& summary) {
