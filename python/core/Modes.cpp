@@ -42,15 +42,18 @@ Matrix assurance(const py::object& mass, const Eigen::MatrixXcd& a, const Eigen:
 
 py::dict rowOf(const estimate::ModeComparison& mode, bool damped) {
   py::dict row;
-  row["coupled_mode"] = mode.coupledMode;
+  const auto ofCoupled = [&](auto number) {
+    return mode.coupledMode < 0 ? py::object(py::none()) : py::cast(number);
+  };
+  row["coupled_mode"] = ofCoupled(mode.coupledMode);
   row["full_hz"] = mode.fullHz();
-  row["coupled_hz"] = mode.coupledHz();
+  row["coupled_hz"] = ofCoupled(mode.coupledHz());
   if (damped) {
     row["full_damping"] = mode.fullDamping();
-    row["coupled_damping"] = mode.coupledDamping();
+    row["coupled_damping"] = ofCoupled(mode.coupledDamping());
   }
-  row["mac"] = mode.mac;
-  row["error"] = mode.error;
+  row["mac"] = ofCoupled(mode.mac);
+  row["error"] = ofCoupled(mode.error);
   row["estimate"] = mode.estimated ? py::object(py::float_(mode.estimate)) : py::none();
   return row;
 }

@@ -77,8 +77,8 @@ def mac(a: ArrayLike, b: ArrayLike, mass: MatrixLike) -> np.ndarray:
 
 def compare_modes(synthesis: _core.Synthesis, count: int, full: HasModel | None = None, t: float | None = None) -> list[dict[str, Any]]:
     """Modes of the full model, each with the coupled mode of its shape: a list of dicts with full_hz, coupled_hz, mac, error (relative,
-    of the frequency) and estimate (of the error, without the full model; None where the basis has none). full: the model to compare
-    with; by default the unreduced parts, coupled. t: compare damped modes at that time instead.
+    of the frequency) and estimate (of the error, without the full model; None where the basis has none); None where no coupled mode
+    corresponds. full: the model to compare with; by default the unreduced parts, coupled. t: compare damped modes at that time instead.
     """
     return _core.compare_modes(synthesis, count, t, full if full is None else _model(full))
 

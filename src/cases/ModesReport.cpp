@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
+#include <fmt/format.h>
 #include <vector>
 
 #include "cases/ReducedCase.hpp"
@@ -17,7 +18,9 @@
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "estimate/FrequencyEstimate.hpp"
 #include "estimate/ModeComparison.hpp"
+#include "estimate/PartResidual.hpp"
 #include "io/Csv.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "model/DofNames.hpp"
@@ -46,11 +49,7 @@ constexpr double noGrowth = 1e-8;
 /// they leave as they are at rest
 std::string verdict(const std::vector<std::complex<double>>& values,
                     const std::vector<std::string>& held) {
-  const std::string without =
-      held.empty() ? ""
-                   : " The states of " + quotedList(held) +
-                         " are held here, so that growth by them (chatter by the delay of a "
-                         "cutting bit) is not seen: the motion shows it.";
+  const std::string without = stability::withoutStates(held);
   std::size_t growing = 0;
   double fastest = 0;
   for (const auto& s : values)
@@ -86,22 +85,34 @@ void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::s
                  {"coupled_im", "Hz"}});
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const auto& m = modes[i];
-    std::vector<std::string> cells;
-    for (double number : {static_cast<double>(i + 1), m.fullHz(), m.fullDamping(),
-                          m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(), m.mac, m.error})
-      cells.push_back(formatNumber(number));
-    cells.push_back(m.estimated ? formatNumber(m.estimate) : "");
-    cells.push_back(m.definite ? "1" : "0");
-    cells.push_back(formatNumber(m.fullImHz()));
-    cells.push_back(formatNumber(m.coupledImHz()));
-    table.row(cells);
+    const auto ofCoupled = [&](double number) {
+      return m.coupledMode < 0 ? "" : formatNumber(number);
+    };
+    table.row({formatNumber(static_cast<double>(i + 1)), formatNumber(m.fullHz()),
+               formatNumber(m.fullDamping()), ofCoupled(m.coupledMode + 1.0),
+               ofCoupled(m.coupledHz()), ofCoupled(m.coupledDamping()), ofCoupled(m.mac),
+               ofCoupled(m.error), m.estimated ? formatNumber(m.estimate) : "",
+               ofCoupled(m.definite ? 1.0 : 0.0), formatNumber(m.fullImHz()),
+               ofCoupled(m.coupledImHz())});
   }
   table.writeInto(folder, name);
 }
 
+/// More modes than these are told of before they are computed.
+constexpr int manyModes = 200;
+
+/// The number of modes to list, told where that takes long or is not what was given.
+int modesOf(const model::SecondOrderModel& model, int wanted) {
+  const int count = std::min(wanted, model.size());
+  if (count > manyModes)
+    log::info("modes       " + std::to_string(count) + " of " + std::to_string(model.size()) +
+              " dofs are computed: so many take long, the damped ones most. --count chooses fewer");
+  return count;
+}
+
 /// Undamped and damped modes of one model.
 void listFullModes(const model::SecondOrderModel& full, const ModesOptions& options, double t) {
-  const int count = std::min(options.count, full.size());
+  const int count = modesOf(full, options.count);
   const auto pairs = coupling::lowestModes(full, count);
   const auto values =
       estimate::undampedValues(coupling::undampedStiffness(full),
@@ -146,7 +157,8 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
                        double t) {
   log::info("reduced     " + std::to_string(full.size()) + " dofs to " +
             std::to_string(synthesis.coupled.model.size()));
-  const auto undamped = estimate::compareModes(full, parts, synthesis, options.count, maps);
+  const int count = modesOf(full, options.count);
+  const auto undamped = estimate::compareModes(full, parts, synthesis, count, maps);
   if (synthesis.coupled.interfaceModes >= 0)
     log::info(
         "The estimates include the error of the reduced parts, but not of the interface "
@@ -156,7 +168,7 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
             "subspace), its relative error, and the estimate of the error without the full model:");
   log::info(estimate::comparisonTable(undamped, false));
   if (!options.output.empty()) writeTable(undamped, options.output, "modes.csv");
-  const auto damped = estimate::compareDampedModes(full, parts, synthesis, options.count, t, maps);
+  const auto damped = estimate::compareDampedModes(full, parts, synthesis, count, t, maps);
   log::info(dampedHeading(t) + ", errors of s:");
   log::info(estimate::comparisonTable(damped, true));
   std::vector<std::complex<double>> values;
@@ -170,16 +182,34 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
 void listCoupledModes(const ReducedCase& reduced, const ModesOptions& options) {
   const auto& parts = reduced.unreduced.parts;
   const auto& synthesis = reduced.outcome.synthesis;
-  const auto estimates = estimate::estimateFrequencies(parts, synthesis, {options.count, 0});
-  if (synthesis.coupled.interfaceModes >= 0)
+  const auto& coupled = synthesis.coupled.model;
+  const int count = modesOf(coupled, options.count);
+  std::vector<estimate::FrequencyEstimate> modes;
+  const bool estimated = estimate::estimable(synthesis, [&] {
+    modes = estimate::estimateFrequencies(parts, synthesis, {count, 0});
+  });
+  if (estimated && synthesis.coupled.interfaceModes >= 0)
     log::info("The estimates do not include the error of the interface reduction.");
-  log::info(estimate::frequencyTable(estimates, parts));
+  if (estimated) {
+    log::info(estimate::frequencyTable(modes, parts));
+  } else {
+    log::info(
+        "Coupled frequencies, whose errors cannot be estimated here:\n  mode    coupled [Hz]");
+    for (const double value : coupling::lowestPhysicalModes(coupled, count).values) {
+      modes.emplace_back();
+      modes.back().eigenvalue = value;
+      log::info(fmt::format("  {:4}  {:14.8g}", modes.size(), modes.back().frequency()));
+    }
+  }
   reportTimes();
   if (options.output.empty()) return;
   io::Csv table({{"mode", ""}, {"coupled", "Hz"}, {"estimate", ""}, {"definite", ""}});
-  for (std::size_t i = 0; i < estimates.size(); ++i)
-    table.row({static_cast<double>(i + 1), estimates[i].frequency(), estimates[i].error,
-               estimates[i].definite ? 1.0 : 0.0});
+  for (std::size_t i = 0; i < modes.size(); ++i)
+    table.row({formatNumber(static_cast<double>(i + 1)), formatNumber(modes[i].frequency()),
+               estimated ? formatNumber(modes[i].error) : "",
+               !estimated          ? ""
+               : modes[i].definite ? "1"
+                                   : "0"});
   table.writeInto(options.output, "modes.csv");
 }
 

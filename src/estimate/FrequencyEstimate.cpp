@@ -141,8 +141,10 @@ double assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vecto
 class ModeCounts {
  public:
   /// \param full estimated eigenvalues, one for each coupled mode
+  /// \param smallest those of rigid bodies are no larger: no bound lies between two of them
   ModeCounts(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
-             std::vector<double> full, const std::vector<FrequencyEstimate>& estimates)
+             std::vector<double> full, const std::vector<FrequencyEstimate>& estimates,
+             double smallest)
       : parts_(parts), synthesis_(synthesis), full_(std::move(full)) {
     std::vector<std::size_t> order(full_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -150,7 +152,8 @@ class ModeCounts {
                      [&](std::size_t a, std::size_t b) { return full_[a] < full_[b]; });
     for (std::size_t i = 1; i < order.size(); ++i) {
       const double below = full_[order[i - 1]], above = full_[order[i]];
-      if (above - below > closest * std::abs(above)) gaps_.push_back({below, above});
+      const bool bothRigid = std::max(std::abs(below), std::abs(above)) <= smallest;
+      if (!bothRigid && above - below > closest * std::abs(above)) gaps_.push_back({below, above});
     }
     // Just below the last one.
     const auto& last = estimates[order.back()];
@@ -249,7 +252,7 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
     full.back() = assess(e, j, all, connectors[j]);
   }
   if (estimates.empty()) return estimates;
-  if (const auto bound = ModeCounts(parts, synthesis, full, estimates).missingAbove())
+  if (const auto bound = ModeCounts(parts, synthesis, full, estimates, smallest).missingAbove())
     for (std::size_t j = 0; j < full.size(); ++j)
       if (full[j] > *bound) estimates[j].definite = false;
   return estimates;

@@ -161,9 +161,10 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full,
   const auto& coupled = synthesis.coupled.model;
   const int looked = std::min(exact.count() + moreModes, coupled.size());
   const auto pairs = coupling::lowestPhysicalModes(coupled, looked);
-  const bool estimated = isRitz(synthesis);
-  const auto estimates = estimated ? estimateFrequencies(parts, synthesis, {looked, 0})
-                                   : std::vector<FrequencyEstimate>();
+  std::vector<FrequencyEstimate> estimates;
+  const bool estimated = estimable(synthesis, [&] {
+    estimates = estimateFrequencies(parts, synthesis, {looked, 0});
+  });
   const ComplexMatrix shapes = recover(full, parts, synthesis, pairs.vectors.cast<Complex>(), maps);
   const ComplexVector values = undampedValues(stiffness, mass, exact.values, exact.vectors);
   const ComplexVector coupledValues = undampedValues(stiffness, mass, pairs.values, shapes.real());
@@ -228,13 +229,12 @@ class DampedComparison {
   std::vector<ModeComparison> match(const linalg::QuadraticModes& exact,
                                     const linalg::QuadraticModes& coupled, Eigen::Index count,
                                     const std::optional<linalg::DampedTarget>& target) const {
-    const bool estimated = isRitz(synthesis_);
     ComplexVector errors;
-    if (estimated) {
+    const bool estimated = estimable(synthesis_, [&] {
       const auto matrices = linearise(parts_, t_);
       errors =
           DynamicError(parts_, synthesis_, matrices).ofModes(matrices, small_, coupled, target);
-    }
+    });
     const auto matches = matchModes(whole_.mass, exact.values, exact.vectors,
                                     recover(full_, parts_, synthesis_, coupled.vectors, maps_));
     std::vector<ModeComparison> modes(

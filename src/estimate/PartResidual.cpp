@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/Error.hpp"
+#include "common/report/Log.hpp"
 
 namespace tooljoint::estimate {
 
@@ -17,6 +18,17 @@ bool ownMass(const reduction::ReducedSubstructure& part) {
 
 bool isRitz(const coupling::Synthesis& synthesis) {
   return std::all_of(synthesis.parts.begin(), synthesis.parts.end(), ownMass);
+}
+
+bool estimable(const coupling::Synthesis& synthesis, const std::function<void()>& estimate) {
+  if (!isRitz(synthesis)) return false;
+  try {
+    estimate();
+    return true;
+  } catch (const ModelError& error) {
+    log::warn(error.what());
+    return false;
+  }
 }
 
 void requireRitz(const coupling::Synthesis& synthesis) {

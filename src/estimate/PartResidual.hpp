@@ -3,6 +3,7 @@
 /// Truncated motion of one part and its load on the coupled model.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "coupling/Synthesis.hpp"
@@ -15,6 +16,10 @@ namespace tooljoint::estimate {
 void requireRitz(const coupling::Synthesis& synthesis);
 /// False where requireRitz throws.
 bool isRitz(const coupling::Synthesis& synthesis);
+/// Calls `estimate` where the basis has estimates; false where it has none, or, with a warning,
+/// where a part has none, since its interior is a mechanism: modes are compared without, too.
+/// Collective.
+bool estimable(const coupling::Synthesis& synthesis, const std::function<void()>& estimate);
 
 /// State of a part, or its means over an interval.
 struct PartMotion {

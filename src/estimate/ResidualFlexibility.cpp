@@ -7,10 +7,35 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
-#include "linalg/factor/MumpsFactor.hpp"
+#include "common/Text.hpp"
+#include "model/DofNames.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::estimate {
+
+namespace {
+
+/// What is left of a static response without its part in the basis is rounding below this share of
+/// it, and has no direction.
+constexpr double rounding = 1e-12;
+
+/// Of the lowest vibration in the basis: the shift of the stiffness of an interior that floats. Its
+/// motions at zero are in the basis; the static response of the others changes by less than this.
+constexpr double small = 1e-3;
+
+/// Eigenvalues of a basis below this part of the largest are zero.
+constexpr double zeroBelow = 1e-8;
+
+/// omega^2 of the lowest mode of the basis that is no motion at zero [rad^2/s^2]; 0 without one.
+double lowestVibration(const reduction::Basis& basis) {
+  if (basis.modes() == 0) return 0.0;
+  const double zero = zeroBelow * basis.eigenvalues.maxCoeff();
+  for (const double value : basis.eigenvalues)
+    if (value > zero && value > 0.0) return value;
+  return 0.0;
+}
+
+}  // namespace
 
 ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
                                          const reduction::Basis& basis, const Sparse& stiffness)
@@ -24,35 +49,42 @@ ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
   if (truncated_ == 0) return;
   stiffness_ = reduction::block(stiffness, interior_, interior_);
   mass_ = reduction::block(part.model.mass, interior_, interior_);
-  const std::string mechanism =
-      "Part \"" + part.name +
-      "\": its interior is a mechanism with its interface and retained dofs fixed, so the error of "
-      "its reduction cannot be estimated. Retain more dofs there, or remove \"Error Estimate\".";
-  if (linalg::suitsMumps(stiffness_)) {
-    try {
-      large_ = std::make_unique<linalg::DirectSolver>(stiffness_);
-    } catch (const ModelError& error) {
-      throw ModelError(mechanism + " " + error.what());
-    }
-  } else {
-    factor_ = std::make_unique<Eigen::SparseLU<Eigen::SparseMatrix<double>>>();
-    factor_->compute(Eigen::SparseMatrix<double>(stiffness_));
-    if (factor_->info() != Eigen::Success) throw ModelError(mechanism);
-  }
-  if (columns.empty()) return;
   modes_ = reduction::block(basis.vectors, interior_, columns);
-  const Matrix projected = modes_.transpose() * (stiffness_ * modes_);
-  modalFactor_ = linalg::DenseLu(projected);
+  factor(part, basis);
 }
 
-Matrix ResidualFlexibility::solve(const Matrix& r) const {
-  return large_ ? large_->solve(r) : Matrix(factor_->solve(r));
+void ResidualFlexibility::factor(const model::Substructure& part, const reduction::Basis& basis) {
+  const auto name = model::namer(part.model, interior_);
+  Sparse regular = stiffness_;
+  try {
+    solver_ = std::make_unique<linalg::DirectSolver>(regular, name);
+  } catch (const ModelError& error) {
+    const double shift = small * lowestVibration(basis);
+    regular += shift * mass_;
+    try {
+      if (shift > 0) solver_ = std::make_unique<linalg::DirectSolver>(regular, name);
+    } catch (const ModelError&) {
+    }
+    if (!solver_)
+      throw ModelError("Part " + inQuotes(part.name) +
+                       ": its interior is a mechanism with its interface and retained dofs fixed, "
+                       "so the error of its reduction cannot be estimated. Retain more dofs there, "
+                       "or do without estimates: remove \"Error Estimate\" and tolerances where "
+                       "the deck has them. " +
+                       error.what());
+  }
+  if (modes_.cols() > 0)
+    modalFactor_ = linalg::DenseLu(Matrix(modes_.transpose() * (regular * modes_)));
 }
 
 Matrix ResidualFlexibility::apply(const Matrix& r) const {
   if (truncated_ == 0) return Matrix::Zero(r.rows(), r.cols());
-  Matrix x = solve(r);
-  if (modes_.cols() > 0) x.noalias() -= modes_ * modalFactor_.solve(Matrix(modes_.transpose() * r));
+  Matrix x = solver_->solve(r);
+  if (modes_.cols() == 0) return x;
+  const Vector whole = x.colwise().norm();
+  x.noalias() -= modes_ * modalFactor_.solve(Matrix(modes_.transpose() * r));
+  for (Eigen::Index j = 0; j < x.cols(); ++j)
+    if (x.col(j).norm() <= rounding * whole[j]) x.col(j).setZero();
   return x;
 }
 

@@ -4,7 +4,6 @@
 /// flexibility.
 #pragma once
 
-#include <Eigen/SparseLU>
 #include <memory>
 #include <vector>
 
@@ -21,8 +20,8 @@ namespace tooljoint::estimate {
 /// response outside the basis, with all boundary dofs fixed. One factorisation per part.
 class ResidualFlexibility {
  public:
-  /// \param stiffness of the part, dofs x dofs; nonsingular on the interior
-  /// Throws ModelError naming the part when its interior is a mechanism.
+  /// \param stiffness of the part, dofs x dofs
+  /// Throws ModelError naming the part when its interior is a mechanism but for modes of the basis.
   ResidualFlexibility(const model::Substructure& part, const reduction::Basis& basis,
                       const Sparse& stiffness);
 
@@ -55,17 +54,16 @@ class ResidualFlexibility {
   std::vector<Step> steps(const Matrix& R, const Matrix& G) const;
 
  private:
-  Matrix solve(const Matrix& r) const;
+  /// Of K_II, or, where the interior floats, of K_II + s M_II with a small s.
+  void factor(const model::Substructure& part, const reduction::Basis& basis);
 
   std::vector<int> interior_;
   int truncated_ = 0;
   Sparse mass_;
   Sparse stiffness_;
-  std::unique_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> factor_;
-  std::unique_ptr<linalg::DirectSolver> large_;  ///< instead, where the factors fill
-  Matrix modes_;                                 ///< W
-  Matrix stiffModes_;                            ///< K_II' W
-  linalg::DenseLu modalFactor_;                  ///< of W' K_II W
+  std::unique_ptr<linalg::DirectSolver> solver_;
+  Matrix modes_;                 ///< W
+  linalg::DenseLu modalFactor_;  ///< of W' K_II W
 };
 
 }  // namespace tooljoint::estimate

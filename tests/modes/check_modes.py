@@ -211,6 +211,56 @@ def reduced():
         expect(f"frame, dual with residual mass, {file}: errors", len(errors) == 8 and max(errors) < 1e-5, f"{max(errors):.1e}")
 
 
+def floating():
+    """Multilevel on free bodies, one and two in a part: estimates beside true errors; without a partner, and without estimates, fields are empty."""
+    body, other = st.solid(2, 2, 6, (1, 1, 4.0)), st.solid(2, 2, 4, (1, 1, 3.0))
+    labels = np.vstack([body.labels, other.labels + [body.labels[:, 0].max(), 0]])
+    both = st.Structure(sparse.block_diag([body.M, other.M]), sparse.block_diag([body.K, other.K]), nodes=labels, components=3)
+    multilevel = ('<Parameter name="Basis" type="string" value="Multilevel"/><ParameterList name="Multilevel"><Parameter name="Parts" type="int" value="4"/><Parameter name="Accuracy" type="double" value="1e9"/>'
+                  '</ParameterList><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="24"/></ParameterList>')
+    for name, structure, bodies in (("one_body", body, 1), ("two_bodies", both, 2)):
+        rows, _, text, _ = modes(name, structure, 30, multilevel)
+        if not rows:
+            continue
+        zeros = 6 * bodies
+        found = [row for row in rows[zeros:] if row["coupled_mode"] > 0][:10]
+        errors, estimates = column(found, "error"), column(found, "estimate")
+        expect(f"{name}: {zeros} rigid-body modes", np.all(column(rows, "coupled")[:zeros] == 0) and errors.min() > -1e-9)
+        real = errors > 1e-7
+        expect(f"{name}: estimates within 3 of the errors", real.sum() > 3 and np.all(estimates[real] < 3 * errors[real]) and np.all(estimates[real] > errors[real] / 3) and np.all(estimates[~real] < 1e-6),
+               f"{errors}, {estimates}")
+        alone = [row for row in rows if np.isnan(row["coupled_mode"])]
+        expect(f"{name}: no numbers of coupled modes that are none", len(alone) >= 30 - 24 - bodies and
+               all(np.isnan(row[key]) for row in alone for key in ("coupled", "coupled_im", "coupled_damping", "mac", "error", "estimate", "definite")), text[:1500])
+    macneal = '<Parameter name="Basis" type="string" value="MacNeal"/><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="14"/></ParameterList>'
+    rows, _, _, _ = modes("macneal", body, 14, macneal)
+    done = tooljoint("modes", "macneal.xml", "--coupled", "--count", "14", "--output", "macneal_coupled")
+    expect("a basis without estimates: coupled modes are listed", done.returncode == 0, done.stderr)
+    if rows and done.returncode == 0:
+        with open("macneal_coupled/modes.csv", encoding="utf-8") as file:
+            listed = list(csv.DictReader(file))
+        expect("a basis without estimates: the same frequencies, no estimates", np.allclose([float(row["coupled [Hz]"]) for row in listed][6:], column(rows, "coupled")[6:], rtol=1e-6)
+               and all(row["estimate"] == "" for row in listed), str(listed[:8]))
+    loose = st.beam(6, length=5.0)
+    K = loose.K.tolil()
+    K[20, :] = K[:, 20] = 0  # w of node 4
+    st.Structure(loose.M, K, nodes=loose.labels).write("loose.h5", {"left": [1], "right": [7]})
+    st.deck("loose.xml", {"a": "loose.h5", "b": "loose.h5"}, ["a:right = b:left"], '<ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="2"/></ParameterList>')
+    done = tooljoint("modes", "loose.xml")
+    expect("a loose dof of joined parts has the number of its file", done.returncode == 3 and 'w of node 4 of part "a"' in done.stderr, done.stderr)
+    massless = loose.M.tolil()
+    massless[20, :] = massless[:, 20] = 0
+    st.Structure(massless, loose.K, C=1e-3 * loose.K, nodes=loose.labels).write("loose.h5", {"left": [1], "right": [7]})
+    st.deck("massless.xml", {"a": "loose.h5", "b": "loose.h5"}, ["a:right = b:left"], '<Parameter name="Basis" type="string" value="Complex Craig-Bampton"/>'
+            '<ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="2"/></ParameterList>')
+    done = tooljoint("modes", "massless.xml")
+    expect("Complex Craig-Bampton names the dof without mass", done.returncode == 3 and 'singular, least at w of node 4 of part "a"' in done.stderr, done.stderr)
+    done = tooljoint("modes", "one_body.xml", "--without", "Reduction", "--count", "100000")
+    expect("all modes are listed, and that it takes long is not said of few", done.returncode == 0 and "take long" not in done.stdout, done.stderr)
+    done = tooljoint("modes", "two_bodies.xml", "--without", "Reduction", "--count", "100000")
+    expect("that many modes take long is said", done.returncode == 0 and "324 of 324 dofs are computed" in done.stdout, done.stdout[:600] + done.stderr)
+
+
 WELL = """<ParameterList name="well">
   <ParameterList name="Well">
     <Parameter name="Trajectory" type="string" value="Arc"/>
@@ -307,6 +357,7 @@ def solids_on_two_ranks():
 
 undamped()
 damped()
+floating()
 solids_on_two_ranks()
 sliding_string()
 gyroscopic()

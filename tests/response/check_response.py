@@ -208,6 +208,7 @@ def refusals():
     for name, words, command, settings in (
         ("no list", "has no list Campbell", "campbell", []),
         ("no range", "Highest Speed", "campbell", ["Campbell/Modes=3"]),
+        ("more modes than dofs", "Campbell/Modes is 5000, but the model has", "campbell", ["Campbell/Highest Speed=10", "Campbell/Modes=5000"]),
         ("falling speeds", "Give a larger one", "campbell", ["Campbell/Lowest Speed=20", "Campbell/Highest Speed=10"]),
         ("half a window", "without Highest Frequency", "campbell", ["Campbell/Highest Speed=10", "Campbell/Lowest Frequency=1"]),
         ("falling window", "Give a larger one", "campbell", ["Campbell/Highest Speed=10", "Campbell/Lowest Frequency=2", "Campbell/Highest Frequency=1"]),

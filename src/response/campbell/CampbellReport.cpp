@@ -248,6 +248,13 @@ void summarise(const RotatingCase& rotating, const CampbellDiagram& diagram,
   }
 }
 
+void requireDofs(const cases::Case& one, const CampbellSettings& settings, int dofs) {
+  if (settings.window || settings.modes <= dofs) return;
+  throw DeckError(one.deck().error("Campbell/Modes",
+                                   "is " + std::to_string(settings.modes) + ", but the model has " +
+                                       std::to_string(dofs) + " dofs. Give fewer modes."));
+}
+
 }  // namespace
 
 void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) {
@@ -264,6 +271,7 @@ void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) 
         states = std::make_unique<RotatingStates>(one, settings.friction, settings.stateOfEachSpeed,
                                                   settings.speeds.front());
         states->first().announceLaws();
+        requireDofs(one, settings, states->first().model().size());
         diagram = campbell(*states, settings, {one, files.folder().folder(), fresh});
         print(diagram, settings, states->first().estimated());
         warnOfEmptiness(diagram);
