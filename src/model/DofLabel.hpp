@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -50,8 +51,13 @@ struct DofLabel {
 /// Names of the physical components, e.g. {"u","v","w","theta_x","theta_y","theta_z"}.
 using ComponentNames = SharedList<std::string>;
 
+/// How a person knows the node of a label: "node 4 of part "mast"" where parts from files have
+/// numbers of their own. Empty: "node 17", as the label has it.
+using NodeNamer = std::function<std::string(const DofLabel&)>;
+
 /// "theta_z of node 17", "theta_z of node 17 in part 2", "mode 3 of part 2", "the force on theta_z
 /// of node 17 in part 2": for messages.
-std::string describe(const DofLabel& label, const ComponentNames& names);
+std::string describe(const DofLabel& label, const ComponentNames& names,
+                     const NodeNamer& nodeName = {});
 
 }  // namespace tooljoint::model

@@ -15,7 +15,7 @@ namespace tooljoint::model {
 
 /// "theta_z of node 17": dof i of the model.
 inline std::string dofName(const SecondOrderModel& model, Eigen::Index i) {
-  return describe(model.dofs[at(i)], model.componentNames);
+  return describe(model.dofs[at(i)], model.componentNames, model.nodeName);
 }
 
 /// Names of the dofs at these positions (of all dofs), for solvers; the model must outlive it.

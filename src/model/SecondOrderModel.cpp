@@ -10,8 +10,9 @@
 
 namespace tooljoint::model {
 
-std::string describe(const DofLabel& label, const ComponentNames& names) {
-  if (label.force != 0) return "the force on " + describe(label.joiningForce(0), names);
+std::string describe(const DofLabel& label, const ComponentNames& names,
+                     const NodeNamer& nodeName) {
+  if (label.force != 0) return "the force on " + describe(label.joiningForce(0), names, nodeName);
   if (label.kind == DofLabel::Kind::Interface)
     return "mode " + std::to_string(label.component + 1) + " of interface " +
            std::to_string(label.entity + 1);
@@ -25,6 +26,7 @@ std::string describe(const DofLabel& label, const ComponentNames& names) {
     text += names[c];
   else
     text.append("component ").append(std::to_string(label.component + 1));
+  if (nodeName) return text + " of " + nodeName(label);
   text.append(" of node ").append(std::to_string(label.entity));
   if (label.part != DofLabel::shared)
     text.append(" in part ").append(std::to_string(label.part + 1));

@@ -50,6 +50,7 @@ struct PointSet {
 struct SecondOrderModel {
   std::vector<DofLabel> dofs;
   ComponentNames componentNames;
+  NodeNamer nodeName;  ///< for messages
   SharedList<ScalarLaw> laws = ScalarLaw::constant();
   SharedSparse mass;                 ///< M; symmetric positive (semi-)definite
   SharedList<MatrixTerm> damping;    ///< C_i, may be unsymmetric (gyroscopics)

@@ -2,6 +2,7 @@
 #include "parts/PartsScene.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <set>
 #include <tuple>
 
@@ -253,6 +254,20 @@ class Builder {
       for (std::size_t i = 0; i < now.recoveryNodes.size(); ++i)
         note(now.recoveryNodes[i], own.recoveryNodes[i]);
     }
+    if (scene_.parts.size() < 2) return;  // the numbers are those of the file
+    std::vector<std::string> names;
+    for (const auto& part : scene_.parts) names.push_back(part.name);
+    const auto nodes = std::make_shared<const decltype(scene_.nodes)>(scene_.nodes);
+    for (auto& part : scene_.parts)
+      part.model.nodeName = [nodes, names](const DofLabel& label) {
+        const auto found = nodes->find(label.entity);
+        if (found == nodes->end()) return "node " + std::to_string(label.entity);
+        const NodeName* node = &found->second.front();
+        for (const auto& one : found->second)
+          if (one.part == label.part) node = &one;
+        return "node " + std::to_string(node->node) + " of part " +
+               inQuotes(names[static_cast<std::size_t>(node->part)]);
+      };
   }
 
   const PartsSettings& settings_;

@@ -28,6 +28,7 @@ class Labeller {
 
   Labelled run() {
     out_.model.componentNames = part(0).componentNames;
+    out_.model.nodeName = part(0).nodeName;
     findJoints();
     numberDofs();
     assembleMatrices();

@@ -13,6 +13,7 @@
 
 #include "common/Error.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "reduction/methods/BasisBuilder.hpp"
 #include "reduction/part/InteriorStatics.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
@@ -112,9 +113,21 @@ class ComplexCraigBampton : public ReductionMethod {
       const InteriorBlock& b = part.interiorBlock(i);
       blocks.push_back(
           {&b, block(C, b.positions, b.positions), block(K, b.positions, b.positions)});
+      if (!blocks.back().conservative()) requireMass(part, b);
       if (b.floats()) blocks.back().floating = floatingModes(b);
     }
     return blocks;
+  }
+
+  /// Without a mass a damped block has modes that are no vibrations, which span no basis.
+  static void requireMass(const PartView& part, const InteriorBlock& b) {
+    if (!linalg::hasSingularMass(b.mass)) return;
+    Eigen::Index least = 0;
+    Vector(b.mass.diagonal()).minCoeff(&least);
+    throw ModelError(who(part) + "the mass of its interior is singular, least at " +
+                     b.name(static_cast<int>(least)) +
+                     ". Give every interior dof a mass, retain the massless dofs, or "
+                     "choose the basis \"Craig-Bampton\".");
   }
 
   static int firstCount(const std::vector<DampedBlock>& blocks, const ModeRequest& request,

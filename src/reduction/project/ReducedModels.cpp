@@ -150,6 +150,7 @@ void ReducedModels::make(const model::Substructure& part, int index, ReducedSubs
 
   model::SecondOrderModel& m = out.model;
   m.componentNames = part.model.componentNames;
+  m.nodeName = part.model.nodeName;
   m.laws = part.model.laws;
   m.dofs.reserve(p.boundary.size() + static_cast<std::size_t>(out.modes));
   for (int position : p.boundary) m.dofs.push_back(part.model.dofs[at(position)]);

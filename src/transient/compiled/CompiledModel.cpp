@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/Index.hpp"
+#include "model/DofNames.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/Tuned.hpp"
 #include "transient/compiled/ModelPattern.hpp"
@@ -224,8 +225,7 @@ void CompiledModel::toDofs(const Vector& positions, Vector& dofs) const {
 }
 
 std::string CompiledModel::dofName(int position) const {
-  return model::describe(model_.dofs[at(pattern_.partition().dof[at(position)])],
-                         model_.componentNames);
+  return model::dofName(model_, pattern_.partition().dof[at(position)]);
 }
 
 std::string CompiledModel::worstName(const Vector& x) const {

@@ -253,6 +253,7 @@ model::SecondOrderModel modelOf(const Division& division, int rank, const std::v
   model::SecondOrderModel share;
   for (int i : dofs) share.dofs.push_back(whole.dofs[at(i)]);
   share.componentNames = whole.componentNames;
+  share.nodeName = whole.nodeName;
   share.laws = whole.laws;
   share.mass = shareOf(whole.mass, division, rank, local);
   for (const auto& term : whole.damping)
