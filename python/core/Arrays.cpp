@@ -35,7 +35,11 @@ CsrMatrix toScipy(const model::SharedSparse& matrix) {
 Sparse toSparse(const py::object& matrix, const std::string& what) {
   py::object csr;
   try {
-    csr = scipySparse().attr("csr_matrix")(matrix, py::arg("dtype") = "float64");
+    csr = scipySparse().attr("csr_matrix")(matrix);
+    if (csr.attr("dtype").attr("kind").cast<std::string>() == "c")
+      throw ModelError("The " + what +
+                       " is complex. Give real matrices: damping stands in one of its own.");
+    csr = csr.attr("astype")("float64", py::arg("copy") = false);
   } catch (const py::error_already_set& error) {
     throw ModelError("The " + what +
                      " is no matrix of real numbers: " + std::string(py::str(error.value())) +

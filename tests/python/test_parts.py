@@ -51,7 +51,7 @@ class Matrices(unittest.TestCase):
             self.assertTrue(np.allclose(tj.modes(part, 3).frequency, want, rtol=1e-10), name)
 
     def test_what_is_no_matrix_is_refused(self):
-        for mass in ("mass", np.eye(3), [[1.0, np.nan], [np.nan, 1.0]]):
+        for mass in ("mass", np.eye(3), 1j * np.eye(2), [[1.0, np.nan], [np.nan, 1.0]]):
             with self.assertRaises(tj.ModelError) as caught:
                 tj.part("bad", mass, np.eye(2))
             self.assertGreater(len(str(caught.exception)), 20)
@@ -109,6 +109,8 @@ class Reduction(unittest.TestCase):
             self.assertAlmostEqual(row["full_hz"] / frequency, 1.0, places=8)
             self.assertAlmostEqual(row["mac"], 1.0, places=4)
             self.assertTrue(row["estimate"] / 2 < row["error"] < 2 * row["estimate"] + 1e-10, f"estimate {row['estimate']}, error {row['error']}")
+        row = tj.compare_modes(synthesis, synthesis.model.mass.shape[0] + 2)[-1]
+        self.assertTrue(all(row[key] is None for key in ("coupled_mode", "coupled_hz", "mac", "error", "estimate")), "more modes than the reduced model has")
         # The definition, with the shapes of the whole: M-orthogonal, so that MAC is the identity.
         found = tj.mac(self.shapes, -3 * self.shapes, self.M)
         self.assertTrue(np.allclose(found, np.eye(6), atol=1e-9))
