@@ -16,6 +16,10 @@ namespace tooljoint::parallel {
 int rank();
 int size();
 
+/// Who does a piece of work: this rank alone, or all ranks together, each a share; the call is then
+/// collective, every rank passes the same and gets the same.
+enum class Ranks { Own, All };
+
 /// Every rank ends with the value of `root`, sizes included. Collective. Ready for std::string,
 /// std::vector<double>, std::vector<int>, Vector, Matrix, double and int; include
 /// common/Message.hpp for any other type that cereal can serialise.

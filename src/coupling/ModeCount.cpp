@@ -3,25 +3,28 @@
 
 #include <Eigen/LU>
 #include <numeric>
+#include <utility>
 #include <vector>
 
+#include "common/Error.hpp"
 #include "common/Index.hpp"
-#include "common/Message.hpp"
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "linalg/Scientific.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
-#include "reduction/project/Distribution.hpp"
+#include "reduction/project/SharedWork.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::coupling {
 
 namespace {
 
-int negativeEigenvalues(const Sparse& A) {
-  Sparse unit(A.rows(), A.cols());
-  unit.setIdentity();
-  return linalg::eigenvaluesBelow(A, unit, 0.0);
+int counted(Sparse A, double bound, parallel::Ranks ranks = parallel::Ranks::Own) {
+  if (const auto count = linalg::negativeEigenvalues(std::move(A), ranks)) return *count;
+  throw ConvergenceError("The eigenvalues of the full model below " + linalg::scientific(bound) +
+                         " could not be counted: K - lambda M of a part has no stable LDL' factors "
+                         "there.");
 }
 
 /// What the interior outside the basis of one part adds.
@@ -49,28 +52,26 @@ struct Columns {
 };
 
 Truncated truncatedPart(const model::Substructure& part, const reduction::Basis& basis,
-                        double bound) {
+                        double bound, parallel::Ranks ranks) {
   const Columns columns(basis);
   const auto& interior = basis.partition.interior;
   if (columns.modes.size() >= interior.size()) return {};
-  const Sparse K = undampedStiffness(part.model);
-  const Sparse M = reduction::symmetricPart(part.model.mass);
-  const Sparse A = K - bound * M;
-  const Sparse inner = reduction::block(A, interior, interior);
-  Truncated result;
-  result.negative = linalg::eigenvaluesBelow(reduction::block(K, interior, interior),
-                                             reduction::block(M, interior, interior), bound);
+  const Sparse A =
+      undampedStiffness(part.model) - bound * reduction::symmetricPart(part.model.mass);
+  const auto inner = [&] { return reduction::block(A, interior, interior); };
   const auto rows = [&](const Sparse& all, const std::vector<int>& wanted) {
     return Matrix(reduction::block(all, interior, wanted));
   };
   const Matrix W = rows(basis.vectors, columns.modes);
-  const Matrix projected = W.transpose() * (inner * W);
-  if (W.cols() > 0)
-    result.negative -=
-        negativeEigenvalues(Sparse(0.5 * (projected + projected.transpose()).sparseView()));
+  const Matrix half = W.transpose() * (inner() * W), projected = 0.5 * (half + half.transpose());
+  Truncated result;
+  result.negative = counted(inner(), bound, ranks);
+  if (W.cols() > 0) result.negative -= counted(Sparse(projected.sparseView()), bound);
   if (columns.others.empty()) return result;
   const Matrix r = rows(Sparse(A * basis.vectors), columns.others);
-  Matrix flexible = linalg::DirectSolver(inner).solve(r);
+  linalg::DirectSolverOptions options;
+  options.ranks = ranks;
+  Matrix flexible = linalg::DirectSolver(inner(), linalg::DofNamer(), options).solve(r);
   if (W.cols() > 0) flexible -= W * projected.partialPivLu().solve(W.transpose() * r);
   const Matrix correction = r.transpose() * flexible;
   result.correction = 0.5 * (correction + correction.transpose());
@@ -82,15 +83,10 @@ Truncated truncatedPart(const model::Substructure& part, const reduction::Basis&
 int fullEigenvaluesBelow(const std::vector<model::Substructure>& parts, const Synthesis& synthesis,
                          double bound) {
   const Stage stage("inertia counts");
-  std::vector<int> weights;
-  for (const auto& part : parts) weights.push_back(part.model.size());
-  const auto owners = reduction::assignOwners(weights, parallel::size());
-  std::vector<Truncated> truncated(parts.size());
-  parallel::agree([&] {
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      if (owners[p] == parallel::rank())
-        truncated[p] = truncatedPart(parts[p], *synthesis.parts[p].basis, bound);
-  });
+  const auto truncated =
+      reduction::shareOut<Truncated>(parts, [&](std::size_t p, parallel::Ranks ranks) {
+        return truncatedPart(parts[p], *synthesis.parts[p].basis, bound, ranks);
+      });
   const auto& coupled = synthesis.coupled;
   Sparse A =
       undampedStiffness(coupled.model) - bound * reduction::symmetricPart(coupled.model.mass);
@@ -98,14 +94,13 @@ int fullEigenvaluesBelow(const std::vector<model::Substructure>& parts, const Sy
   std::vector<int> all(at(coupled.model.size()));
   std::iota(all.begin(), all.end(), 0);
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    parallel::broadcast(truncated[p], owners[p]);
     negative += truncated[p].negative;
     if (truncated[p].correction.size() == 0) continue;
     const Sparse L =
         reduction::block(coupled.maps[p], Columns(*synthesis.parts[p].basis).others, all);
     A -= Sparse(L.transpose() * Sparse(truncated[p].correction.sparseView()) * L);
   }
-  return negative + negativeEigenvalues(A);
+  return negative + counted(std::move(A), bound);
 }
 
 }  // namespace tooljoint::coupling

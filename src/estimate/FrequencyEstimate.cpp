@@ -12,13 +12,13 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
-#include "common/Message.hpp"
+#include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/ModeCount.hpp"
 #include "estimate/PartResidual.hpp"
 #include "estimate/ResidualFlexibility.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
-#include "reduction/project/Distribution.hpp"
+#include "reduction/project/SharedWork.hpp"
 
 namespace tooljoint::estimate {
 
@@ -42,9 +42,10 @@ struct Share {
 };
 
 std::vector<Share> shares(const model::Substructure& part, const reduction::Basis& basis,
-                          const Matrix& shapes, const Vector& eigenvalues) {
+                          const Matrix& shapes, const Vector& eigenvalues, parallel::Ranks ranks) {
+  const Stage stage("errors of the coupled modes");
   const Sparse K = coupling::undampedStiffness(part.model);
-  const ResidualFlexibility flexibility(part, basis, K);
+  const ResidualFlexibility flexibility(part, basis, K, ranks);
   const Matrix inertia = part.model.mass * shapes;
   const Matrix residual = K * shapes - inertia * eigenvalues.asDiagonal();
   const auto& interior = flexibility.interior();
@@ -225,19 +226,12 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
   const auto pairs = window.belowHz > 0
                          ? linalg::lowestModesBelow(K, M, twoPi * window.belowHz)
                          : coupling::lowestModes(coupled, std::min(window.count, coupled.size()));
-  std::vector<int> weights;
-  for (const auto& part : parts) weights.push_back(part.model.size());
-  const auto owners = reduction::assignOwners(weights, parallel::size());
-  std::vector<std::vector<Share>> all(parts.size());
-  parallel::agree([&] {
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      if (owners[p] == parallel::rank()) {
+  const auto all =
+      reduction::shareOut<std::vector<Share>>(parts, [&](std::size_t p, parallel::Ranks ranks) {
         const Matrix shapes = synthesis.parts[p].basis->vectors *
                               synthesis.coupled.local(static_cast<int>(p), pairs.vectors);
-        all[p] = shares(parts[p], *synthesis.parts[p].basis, shapes, pairs.values);
-      }
-  });
-  for (std::size_t p = 0; p < parts.size(); ++p) parallel::broadcast(all[p], owners[p]);
+        return shares(parts[p], *synthesis.parts[p].basis, shapes, pairs.values, ranks);
+      });
 
   const double smallest = smallestEigenvalue(K, M);
   const Vector connectors = workOfConnectors(parts, coupled, pairs.vectors);

@@ -38,7 +38,8 @@ double lowestVibration(const reduction::Basis& basis) {
 }  // namespace
 
 ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
-                                         const reduction::Basis& basis, const Sparse& stiffness)
+                                         const reduction::Basis& basis, const Sparse& stiffness,
+                                         parallel::Ranks ranks)
     : interior_(basis.partition.interior) {
   const int size = static_cast<int>(interior_.size());
   std::vector<int> columns;
@@ -50,19 +51,22 @@ ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
   stiffness_ = reduction::block(stiffness, interior_, interior_);
   mass_ = reduction::block(part.model.mass, interior_, interior_);
   modes_ = reduction::block(basis.vectors, interior_, columns);
-  factor(part, basis);
+  factor(part, basis, ranks);
 }
 
-void ResidualFlexibility::factor(const model::Substructure& part, const reduction::Basis& basis) {
+void ResidualFlexibility::factor(const model::Substructure& part, const reduction::Basis& basis,
+                                 parallel::Ranks ranks) {
   const auto name = model::namer(part.model, interior_);
+  linalg::DirectSolverOptions options;
+  options.ranks = ranks;
   Sparse regular = stiffness_;
   try {
-    solver_ = std::make_unique<linalg::DirectSolver>(regular, name);
+    solver_ = std::make_unique<linalg::DirectSolver>(regular, name, options);
   } catch (const ModelError& error) {
     const double shift = small * lowestVibration(basis);
     regular += shift * mass_;
     try {
-      if (shift > 0) solver_ = std::make_unique<linalg::DirectSolver>(regular, name);
+      if (shift > 0) solver_ = std::make_unique<linalg::DirectSolver>(regular, name, options);
     } catch (const ModelError&) {
     }
     if (!solver_)

@@ -21,9 +21,10 @@ namespace tooljoint::estimate {
 class ResidualFlexibility {
  public:
   /// \param stiffness of the part, dofs x dofs
+  /// \param ranks All: they divide the factors of a large part, and solve together
   /// Throws ModelError naming the part when its interior is a mechanism but for modes of the basis.
   ResidualFlexibility(const model::Substructure& part, const reduction::Basis& basis,
-                      const Sparse& stiffness);
+                      const Sparse& stiffness, parallel::Ranks ranks = parallel::Ranks::Own);
 
   /// Positions in the part of the rows of all vectors here.
   const std::vector<int>& interior() const { return interior_; }
@@ -55,7 +56,8 @@ class ResidualFlexibility {
 
  private:
   /// Of K_II, or, where the interior floats, of K_II + s M_II with a small s.
-  void factor(const model::Substructure& part, const reduction::Basis& basis);
+  void factor(const model::Substructure& part, const reduction::Basis& basis,
+              parallel::Ranks ranks);
 
   std::vector<int> interior_;
   int truncated_ = 0;

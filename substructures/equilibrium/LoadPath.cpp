@@ -44,14 +44,8 @@ Sparse LoadPath::symmetricTangent(const Vector& x) const {
 }
 
 std::optional<int> LoadPath::negativePivots(const Vector& x, double) const {
-  const Sparse K = symmetricTangent(x);
-  Sparse identity(K.rows(), K.cols());
-  identity.setIdentity();
-  try {
-    return linalg::eigenvaluesBelow(K, identity, 0.0);
-  } catch (const ConvergenceError&) {
-    return {};  // almost singular, as at the bifurcations and turning points of a path
-  }
+  // None where K is almost singular, as at the bifurcations and turning points of a path.
+  return linalg::negativeEigenvalues(symmetricTangent(x));
 }
 
 }  // namespace tooljoint::equilibrium

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <dmumps_c.h>
 #include <fstream>
+#include <limits>
 #include <mpi.h>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/Communicator.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "linalg/factor/MumpsControl.hpp"
@@ -36,9 +38,10 @@ std::optional<long> freeMegabytes() {
   return {};
 }
 
-[[noreturn]] void refuseMemory(Eigen::Index rows, long needed, std::optional<long> available) {
+[[noreturn]] void refuseMemory(Eigen::Index rows, long needed, std::optional<long> available,
+                               bool divided) {
   throw ModelError("The factors of a matrix of " + std::to_string(rows) + " rows need " +
-                   std::to_string(needed) + " MB of memory" +
+                   std::to_string(needed) + " MB of memory" + (divided ? " on a rank" : "") +
                    (available ? ", and " + std::to_string(*available) + " MB are free"
                               : ", more than there is") +
                    ". Cut the part into smaller ones, or use a machine with more.");
@@ -52,10 +55,27 @@ struct MumpsFactor::Impl {
   Symmetry symmetry = Symmetry::None;
   std::vector<int> rows, columns;  ///< of the entries that were analysed, counted from 1
   std::optional<long> memory;      ///< [MB] given, instead of what is free
+  MPI_Comm comm = MPI_COMM_SELF;
 
   ~Impl() { close(); }
 
-  std::optional<long> available() const { return memory ? memory : freeMegabytes(); }
+  bool divided() const { return comm != MPI_COMM_SELF; }
+
+  /// What the rank of the least may take [MB], of the memory that it shares with others of its
+  /// machine.
+  std::optional<long> available() const {
+    auto megabytes = memory ? memory : freeMegabytes();
+    if (!divided()) return megabytes;
+    MPI_Comm machine = MPI_COMM_NULL;
+    MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    int beside = 1;
+    MPI_Comm_size(machine, &beside);
+    MPI_Comm_free(&machine);
+    constexpr long unknown = std::numeric_limits<long>::max();
+    long least = megabytes ? *megabytes / beside : unknown;
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_LONG, MPI_MIN, comm);
+    return least == unknown ? std::nullopt : std::optional(least);
+  }
   int& control(int number) { return id.icntl[number - 1]; }
   int status() const { return id.infog[0]; }
   int info(int number) const { return id.infog[number - 1]; }
@@ -76,7 +96,7 @@ struct MumpsFactor::Impl {
     symmetry = kind;
     id.par = 1;
     id.sym = kind == Symmetry::None ? 0 : kind == Symmetry::Definite ? 1 : 2;
-    id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(MPI_COMM_SELF));
+    id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm));
     call(initialise);
     open = true;
     for (const int stream : {1, 2, 3}) control(stream) = -1;  // no output
@@ -123,7 +143,8 @@ struct MumpsFactor::Impl {
   }
 
   [[noreturn]] void fail() const {
-    if (status() == noMemory) refuseMemory(id.n, std::max(info(16), info(17)), available());
+    if (status() == noMemory)
+      refuseMemory(id.n, std::max(info(16), info(17)), available(), divided());
     throw ModelError("MUMPS could not factor a matrix of " + std::to_string(id.n) +
                      " rows: error " + std::to_string(status()) + " (" + std::to_string(info(2)) +
                      ").");
@@ -135,7 +156,7 @@ struct MumpsFactor::Impl {
     if (status() < 0) fail();
     const long needed = info(16);  // INFOG(16): MB of the factorisation
     const auto most = available();
-    if (most && needed > *most) refuseMemory(A.rows(), needed, most);
+    if (most && needed > *most) refuseMemory(A.rows(), needed, most, divided());
   }
 
   /// With room for pivots that the analysis did not foresee. MUMPS does not read the entries again.
@@ -153,8 +174,10 @@ struct MumpsFactor::Impl {
   }
 };
 
-MumpsFactor::MumpsFactor(std::optional<long> memory) : impl_(std::make_unique<Impl>()) {
+MumpsFactor::MumpsFactor(std::optional<long> memory, parallel::Ranks ranks)
+    : impl_(std::make_unique<Impl>()) {
   impl_->memory = memory;
+  if (ranks == parallel::Ranks::All && parallel::size() > 1) impl_->comm = parallel::communicator();
 }
 MumpsFactor::~MumpsFactor() = default;
 MumpsFactor::MumpsFactor(MumpsFactor&&) noexcept = default;
@@ -176,12 +199,15 @@ bool MumpsFactor::factor(const Sparse& A, Symmetry symmetry) {
 
 Matrix MumpsFactor::solve(const Matrix& b) const {
   Impl& m = *impl_;
-  Matrix x = b;
+  Matrix x = b;  // read and written on the first rank
   m.id.rhs = x.data();
   m.id.nrhs = static_cast<MUMPS_INT>(x.cols());
   m.id.lrhs = static_cast<MUMPS_INT>(x.rows());
   m.call(substitute);
   if (m.status() < 0) m.fail();
+  if (m.divided())
+    for (Eigen::Index j = 0; j < x.cols(); ++j)
+      MPI_Bcast(x.col(j).data(), static_cast<int>(x.rows()), MPI_DOUBLE, 0, m.comm);
   return x;
 }
 

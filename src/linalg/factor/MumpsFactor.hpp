@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Multifrontal factors by MUMPS (Amestoy, Duff, L'Excellent and Koster 2001), for matrices whose
-/// factors fill: solids and shells. On this rank alone, with an ordering that MUMPS chooses.
+/// factors fill: solids and shells. On this rank alone or divided among all, with an ordering that
+/// MUMPS chooses.
 #pragma once
 
 #include <memory>
 #include <optional>
 
+#include "common/Parallel.hpp"
 #include "common/Types.hpp"
 
 namespace tooljoint::linalg {
@@ -16,8 +18,10 @@ class MumpsFactor {
   /// L U, L D L' with pivots of order one and two, or L D L' with D > 0 (no pivoting).
   enum class Symmetry { None, Indefinite, Definite };
 
-  /// `memory` [MB]: what the factors may take at most; without it, what Linux says is free.
-  explicit MumpsFactor(std::optional<long> memory = {});
+  /// `memory` [MB]: what the factors may take at most; without it, what Linux says is free. All
+  /// calls, the last of them the destructor's, are collective where all ranks factor together.
+  explicit MumpsFactor(std::optional<long> memory = {},
+                       parallel::Ranks ranks = parallel::Ranks::Own);
   ~MumpsFactor();
   MumpsFactor(MumpsFactor&&) noexcept;
   MumpsFactor& operator=(MumpsFactor&&) noexcept;

@@ -112,6 +112,8 @@ class Klu2 {
 /// where that is not enough.
 class Factors {
  public:
+  explicit Factors(parallel::Ranks ranks) : filled_({}, ranks) {}
+
   /// False when a pivot is exactly zero. \param newPattern it is not that of the matrix before
   bool factor(const Sparse& A, bool newPattern) {
     if (newPattern) {
@@ -183,7 +185,7 @@ WeakMotion weakestMotion(const Sparse& A, const Factors& factors, const Equilibr
 
 /// The matrix has an exactly zero pivot: names the dof by inverse iteration with a small shift, A +
 /// s (R C)^-1.
-[[noreturn]] void explainZeroPivot(const Sparse& A, const DofNamer& name) {
+[[noreturn]] void explainZeroPivot(const Sparse& A, const DofNamer& name, parallel::Ranks ranks) {
   for (int row = 0; row < A.rows(); ++row) {
     double largest = 0.0;
     for (Sparse::InnerIterator it(A, row); it; ++it)
@@ -196,7 +198,7 @@ WeakMotion weakestMotion(const Sparse& A, const Factors& factors, const Equilibr
   for (int i = 0; i < A.rows(); ++i)
     diagonal.coeffRef(i, i) = 1.0 / (scale.rows[i] * scale.columns[i]);
   for (const double shift : {1e-10, -1e-10, 1e-7, -1e-7}) {
-    Factors shifted;
+    Factors shifted(ranks);
     if (!shifted.factorWithPivots(Sparse(A + shift * diagonal))) continue;
     const WeakMotion weak = weakestMotion(A, shifted, scale, 4);
     throwSingular(nameOf(name, static_cast<int>(largestEntry(weak.shape))), "zero pivot");
@@ -210,10 +212,12 @@ WeakMotion weakestMotion(const Sparse& A, const Factors& factors, const Equilibr
 }  // namespace
 
 struct DirectSolver::Impl {
+  Impl(DofNamer n, const DirectSolverOptions& o) : name(std::move(n)), options(o) {}
+
   DofNamer name;
   DirectSolverOptions options;
   Sparse matrix;
-  Factors factors;
+  Factors factors{options.ranks};
   double residual = 0.0;
   std::unique_ptr<DirectSolver> transposed;
 
@@ -229,7 +233,7 @@ struct DirectSolver::Impl {
       std::copy_n(A.valuePtr(), A.nonZeros(), matrix.valuePtr());
     }
     if (matrix.rows() == 0) return;
-    if (!factors.factor(matrix, newPattern)) explainZeroPivot(matrix, name);
+    if (!factors.factor(matrix, newPattern)) explainZeroPivot(matrix, name, options.ranks);
     if (!checkSingular) return;
     const WeakMotion weak = weakestMotion(matrix, factors, Equilibration(matrix), 2);
     if (!(weak.resistance > options.singularTolerance))
@@ -283,7 +287,7 @@ struct DirectSolver::Impl {
   Matrix checked(const Matrix& b) {
     Matrix x = refined(b);
     if (factors.byBlocks() && !(residual <= std::min(options.tolerance, chainResidual))) {
-      if (!factors.factorWithPivots(matrix)) explainZeroPivot(matrix, name);
+      if (!factors.factorWithPivots(matrix)) explainZeroPivot(matrix, name, options.ranks);
       x = refined(b);
     }
     if (!(residual <= options.tolerance))
@@ -295,9 +299,7 @@ struct DirectSolver::Impl {
 };
 
 DirectSolver::DirectSolver(const Sparse& A, DofNamer name, DirectSolverOptions options)
-    : impl_(std::make_unique<Impl>()) {
-  impl_->name = std::move(name);
-  impl_->options = options;
+    : impl_(std::make_unique<Impl>(std::move(name), options)) {
   impl_->factor(A, options.checkSingular);
 }
 

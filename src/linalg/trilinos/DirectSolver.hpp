@@ -10,6 +10,7 @@
 #include <string>
 #include <type_traits>
 
+#include "common/Parallel.hpp"
 #include "common/Types.hpp"
 
 namespace tooljoint::linalg {
@@ -27,6 +28,7 @@ struct DirectSolverOptions {
   double singularTolerance =
       3.6e-15;  ///< relative size of A v below which v is a motion nothing resists (16 eps)
   bool checkSingular = true;  ///< look for such a v after each factorisation (two extra solves)
+  parallel::Ranks ranks = parallel::Ranks::Own;  ///< All: MUMPS divides its factors among them
 };
 
 /// LU factors of one sparse matrix, and checked solutions.
@@ -34,8 +36,8 @@ struct DirectSolverOptions {
 /// Every solution is checked: its backward error max_i |b - A x|_i / (|A||x| + |b|)_i is computed
 /// with the matrix itself (Oettli and Prager 1964; tiny denominators as in Arioli, Demmel, Duff
 /// 1989), improved by iterative refinement, and a ModelError is thrown when it stays above the
-/// tolerance. Needs a live Tpetra::ScopeGuard; no object may outlive it. Works alike on every rank:
-/// nothing is sent.
+/// tolerance. Needs a live Tpetra::ScopeGuard; no object may outlive it. Works alike on every rank;
+/// nothing is sent unless all ranks factor together.
 class DirectSolver {
  public:
   /// Factors A (square). ModelError: A is not square, an entry is not finite (named), A is singular

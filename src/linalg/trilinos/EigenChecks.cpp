@@ -68,15 +68,15 @@ class KeptOrder {
 };
 
 /// The same by MUMPS, with pivoting.
-Inertia inertiaByMumps(const Sparse& A) {
-  MumpsFactor factor;
+Inertia inertiaByMumps(const Sparse& A, parallel::Ranks ranks) {
+  MumpsFactor factor({}, ranks);
   if (!factor.factor(A, MumpsFactor::Symmetry::Indefinite)) return {};
   const Vector b = scatteredNumbers(A.rows(), 1, 7);
   return {factor.negativePivots().value(), backwardError(A, factor.solve(b), b), largestError};
 }
 
-Inertia inertiaOf(const Sparse& A) {
-  if (suitsMumps(A)) return inertiaByMumps(A);
+Inertia inertiaOf(const Sparse& A, parallel::Ranks ranks) {
+  if (suitsMumps(A)) return inertiaByMumps(A, ranks);
   thread_local KeptOrder kept;
   const ColumnSparse columns = A;
   const auto& order = kept.of(columns);
@@ -111,8 +111,8 @@ Sparse congruent(const Sparse& A, std::uint64_t seed) {
   return C * A * Sparse(C.transpose());
 }
 
-/// D A D with rows of order one.
-Sparse equilibrated(Sparse A) {
+/// A <- D A D with rows of order one.
+void equilibrate(Sparse& A) {
   Vector d = Vector::Zero(A.rows());
   for (int row = 0; row < A.rows(); ++row)
     for (Sparse::InnerIterator it(A, row); it; ++it)
@@ -121,7 +121,6 @@ Sparse equilibrated(Sparse A) {
   for (int row = 0; row < A.rows(); ++row)
     for (Sparse::InnerIterator it(A, row); it; ++it)
       it.valueRef() = d[row] * it.value() * d[it.col()];
-  return A;
 }
 
 }  // namespace
@@ -301,19 +300,22 @@ void truncate(EigenPairs& modes, int count) {
   modes.residuals.conservativeResize(std::min<Eigen::Index>(count, modes.residuals.size()));
 }
 
-int eigenvaluesBelow(const Sparse& K, const Sparse& M, double bound) {
-  if (K.rows() == 0) return 0;
+std::optional<int> negativeEigenvalues(Sparse A, parallel::Ranks ranks) {
+  if (A.rows() == 0) return 0;
   const Stage stage("inertia counts");
-  const Sparse A = equilibrated(Sparse(K - bound * M));
-  Inertia best = inertiaOf(A);
+  equilibrate(A);
+  Inertia best = inertiaOf(A, ranks);
   for (std::uint64_t seed = 1; seed <= 8 && best.error > best.enough; ++seed) {
-    const Inertia other = inertiaOf(congruent(A, seed));
+    const Inertia other = inertiaOf(congruent(A, seed), ranks);
     if (other.error < best.error) best = other;
   }
-  if (!(best.error <= largestError))
-    throw ConvergenceError("The eigenvalues below " + scientific(bound) +
-                           " could not be counted: K - lambda M has no stable LDL' factors there.");
-  return best.negative;
+  return best.error <= largestError ? std::optional(best.negative) : std::nullopt;
+}
+
+int eigenvaluesBelow(const Sparse& K, const Sparse& M, double bound) {
+  if (const auto count = negativeEigenvalues(Sparse(K - bound * M))) return *count;
+  throw ConvergenceError("The eigenvalues below " + scientific(bound) +
+                         " could not be counted: K - lambda M has no stable LDL' factors there.");
 }
 
 }  // namespace tooljoint::linalg

@@ -66,8 +66,12 @@ EigenPairs lowestModesBelow(const Sparse& K, const Sparse& M, double omegaMax,
                             const EigenOptions& options = {});
 
 /// Number of eigenvalues of K phi = lambda M phi below `bound` (Sylvester's law of inertia on K -
-/// bound M).
+/// bound M). ConvergenceError where `bound` is one of them.
 int eigenvaluesBelow(const Sparse& K, const Sparse& M, double bound);
+
+/// Number of negative eigenvalues of the symmetric A; none where no factors of it are stable. `All`
+/// ranks: MUMPS divides its factors among them.
+std::optional<int> negativeEigenvalues(Sparse A, parallel::Ranks ranks = parallel::Ranks::Own);
 
 /// All modes of a dense symmetric pencil (Cholesky and tridiagonal QR). ModelError when M is not
 /// positive definite.

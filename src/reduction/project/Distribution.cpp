@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "common/Index.hpp"
@@ -93,6 +94,15 @@ std::vector<int> assignOwners(const std::vector<int>& weights, int ranks) {
     *least += 1.0 + weights[at(part)];
   }
   return owner;
+}
+
+std::vector<char> dividedParts(const std::vector<int>& weights, int ranks) {
+  constexpr double fewDofs = 20000.0;
+  const double share = std::accumulate(weights.begin(), weights.end(), 0.0) / ranks;
+  std::vector<char> divided;
+  for (const int weight : weights)
+    divided.push_back(ranks > 1 && weight > std::max(fewDofs, share) ? 1 : 0);
+  return divided;
 }
 
 std::string pack(const ReducedCore& core) { return toBytes(core); }

@@ -24,6 +24,10 @@ struct ReducedCore {
 /// same on every rank.
 std::vector<int> assignOwners(const std::vector<int>& weights, int ranks);
 
+/// Parts on which all ranks work at once: those of more than 20,000 dofs (below, messages cost what
+/// the division wins) and of more than a rank's share of all dofs.
+std::vector<char> dividedParts(const std::vector<int>& weights, int ranks);
+
 /// A core as bytes, and back. Both ends must be the same program on the same kind of machine.
 std::string pack(const ReducedCore& core);
 ReducedCore unpack(const std::string& bytes);

@@ -47,6 +47,15 @@ TEST(AssignOwners, BalancesHeaviestFirst) {
   EXPECT_TRUE(assignOwners({}, 3).empty());
 }
 
+/// Those that one rank alone would work on longer than all others, where messages do not count.
+TEST(DividedParts, AreLargeAndMoreThanTheShareOfARank) {
+  EXPECT_EQ(dividedParts({90000}, 1), (std::vector<char>{0}));
+  EXPECT_EQ(dividedParts({90000}, 2), (std::vector<char>{1}));
+  EXPECT_EQ(dividedParts({15000}, 2), (std::vector<char>{0}));
+  EXPECT_EQ(dividedParts({90000, 30000, 25000}, 2), (std::vector<char>{1, 0, 0}));
+  EXPECT_EQ(dividedParts({30000, 30000}, 2), (std::vector<char>{0, 0}));
+}
+
 TEST(FindTwins, FindsIdenticalPartsWhateverTheirLabelsAndLoads) {
   auto parts = pipes(5);
   parts[2].model.loads.push_back({"weight", Vector::Ones(9), 0});
