@@ -97,7 +97,7 @@ void warnOfDamping(const Findings& found, const StepError& error, double step) {
   std::ostringstream text;
   text << "The scheme damps vibration: steps of " << step << " s take " << percent(found.damped)
        << " of its amplitude in " << error.span() << " s. What friction makes grow may stay small. "
-       << error.damping()->dampingAdvice();
+       << error.damping().scheme()->dampingAdvice();
   log::warn(text.str());
 }
 
@@ -110,7 +110,7 @@ double judgeSteps(const Integrator& run, const StepError& error, const Transient
   found.error = error.value();
   found.damped = error.damped();
   const bool lost = found.error > std::max(lostMotion, limit);
-  found.rests = error.hasUnresolvedContact();
+  found.rests = error.damping().hasUnresolvedContact();
   const bool due = found.error > comparedError * limit ||
                    found.damped > comparedDamping * warning || found.rests;
   if (due && !lost && limit < lostMotion) {
@@ -125,8 +125,8 @@ double judgeSteps(const Integrator& run, const StepError& error, const Transient
   std::ostringstream text;
   text << "The time step (" << step << " s) is " << (tooLarge ? "too large" : "coarse") << ": "
        << describe(found, error.span()) << ". "
-       << (found.isSlow(limit) && !found.rests && error.damping() != nullptr
-               ? error.damping()->dampingAdvice()
+       << (found.isSlow(limit) && !found.rests && error.damping().scheme() != nullptr
+               ? error.damping().scheme()->dampingAdvice()
                : run.stepAdvice());
   if (tooLarge) throw ConvergenceError(text.str());
   log::warn(text.str());

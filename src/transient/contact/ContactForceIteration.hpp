@@ -11,46 +11,37 @@
 ///
 ///     p_i += (I - (J_i - P_i) G_ii)^-1 (f_i - P_i y_i - p_i),     J_i = df_i/dy_i
 ///
-/// with J taken once where the step is expected to end is Newton point by point: one solve and one
-/// evaluation of the laws per iteration, no product, no factorisation. It converges by what the
-/// points feel of each other's change of tangent. Where only few points are left to correct, only
-/// what they reach is solved and evaluated: a force moves a few neighbours in a step. A point whose
-/// force jumps (contact that switches within the step, friction that reverses) is solved as what it
-/// is, see PointSolve; its error is then measured in y.
+/// with J taken once where the step is expected to end is Newton point by point (PointForces): one
+/// solve and one evaluation of the laws per iteration, no product, no factorisation. It converges
+/// by what the points feel of each other's change of tangent. Where only few points are left to
+/// correct, only what they reach is solved and evaluated: a force moves a few neighbours in a step.
+/// A point whose force jumps (contact that switches within the step, friction that reverses) is
+/// solved as what it is, see PointSolve; its error is then measured in y.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/Strategies.hpp"
-#include "transient/Tuned.hpp"
 #include "transient/compiled/CompiledModel.hpp"
-#include "transient/contact/PointSolve.hpp"
+#include "transient/contact/PointForces.hpp"
+#include "transient/contact/PointImpacts.hpp"
 
 namespace tooljoint::transient {
 
 class ContactForceIteration {
  public:
-  static constexpr int widest = PointSolve::widest;
-
   /// The strategies, which must outlive this, say what may be used.
   void bind(CompiledModel& model, Strategies& strategies);
   /// Scale of each dof's force.
   void setWeights(const Vector& weight);
 
-  /// A point whose wall is so stiff that S without point laws gives way less than the wall does,
-  /// -tr(df/dd G0) > 1 (about two radians of its own contact frequency per step), meets it as an
-  /// impact in steps of length h: forces there are multiplied by `impact`.
-  void setImpacts(double h, double impact);
+  PointImpacts& impacts() { return impacts_; }
+  const PointImpacts& impacts() const { return impacts_; }
 
   /// The compliance of the points looked at, from the factor of the effective matrix (invert() is
   /// called), which must outlive its use.
   void setCompliance(linalg::BlockFactor& factor);
-
-  /// What a restart needs to treat the same points as impacts.
-  void save(std::vector<double>& memory) const;
-  void restore(const double*& memory);
 
   /// Remember where delta counts from: q where v = 0, and the residual R0 of all linear terms
   /// there, which must outlive the step.
@@ -86,45 +77,15 @@ class ContactForceIteration {
   bool sweepEveryFourth(double t, double c, double small, int colour);
 
  private:
-  struct Set {
-    std::vector<double> d;  ///< rows at delta = 0
-    std::vector<double> y;  ///< rows of delta
-    std::vector<double> p;
-    std::vector<double> defect;      ///< f - P y - p
-    std::vector<char> started;       ///< per point: looked at since start() or join()
-    std::vector<char> known;         ///< per point: its compliance belongs to the factor
-    std::vector<double> stiffness;   ///< largest -tr(df/dd G0) / h^2 seen
-    std::vector<double> weight;      ///< per row: largest weight of the dofs it acts on
-    std::vector<double> compliance;  ///< G, width x width per point, row-major
-    std::vector<double> answer;      ///< (I - (J - P) G)^-1, likewise
-    std::vector<double> error;       ///< per point, of the last iteration
-    std::vector<char> exact;         ///< per point: solved by itself in this step
-    std::vector<double> target;      ///< y of the points solved by themselves
-    std::vector<double> change;      ///< of p in the last correct()
-    std::vector<char> moved;         ///< per point: corrected last time
-    std::vector<int> points;         ///< corrected, then those evaluated
-    std::vector<char> listed;        ///< per point: in `points` already, in listMoved()
-  };
-  void start(Set& set, PointBatch& batch);
-  void findImpacts(Set& set, PointBatch& batch, double t);
-  double yieldingDeeper(PointBatch& batch, int point, double t, const double* G0);
-  template <class Width>
-  void answer(Set& set, const PointBatch& batch, int point, double c, Width width);
-  void listMoved(Set& set, const PointBatch& batch) const;
-  void place(Set& set, PointBatch& batch, double t, double c, bool tangent);
-  void prepare(Set& set, PointBatch& batch, double t, double c);
-  void solvePoint(Set& set, PointBatch& batch, int point, double t, double c);
-  void measure(Set& set, PointBatch& batch, double small, double& force);
-  void move(Set& set, PointBatch& batch, int point, double t, double c);
-  bool isWrong(const Set& set, int point, double small) const;
+  void prepare(std::size_t number, double t, double c);
   bool isFew(long here) const;
   double largestOfAll(double worst, double& force) const;
 
   CompiledModel* model_ = nullptr;
   Strategies* strategies_ = nullptr;
-  std::vector<Set> sets_;
-  std::vector<char> blocks_;
-  double h_ = 0, impact_ = 1;
+  std::vector<PointForces> forces_;  ///< of each batch
+  PointImpacts impacts_;
+  std::vector<char> blocks_;  ///< that points act on
   const double* inverse_ = nullptr;
   const Vector* q_ = nullptr;
   const Vector* residual_ = nullptr;
@@ -135,8 +96,6 @@ class ContactForceIteration {
   bool allMoved_ = true;   ///< the last correction was of all points that were wrong: those it did
                            ///< not reach are right
   double nearShare_ = 0;   ///< of all blocks, that it reached
-  PointSolve problem_;
-  PointSolve::Local y_, phi_;
 };
 
 }  // namespace tooljoint::transient

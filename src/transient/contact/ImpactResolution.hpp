@@ -29,7 +29,7 @@ struct State;
 
 /// Mean part of its energy that a rebound from an elastic wall loses in steps of w h < 2, with
 /// spectral radius r: a fit to single masses, within 20 % or 0.03 from w h = 0.15 to 1.2. Beyond,
-/// contact is an impact without rebound (ContactForceIteration::setImpacts), and 1.
+/// contact is an impact without rebound (PointImpacts), and 1.
 double reboundLoss(double wh, double r);
 
 class ImpactResolution {

@@ -13,18 +13,18 @@ void PointRelaxation::bind(const StepParts& parts) {
   for (Vector* x : {&delta_, &q_, &guess_, &drift_, &others_}) x->setZero(parts.model->size());
   possible_ = parts.strategies->has(Strategy::Relaxation);
   for (const auto& batch : parts.model->points())
-    possible_ = possible_ && batch.width() <= ContactForceIteration::widest;
+    possible_ = possible_ && batch.width() <= PointSolve::widest;
 }
 
 void PointRelaxation::prepare(const StepScheme& scheme) {
   points_.setWeights(parts_.equations->weight());
-  if (possible_) points_.setImpacts(scheme.h, scheme.impact);
+  if (possible_) points_.impacts().set(*parts_.model, scheme.h, scheme.impact);
 }
 
 void PointRelaxation::restore(const double*& memory, const StepScheme& scheme) {
   if (scheme.h > 0) points_.setWeights(parts_.equations->weight());
-  points_.restore(memory);
-  if (scheme.h > 0) points_.setImpacts(scheme.h, scheme.impact);
+  points_.impacts().restore(memory);
+  if (scheme.h > 0) points_.impacts().set(*parts_.model, scheme.h, scheme.impact);
 }
 
 bool PointRelaxation::solve(State& to, const StepScheme& scheme, Counters& counters) {

@@ -28,7 +28,7 @@ class PointRelaxation {
   /// From `to` as it was to where the iteration stopped.
   void complete(State& to) const;
 
-  void save(std::vector<double>& memory) const { points_.save(memory); }
+  void save(std::vector<double>& memory) const { points_.impacts().save(memory); }
   void restore(const double*& memory, const StepScheme& scheme);
 
  private:

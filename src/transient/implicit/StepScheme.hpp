@@ -14,7 +14,7 @@ struct StepScheme {
   double filter = 0;        ///< s and
   double phase = 0;         ///< k of the phase correction, 0 for none
   double impact = 1;        ///< what forces of impacts
-                            ///< (ContactForceIteration::setImpacts) are multiplied by
+                            ///< (PointImpacts) are multiplied by
 
   /// Append / take back.
   void save(std::vector<double>& memory) const {

@@ -124,7 +124,7 @@ struct SoftFloors {
     EXPECT_LT(factor.factor(), 0);
     relaxation.bind(model, strategies);
     relaxation.setWeights(Vector::Constant(300, 1 / ca));
-    relaxation.setImpacts(1e-3, 0.5);
+    relaxation.impacts().set(model, 1e-3, 0.5);
     relaxation.setCompliance(factor);
     residual[60] = residual[240] = 1500;
     relaxation.start(none, residual);
@@ -204,7 +204,7 @@ bool isImpact(double stiffness, double depth) {
   ContactForceIteration relaxation;
   relaxation.bind(model, strategies);
   relaxation.setWeights(Vector::Constant(1, 1 / ca));
-  relaxation.setImpacts(1e-3, 0.5);
+  relaxation.impacts().set(model, 1e-3, 0.5);
   relaxation.setCompliance(factor);
   const Vector start = q - approach / cv;  // with v = -0.1 m/s it ends at q
   relaxation.start(start, residual);
