@@ -43,7 +43,7 @@ struct Tuned {
   static constexpr int calmSteps = 12;            ///< without motion, before steps grow
   static constexpr int lookStride = 8;     ///< from one look at the energy to the next [steps]
   static constexpr double quiet = 1e-4;    ///< speeds below are rest [m/s]
-  static constexpr int mostHalvings = 16;  ///< that impacts may ask for
+  static constexpr int mostHalvings = 20;  ///< that impacts may ask for
   static constexpr int atATime = 3;        ///< of them
 
   // Phase correction and broad phase

@@ -2,6 +2,7 @@
 #include "transient/contact/ImpactResolution.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,9 +18,14 @@ namespace {
 constexpr double lossFit = 0.55;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
+/// Part of the depth behind a wall at which its damping is looked at again: what it sets in with.
+constexpr double onsetShare = 1.0 / 16.0;
+/// Of the way out of a wall, to find where it begins.
+constexpr int bisections = 24;
+
 /// Largest part that depends on where in a step the wall is met, likewise. The force of a wall with
 /// damping c sets in with a jump c v; met up to half a step early or late, it takes W c h of the
-/// energy more or less.
+/// energy more or less, with c of the depth that is passed in h.
 double scatter(double wh, double damping) { return std::min(1.0, 0.25 * wh * wh + damping); }
 
 }  // namespace
@@ -75,13 +81,10 @@ ImpactResolution::Bound ImpactResolution::bound(int b, int point, double h, cons
   return found;
 }
 
-/// J = df/dd at the point: n = J'f / |J'f|. The wall is the one behind the depth in which a
-/// regularised law begins: k = -n'J n as deep as the change of velocity takes the point there,
-/// first in the whole step and then in 1/w.
-ImpactResolution::Wall ImpactResolution::wall(int b, int point, double t, double speed, double h) {
+/// J = df/dd at the point: n = J'f / |J'f|.
+ImpactResolution::Wall ImpactResolution::facing(int b, int point, double t) {
   PointBatch& batch = model_->points()[at(b)];
   const int w = batch.width();
-  const double *d = batch.d() + point * w, *v = batch.v() + point * w;
   const double* W = mobility(b, point);
   batch.evaluateHere(t, point, true);
   const double *f = batch.force() + point * w, *J = batch.dfdd() + point * w * w;
@@ -94,30 +97,67 @@ ImpactResolution::Wall ImpactResolution::wall(int b, int point, double t, double
   }
   if (!(size > 0)) return found;
   for (int k = 0; k < w; ++k) normal_[at(k)] /= size;
-  double push = 0;
   for (int i = 0; i < w; ++i) {
-    push += normal_[at(i)] * f[i] / batch.scale(point);
+    found.push += normal_[at(i)] * f[i] / batch.scale(point);
     for (int k = 0; k < w; ++k) found.mobility += normal_[at(i)] * W[i * w + k] * normal_[at(k)];
   }
-  found.push = push;
-  if (!(found.mobility > 0)) return found;
-  for (double depth = h * speed; depth > 0;) {
-    for (int k = 0; k < w; ++k) deeper_[at(k)] = d[k] - std::copysign(depth, push) * normal_[at(k)];
-    batch.evaluateElsewhere(t, point, deeper_.data(), v, f_.data(), dfdd_.data(), dfdv_.data());
-    double stiffness = 0, damping = 0;
-    for (int i = 0; i < w; ++i)
-      for (int k = 0; k < w; ++k) {
-        const double both = normal_[at(i)] * normal_[at(k)] / batch.scale(point);
-        stiffness -= both * dfdd_[at(i * w + k)];
-        damping -= both * dfdv_[at(i * w + k)];
-      }
-    found.damping = std::max(0.0, damping * found.mobility);
-    const bool first = found.frequency == 0;
-    found.frequency = stiffness > 0 ? std::sqrt(stiffness * found.mobility) : 0;
-    if (!first || found.frequency == 0 || found.frequency * h < 1) break;
-    depth = speed / found.frequency;
-  }
   return found;
+}
+
+/// The wall is the one behind the depth in which a regularised law begins: k = -n'J n as deep as
+/// the change of velocity takes the point there, first in the whole step and then in 1/w.
+void ImpactResolution::measure(Wall& wall, int b, int point, double t, double speed, double h) {
+  if (!(wall.mobility > 0)) return;
+  wall.depth = h * speed;
+  for (bool first = true; wall.depth > 0; first = false) {
+    const auto [stiffness, damping] = behind(wall, b, point, t, wall.depth);
+    wall.damping = std::max(0.0, damping * wall.mobility);
+    wall.frequency = stiffness > 0 ? std::sqrt(stiffness * wall.mobility) : 0;
+    if (!first || wall.frequency == 0 || wall.frequency * h < 1) break;
+    wall.depth = speed / wall.frequency;
+  }
+}
+
+/// W c = damping + rise * (depth behind where the wall begins), from two depths.
+void ImpactResolution::findOnset(Wall& wall, int b, int point, double t, double farthest) {
+  if (!(wall.damping > 0)) return;
+  const double begin = beginning(wall, b, point, t, farthest);
+  const double near = wall.mobility * behind(wall, b, point, t, onsetShare * wall.depth - begin)[1],
+               far = wall.mobility * behind(wall, b, point, t, wall.depth - begin)[1];
+  wall.rise = std::max(0.0, (far - near) / ((1 - onsetShare) * wall.depth));
+  wall.damping = std::max(0.0, near - wall.rise * onsetShare * wall.depth);
+}
+
+/// How far the wall reaches out of the point, at most `farthest`.
+double ImpactResolution::beginning(const Wall& wall, int b, int point, double t, double farthest) {
+  double inside = 0, outside = farthest;
+  for (int i = 0; i < bisections; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    behind(wall, b, point, t, -middle);
+    const int w = model_->points()[at(b)].width();
+    (std::any_of(f_.begin(), f_.begin() + w, [](double f) { return f != 0; }) ? inside : outside) =
+        middle;
+  }
+  return inside;
+}
+
+/// -n' df/dd n and -n' df/dv n as deep behind the point, for its speed.
+std::array<double, 2> ImpactResolution::behind(const Wall& wall, int b, int point, double t,
+                                               double depth) {
+  PointBatch& batch = model_->points()[at(b)];
+  const int w = batch.width();
+  const double *d = batch.d() + point * w, *v = batch.v() + point * w;
+  for (int k = 0; k < w; ++k)
+    deeper_[at(k)] = d[k] - std::copysign(depth, wall.push * depth) * normal_[at(k)];
+  batch.evaluateElsewhere(t, point, deeper_.data(), v, f_.data(), dfdd_.data(), dfdv_.data());
+  double stiffness = 0, damping = 0;
+  for (int i = 0; i < w; ++i)
+    for (int k = 0; k < w; ++k) {
+      const double both = normal_[at(i)] * normal_[at(k)] / batch.scale(point);
+      stiffness -= both * dfdd_[at(i * w + k)];
+      damping -= both * dfdv_[at(i * w + k)];
+    }
+  return {stiffness, damping};
 }
 
 double ImpactResolution::along(int b, int point, const Vector& v) const {
@@ -140,7 +180,7 @@ bool ImpactResolution::matters(double change) const {
 }
 
 bool ImpactResolution::resolves(const Wall& wall, double change, double h) const {
-  const double wh = wall.frequency * h, damping = wall.damping * h;
+  const double wh = wall.frequency * h, damping = (wall.damping + wall.rise * 0.5 * change * h) * h;
   if ((wh <= Tuned::resolved && damping <= Tuned::mostLost) || !matters(change * change))
     return true;
   if (matters(reboundLoss(wh, radius_) * change * change)) return false;
@@ -158,7 +198,8 @@ int ImpactResolution::halvingsOfPoints(const State& from, const State& to, doubl
       const double* last = &sets_[at(b)].force[at(p * w)];
       const auto [change, speed] = bound(b, p, h, last);
       if (!matters(change * (change + 2 * speed))) continue;
-      const Wall met = wall(b, p, to.t, change + speed, h);
+      Wall met = facing(b, p, to.t);
+      measure(met, b, p, to.t, change + speed, h);
       if (met.frequency == 0) continue;
       double before = 0;
       for (int k = 0; k < w; ++k) before += normal_[at(k)] * last[k];
@@ -168,6 +209,8 @@ int ImpactResolution::halvingsOfPoints(const State& from, const State& to, doubl
       const double reversal = std::max(
           {std::min(h * met.mobility * std::abs(met.push - before), 2 * std::abs(end - begin)),
            2 * std::abs(begin), 2 * std::abs(end)});
+      if (resolves(met, reversal, h)) continue;
+      findOnset(met, b, p, to.t, h * (change + speed));
       int count = 0;
       while (!resolves(met, reversal, std::ldexp(h, -count))) ++count;
       most = std::max(most, count);
@@ -204,7 +247,8 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
       double fastest = 0;
       for (int k = p * batch.width(); k < (p + 1) * batch.width(); ++k)
         fastest = std::max(fastest, std::abs(batch.rowTimesVector(k, to.v.data())));
-      const Wall met = wall(b, p, to.t, fastest, h);
+      Wall met = facing(b, p, to.t);
+      measure(met, b, p, to.t, fastest, h);
       if (met.frequency * h <= Tuned::resolved) continue;
       needed =
           std::max(needed, resolves(met, 2 * along(b, p, to.v), h) ? constants::pi / met.frequency
