@@ -43,16 +43,6 @@ Vector symmetricValues(const Matrix& A) {
   return Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-GeneralPairs generalPairs(const Matrix& A) {
-  const Eigen::EigenSolver<Matrix> solver(A);
-  GeneralPairs pairs;
-  pairs.converged = solver.info() == Eigen::Success;
-  if (!pairs.converged) return pairs;
-  pairs.values = solver.eigenvalues();
-  pairs.vectors = solver.eigenvectors();
-  return pairs;
-}
-
 SingularValues jacobiSvd(const Matrix& A, unsigned int parts) {
   return partsOf(Eigen::JacobiSVD<Matrix>(A, parts));
 }

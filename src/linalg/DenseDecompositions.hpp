@@ -23,14 +23,6 @@ SymmetricPairs symmetricPairs(const Matrix& A, const Matrix& B);
 /// The eigenvalues of symmetricPairs(A).
 Vector symmetricValues(const Matrix& A);
 
-/// A x = lambda x of a matrix that need not be symmetric, |x| = 1, in no order.
-struct GeneralPairs {
-  Eigen::VectorXcd values;
-  Eigen::MatrixXcd vectors;
-  bool converged = true;  ///< the QR iteration
-};
-GeneralPairs generalPairs(const Matrix& A);
-
 /// A = U diag(values) V', values decreasing.
 struct SingularValues {
   Vector values;

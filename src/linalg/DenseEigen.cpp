@@ -6,6 +6,7 @@
 
 #include "common/Error.hpp"
 #include "linalg/DenseDecompositions.hpp"
+#include "linalg/GeneralEigen.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"

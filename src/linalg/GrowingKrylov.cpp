@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linalg/GrowingKrylov.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <utility>
 
 #include "common/Error.hpp"
 #include "linalg/Deterministic.hpp"
+#include "linalg/GeneralEigen.hpp"
 
 namespace tooljoint::linalg {
 
@@ -14,15 +14,6 @@ namespace {
 
 /// What is left of a vector after orthogonalisation below this fraction of it is rounding.
 constexpr double rounding = 1e-14;
-
-template <class Scalar>
-struct Eigensolver {
-  using Type = Eigen::ComplexEigenSolver<Eigen::MatrixXcd>;
-};
-template <>
-struct Eigensolver<double> {
-  using Type = Eigen::EigenSolver<Matrix>;
-};
 
 }  // namespace
 
@@ -121,12 +112,12 @@ RitzPairs GrowingKrylov<Scalar>::ritz() const {
     for (std::size_t i = 0; i < open_.size(); ++i)
       rest(static_cast<Eigen::Index>(i), j) = projected_(open_[i], column);
   }
-  const typename Eigensolver<Scalar>::Type solver(H);
-  if (solver.info() != Eigen::Success)
+  auto found = generalPairs(std::move(H));
+  if (!found.converged)
     throw ConvergenceError("The QR iteration of a projected eigenproblem did not converge.");
   RitzPairs pairs;
-  pairs.values = solver.eigenvalues();
-  pairs.coefficients = solver.eigenvectors();
+  pairs.values = std::move(found.values);
+  pairs.coefficients = std::move(found.vectors);
   pairs.residuals.resize(m);
   for (Eigen::Index j = 0; j < m; ++j) {
     const double size = std::abs(pairs.values[j]);

@@ -16,6 +16,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "linalg/DenseDecompositions.hpp"
+#include "linalg/GeneralEigen.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
 namespace LowestDampedModesTest {
