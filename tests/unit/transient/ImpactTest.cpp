@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "Models.hpp"
+#include "model/laws/Connectors.hpp"
 #include "transient/contact/ImpactResolution.hpp"
 
 namespace tooljoint::transient::testing {
@@ -59,6 +60,37 @@ TEST_P(Rebound, IsThatOfALossyWall) {
     o.own.set("Spectral Radius", radius);
     EXPECT_NEAR(apex(fallingMass(k, c, 0), o), truth, 0.02) << zeta;
   }
+}
+
+/// P(v) = v / chi - ln(1 + chi v) / chi^2 is the same before and after, from m v dv/dg = -k g (1 +
+/// chi v): chi of the restitution e by bisection of x = chi v.
+double dissipation(double e, double speed) {
+  const auto part = [](double x) { return x - std::log1p(x); };
+  double low = 1e-9, high = 0.999 / e;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 0.5 * (low + high);
+    (part(x) > part(-e * x) ? low : high) = x;
+  }
+  return low / speed;
+}
+
+/// Damping that grows with the depth asks for no shorter steps than its spring does, wherever in
+/// the wall the step ends in which it is met.
+TEST_P(Rebound, IsThatOfTheLawOfHuntAndCrossley) {
+  const auto [h, radius] = GetParam();
+  const double e = 0.4;
+  for (double k : {5e8, 1e11})
+    for (double more : {0.0, 0.25}) {
+      auto model = fallingMass(k, 0, more * h * std::sqrt(2 * gravity * drop));
+      const double speed = std::sqrt(2 * gravity * model.initialDisplacement[0]);
+      model::StopParameters stop;
+      stop.stiffness = k;
+      stop.damping = dissipation(e, speed);
+      model.points[0].law = model::stops({stop});
+      auto o = options("Generalized-alpha", 0.08, h, 0.08);
+      o.own.set("Spectral Radius", radius);
+      EXPECT_NEAR(apex(model, o), e * e, 0.02) << k << " " << more;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, Rebound,
