@@ -128,15 +128,14 @@ void ImpactResolution::findOnset(Wall& wall, int b, int point, double t, double 
   wall.damping = std::max(0.0, near - wall.rise * onsetShare * wall.depth);
 }
 
-/// How far the wall reaches out of the point, at most `farthest`.
+/// How far the wall reaches out of the point, at most `farthest`: to where its stiffness is half of
+/// what it is behind it. The forces of regularised laws reach further.
 double ImpactResolution::beginning(const Wall& wall, int b, int point, double t, double farthest) {
+  const double half = 0.5 * wall.frequency * wall.frequency / wall.mobility;
   double inside = 0, outside = farthest;
   for (int i = 0; i < bisections; ++i) {
     const double middle = 0.5 * (inside + outside);
-    behind(wall, b, point, t, -middle);
-    const int w = model_->points()[at(b)].width();
-    (std::any_of(f_.begin(), f_.begin() + w, [](double f) { return f != 0; }) ? inside : outside) =
-        middle;
+    (behind(wall, b, point, t, -middle)[0] > half ? inside : outside) = middle;
   }
   return inside;
 }
