@@ -47,7 +47,7 @@ void TruncatedStart::begin(const PartResidual& part, const Vector& displacement,
   const Matrix MW = M * W;
   const Matrix gram = W.transpose() * MW;
   const auto left = [&](const Vector& x) {
-    const Vector inner = restricted(x, interior_);
+    Vector inner = restricted(x, interior_);
     if (W.cols() == 0) return inner;
     return Vector(inner - W * linalg::solveSymmetric(gram, Vector(MW.transpose() * inner)));
   };

@@ -122,7 +122,7 @@ std::string OutputFolder::file(const std::string& name) {
   if (!isPlain(name)) {
     throw Error(ExitCode::Internal, "\"" + name + "\" is no name for a file in the output folder.");
   }
-  const std::string path = folder_ + "/" + name;
+  std::string path = folder_ + "/" + name;
   if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
     names_.push_back(name);
     if (active_)

@@ -48,7 +48,7 @@ Override parseOverride(const std::string& text, int number) {
 /// The type attribute of an override: what the description asks for, or a string when the text is a
 /// quantity with a unit.
 std::string typeFor(const ParameterSpec& parameter, const std::string& text) {
-  const std::string type = typeName(parameter.kind);
+  std::string type = typeName(parameter.kind);
   std::string ignored;
   if (parameter.unit.empty() || parseValue(type, text, ignored)) return type;
   if (parameter.kind == Kind::Real && !trim(text).empty()) return "string";

@@ -181,7 +181,7 @@ class TreeReader {
   }
 
   static std::string tagOf(const xmlNode* node) {
-    const std::string name = asText(node->name);
+    std::string name = asText(node->name);
     if (node->ns == nullptr || node->ns->prefix == nullptr) return name;
     return asText(node->ns->prefix) + ":" + name;
   }

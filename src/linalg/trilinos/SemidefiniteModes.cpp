@@ -117,7 +117,7 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
 /// of two), the ones with the better condition.
 Vector betterScale(const Sparse& K, const Sparse& M, double sigma) {
   const Matrix A = Matrix(K) - sigma * Matrix(M);
-  const Vector given = Vector::Ones(K.rows()), masses = binaryMassScale(K, M);
+  Vector given = Vector::Ones(K.rows()), masses = binaryMassScale(K, M);
   if (A.rows() == 0) return given;
   const auto condition = [&](const Vector& d) {
     return DenseLu(d.asDiagonal() * A * d.asDiagonal()).reciprocalCondition();

@@ -35,7 +35,7 @@ Matrix toModeAmplitudes(const PartView& part, FreeInterfaceBasis& free) {
   const Eigen::Index boundary = sizeOf(basis.partition.boundary);
   const Eigen::Index modes = free.shapes.cols(), ritz = basis.vectors.cols() - boundary;
   const Matrix vectors = basis.vectors;
-  const Matrix amplitudes = free.shapes.transpose() * (part.mass() * vectors);
+  Matrix amplitudes = free.shapes.transpose() * (part.mass() * vectors);
   const auto AC = amplitudes.leftCols(boundary);
   const Matrix AD = amplitudes.rightCols(ritz);
   basis.orthonormal = false;

@@ -127,7 +127,7 @@ class DrivenBlock {
 
   Matrix solve(const Matrix& b) {
     if (b.cols() == 0) return b;
-    const Matrix x = solver_->solve(b);
+    Matrix x = solver_->solve(b);
     residual_ = std::max(residual_, solver_->lastResidual());
     return x;
   }
