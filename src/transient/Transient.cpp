@@ -23,9 +23,9 @@
 #include "transient/ModelIdentity.hpp"
 #include "transient/Sampler.hpp"
 #include "transient/accuracy/LawResolution.hpp"
-#include "transient/accuracy/StepError.hpp"
-#include "transient/accuracy/StepVerdict.hpp"
 #include "transient/ranks/MotionShare.hpp"
+#include "transient/verdict/StepError.hpp"
+#include "transient/verdict/StepVerdict.hpp"
 
 namespace tooljoint::transient {
 namespace {

@@ -2,7 +2,6 @@
 #include "transient/contact/ImpactResolution.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,11 +16,6 @@ namespace {
 /// Of reboundLoss(), fitted to single masses.
 constexpr double lossFit = 0.55;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-/// Part of the depth behind a wall at which its damping is looked at again: what it sets in with.
-constexpr double onsetShare = 1.0 / 16.0;
-/// Of the way out of a wall, to find where it begins.
-constexpr int bisections = 24;
 
 /// Largest part that depends on where in a step the wall is met, likewise. The force of a wall with
 /// damping c sets in with a jump c v; met up to half a step early or late, it takes W c h of the
@@ -41,7 +35,7 @@ void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double
   radius_ = radius;
   norm_.bind(model);
   sets_.clear();
-  std::size_t widest = 0;
+  met_.bind(model);
   for (const auto& batch : model.points()) {
     const std::size_t rows = at(batch.points()) * at(batch.width());
     const int w = batch.width();
@@ -50,12 +44,7 @@ void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double
       std::copy_n(batch.force() + p * w, w, &sets_.back().force[at(p * w)]);
     for (int p : batch.everyPoint())
       batch.project(p, mass.inverse(), &sets_.back().mobility[at(p * w * w)]);
-    widest = std::max(widest, at(batch.width()));
   }
-  f_.assign(widest, 0.0);
-  dfdd_.assign(widest * widest, 0.0);
-  dfdv_ = dfdd_;
-  normal_ = deeper_ = f_;
   squares_ = time_ = unseen_ = calm_ = 0;
   kept_ = 0;
   recovering_ = false;
@@ -81,92 +70,6 @@ ImpactResolution::Bound ImpactResolution::bound(int b, int point, double h, cons
   return found;
 }
 
-/// J = df/dd at the point: n = J'f / |J'f|.
-ImpactResolution::Wall ImpactResolution::facing(int b, int point, double t) {
-  PointBatch& batch = model_->points()[at(b)];
-  const int w = batch.width();
-  const double* W = mobility(b, point);
-  batch.evaluateHere(t, point, true);
-  const double *f = batch.force() + point * w, *J = batch.dfdd() + point * w * w;
-  Wall found;
-  double size = 0;
-  for (int k = 0; k < w; ++k) {
-    normal_[at(k)] = 0;
-    for (int i = 0; i < w; ++i) normal_[at(k)] -= J[i * w + k] * f[i];
-    size = std::hypot(size, normal_[at(k)]);
-  }
-  if (!(size > 0)) return found;
-  for (int k = 0; k < w; ++k) normal_[at(k)] /= size;
-  for (int i = 0; i < w; ++i) {
-    found.push += normal_[at(i)] * f[i] / batch.scale(point);
-    for (int k = 0; k < w; ++k) found.mobility += normal_[at(i)] * W[i * w + k] * normal_[at(k)];
-  }
-  return found;
-}
-
-/// The wall is the one behind the depth in which a regularised law begins: k = -n'J n as deep as
-/// the change of velocity takes the point there, first in the whole step and then in 1/w.
-void ImpactResolution::measure(Wall& wall, int b, int point, double t, double speed, double h) {
-  if (!(wall.mobility > 0)) return;
-  wall.depth = h * speed;
-  for (bool first = true; wall.depth > 0; first = false) {
-    const auto [stiffness, damping] = behind(wall, b, point, t, wall.depth);
-    wall.damping = std::max(0.0, damping * wall.mobility);
-    wall.frequency = stiffness > 0 ? std::sqrt(stiffness * wall.mobility) : 0;
-    if (!first || wall.frequency == 0 || wall.frequency * h < 1) break;
-    wall.depth = speed / wall.frequency;
-  }
-}
-
-/// W c = damping + rise * (depth behind where the wall begins), from two depths.
-void ImpactResolution::findOnset(Wall& wall, int b, int point, double t, double farthest) {
-  if (!(wall.damping > 0)) return;
-  const double begin = beginning(wall, b, point, t, farthest);
-  const double near = wall.mobility * behind(wall, b, point, t, onsetShare * wall.depth - begin)[1],
-               far = wall.mobility * behind(wall, b, point, t, wall.depth - begin)[1];
-  wall.rise = std::max(0.0, (far - near) / ((1 - onsetShare) * wall.depth));
-  wall.damping = std::max(0.0, near - wall.rise * onsetShare * wall.depth);
-}
-
-/// How far the wall reaches out of the point, at most `farthest`: to where its stiffness is half of
-/// what it is behind it. The forces of regularised laws reach further.
-double ImpactResolution::beginning(const Wall& wall, int b, int point, double t, double farthest) {
-  const double half = 0.5 * wall.frequency * wall.frequency / wall.mobility;
-  double inside = 0, outside = farthest;
-  for (int i = 0; i < bisections; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    (behind(wall, b, point, t, -middle)[0] > half ? inside : outside) = middle;
-  }
-  return inside;
-}
-
-/// -n' df/dd n and -n' df/dv n as deep behind the point, for its speed.
-std::array<double, 2> ImpactResolution::behind(const Wall& wall, int b, int point, double t,
-                                               double depth) {
-  PointBatch& batch = model_->points()[at(b)];
-  const int w = batch.width();
-  const double *d = batch.d() + point * w, *v = batch.v() + point * w;
-  for (int k = 0; k < w; ++k)
-    deeper_[at(k)] = d[k] - std::copysign(depth, wall.push * depth) * normal_[at(k)];
-  batch.evaluateElsewhere(t, point, deeper_.data(), v, f_.data(), dfdd_.data(), dfdv_.data());
-  double stiffness = 0, damping = 0;
-  for (int i = 0; i < w; ++i)
-    for (int k = 0; k < w; ++k) {
-      const double both = normal_[at(i)] * normal_[at(k)] / batch.scale(point);
-      stiffness -= both * dfdd_[at(i * w + k)];
-      damping -= both * dfdv_[at(i * w + k)];
-    }
-  return {stiffness, damping};
-}
-
-double ImpactResolution::along(int b, int point, const Vector& v) const {
-  const PointBatch& batch = model_->points()[at(b)];
-  double sum = 0;
-  for (int k = 0; k < batch.width(); ++k)
-    sum += normal_[at(k)] * batch.rowTimesVector(point * batch.width() + k, v.data());
-  return sum;
-}
-
 /// v'M v: the mean over the run so far, or that of the step looked at where it is more.
 double ImpactResolution::square() const {
   return std::max(current_, time_ > 0 ? squares_ / time_ : 0.0);
@@ -178,12 +81,12 @@ bool ImpactResolution::matters(double change) const {
          4 * Tuned::mostLost * std::max(Tuned::quiet * Tuned::quiet, square() / norm_.mass());
 }
 
-bool ImpactResolution::resolves(const Wall& wall, double change, double h) const {
-  const double wh = wall.frequency * h, damping = (wall.damping + wall.rise * 0.5 * change * h) * h;
+bool ImpactResolution::resolves(const MetWall& wall, double change, double h) const {
+  const double wh = wall.frequency() * h, damping = wall.damping(0.5 * change * h) * h;
   if ((wh <= Tuned::resolved && damping <= Tuned::mostLost) || !matters(change * change))
     return true;
   if (matters(reboundLoss(wh, radius_) * change * change)) return false;
-  return scatter(wh, damping) * change * change / wall.mobility <=
+  return scatter(wh, damping) * change * change / wall.mobility() <=
          4 * Tuned::mostMisplaced * square();
 }
 
@@ -197,21 +100,20 @@ int ImpactResolution::halvingsOfPoints(const State& from, const State& to, doubl
       const double* last = &sets_[at(b)].force[at(p * w)];
       const auto [change, speed] = bound(b, p, h, last);
       if (!matters(change * (change + 2 * speed))) continue;
-      Wall met = facing(b, p, to.t);
-      measure(met, b, p, to.t, change + speed, h);
-      if (met.frequency == 0) continue;
-      double before = 0;
-      for (int k = 0; k < w; ++k) before += normal_[at(k)] * last[k];
+      met_.face(batch, p, mobility(b, p), to.t);
+      met_.measure(change + speed, h);
+      if (met_.frequency() == 0) continue;
       // What a force passes on to its neighbours is no change of velocity; what has begun to turn
       // goes on to its reversal.
-      const double begin = along(b, p, from.v), end = along(b, p, to.v);
-      const double reversal = std::max(
-          {std::min(h * met.mobility * std::abs(met.push - before), 2 * std::abs(end - begin)),
-           2 * std::abs(begin), 2 * std::abs(end)});
-      if (resolves(met, reversal, h)) continue;
-      findOnset(met, b, p, to.t, h * (change + speed));
+      const double begin = met_.along(from.v), end = met_.along(to.v);
+      const double reversal =
+          std::max({std::min(h * met_.mobility() * std::abs(met_.push() - met_.along(last)),
+                             2 * std::abs(end - begin)),
+                    2 * std::abs(begin), 2 * std::abs(end)});
+      if (resolves(met_, reversal, h)) continue;
+      met_.findOnset(h * (change + speed));
       int count = 0;
-      while (!resolves(met, reversal, std::ldexp(h, -count))) ++count;
+      while (!resolves(met_, reversal, std::ldexp(h, -count))) ++count;
       most = std::max(most, count);
     }
   }
@@ -239,19 +141,19 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
   double needed = 0;
   current_ = model_->massForm(to.v.data());
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
-    const PointBatch& batch = model_->points()[at(b)];
+    PointBatch& batch = model_->points()[at(b)];
     for (int p : batch.active()) {
       const double* force = batch.force() + p * batch.width();
       if (std::all_of(force, force + batch.width(), [](double f) { return f == 0; })) continue;
       double fastest = 0;
       for (int k = p * batch.width(); k < (p + 1) * batch.width(); ++k)
         fastest = std::max(fastest, std::abs(batch.rowTimesVector(k, to.v.data())));
-      Wall met = facing(b, p, to.t);
-      measure(met, b, p, to.t, fastest, h);
-      if (met.frequency * h <= Tuned::resolved) continue;
-      needed =
-          std::max(needed, resolves(met, 2 * along(b, p, to.v), h) ? constants::pi / met.frequency
-                                                                   : unbounded);
+      met_.face(batch, p, mobility(b, p), to.t);
+      met_.measure(fastest, h);
+      if (met_.frequency() * h <= Tuned::resolved) continue;
+      needed = std::max(needed, resolves(met_, 2 * met_.along(to.v), h)
+                                    ? constants::pi / met_.frequency()
+                                    : unbounded);
     }
   }
   return model_->cut().largest(needed);

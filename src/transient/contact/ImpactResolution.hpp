@@ -16,13 +16,13 @@
 /// small beside what a point of the string has, and what is misplaced beside what the whole has.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "transient/accuracy/StepControl.hpp"
 #include "transient/accuracy/StepGrid.hpp"
 #include "transient/compiled/CompiledModel.hpp"
 #include "transient/compiled/MassFactor.hpp"
+#include "transient/contact/MetWall.hpp"
 
 namespace tooljoint::transient {
 
@@ -55,15 +55,6 @@ class ImpactResolution {
     std::vector<double> force;     ///< rows, at the end of the last step kept
     std::vector<double> mobility;  ///< R M^-1 R' per point, width x width, row-major
   };
-  /// Where a point meets its wall.
-  struct Wall {
-    double frequency = 0;  ///< w [rad/s]; 0 where nothing is met
-    double mobility = 0;   ///< W [1/kg]
-    double depth = 0;      ///< at which it was measured [m]
-    double damping = 0;    ///< -W n' df/dv n there; after findOnset() where the wall begins [1/s]
-    double rise = 0;       ///< how it grows with depth behind that [1/(s m)]
-    double push = 0;       ///< n'f [N]
-  };
   /// What a step can do to a point, from the rows its wall pushes along [m/s].
   struct Bound {
     double change = 0;  ///< h W |f_{n+1} - f_n|
@@ -71,18 +62,11 @@ class ImpactResolution {
   };
   const double* mobility(int batch, int point) const;
   Bound bound(int batch, int point, double h, const double* before);
-  Wall facing(int batch, int point, double t);
-  void measure(Wall& wall, int batch, int point, double t, double speed, double h);
-  void findOnset(Wall& wall, int batch, int point, double t, double farthest);
-  double beginning(const Wall& wall, int batch, int point, double t, double farthest);
-  std::array<double, 2> behind(const Wall& wall, int batch, int point, double t, double depth);
-  bool resolves(const Wall& wall, double change, double h) const;
+  bool resolves(const MetWall& wall, double change, double h) const;
   double calmNeeded(const State& to, double h);
   double square() const;
   bool matters(double change) const;
   int halvingsOfPoints(const State& from, const State& to, double h);
-  /// Component along the normal of the last facing().
-  double along(int batch, int point, const Vector& v) const;
 
   CompiledModel* model_ = nullptr;
   double radius_ = 1;
@@ -94,8 +78,7 @@ class ImpactResolution {
   long kept_ = 0;                  ///< steps
   bool recovering_ = false;        ///< steps are short because of an impact
   double calm_ = 0;                ///< time for which closed contact has been without motion [s]
-  std::vector<double> normal_, deeper_;  ///< n of the last facing() and a place behind it, in rows
-  std::vector<double> f_, dfdd_, dfdv_;  ///< at that place
+  MetWall met_;
 };
 
 }  // namespace tooljoint::transient

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The motion of a run beside that in half the step, and beside its neighbours.
-#include "transient/accuracy/StepComparison.hpp"
+#include "transient/verdict/StepComparison.hpp"
 
 #include <cmath>
 #include <functional>

@@ -2,7 +2,7 @@
 /// \file
 /// Windows of steps taken again in halves: what they measure, and that the run does not notice
 /// them.
-#include "transient/accuracy/StepError.hpp"
+#include "transient/verdict/StepError.hpp"
 
 #include <algorithm>
 #include <cmath>

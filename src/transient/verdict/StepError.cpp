@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/accuracy/StepError.hpp"
+#include "transient/verdict/StepError.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "transient/accuracy/SpreadSteps.hpp"
+#include "transient/verdict/SpreadSteps.hpp"
 
 namespace tooljoint::transient {
 namespace {

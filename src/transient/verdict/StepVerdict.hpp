@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "transient/TransientParameters.hpp"
-#include "transient/accuracy/StepComparison.hpp"
-#include "transient/accuracy/StepError.hpp"
+#include "transient/verdict/StepComparison.hpp"
+#include "transient/verdict/StepError.hpp"
 
 namespace tooljoint::transient {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/accuracy/RetakenWindow.hpp"
+#include "transient/verdict/RetakenWindow.hpp"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/accuracy/StepVerdict.hpp"
+#include "transient/verdict/StepVerdict.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "transient/Integrator.hpp"
-#include "transient/accuracy/DampingSamples.hpp"
-#include "transient/accuracy/RetakenWindow.hpp"
 #include "transient/accuracy/TranslationNorm.hpp"
+#include "transient/verdict/DampingSamples.hpp"
+#include "transient/verdict/RetakenWindow.hpp"
 
 namespace tooljoint::transient {
 

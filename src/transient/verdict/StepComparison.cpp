@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/accuracy/StepComparison.hpp"
+#include "transient/verdict/StepComparison.hpp"
 
 #include <algorithm>
 #include <cmath>

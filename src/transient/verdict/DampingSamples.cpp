@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/accuracy/DampingSamples.hpp"
+#include "transient/verdict/DampingSamples.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "transient/Integrator.hpp"
-#include "transient/accuracy/SpreadSteps.hpp"
+#include "transient/verdict/SpreadSteps.hpp"
 
 namespace tooljoint::transient {
 namespace {
