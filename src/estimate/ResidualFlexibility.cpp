@@ -59,14 +59,15 @@ void ResidualFlexibility::factor(const model::Substructure& part, const reductio
   const auto name = model::namer(part.model, interior_);
   linalg::DirectSolverOptions options;
   options.ranks = ranks;
-  Sparse regular = stiffness_;
+  double shift = 0.0;
   try {
-    solver_ = std::make_unique<linalg::DirectSolver>(regular, name, options);
+    solver_ = std::make_unique<linalg::DirectSolver>(stiffness_, name, options);
   } catch (const ModelError& error) {
-    const double shift = small * lowestVibration(basis);
-    regular += shift * mass_;
+    shift = small * lowestVibration(basis);
     try {
-      if (shift > 0) solver_ = std::make_unique<linalg::DirectSolver>(regular, name, options);
+      if (shift > 0)
+        solver_ = std::make_unique<linalg::DirectSolver>(Sparse(stiffness_ + shift * mass_), name,
+                                                         options);
     } catch (const ModelError&) {
     }
     if (!solver_)
@@ -77,8 +78,10 @@ void ResidualFlexibility::factor(const model::Substructure& part, const reductio
                        "the deck has them. " +
                        error.what());
   }
-  if (modes_.cols() > 0)
-    modalFactor_ = linalg::DenseLu(Matrix(modes_.transpose() * (regular * modes_)));
+  if (modes_.cols() == 0) return;
+  Matrix weighted = stiffness_ * modes_;
+  if (shift > 0) weighted += shift * (mass_ * modes_);
+  modalFactor_ = linalg::DenseLu(Matrix(modes_.transpose() * weighted));
 }
 
 Matrix ResidualFlexibility::apply(const Matrix& r) const {
