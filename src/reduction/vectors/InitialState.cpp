@@ -20,17 +20,30 @@ Vector fitState(const Basis& basis, const Vector& x) {
   return q;
 }
 
+Vector fitState(const Basis& basis, const Sparse& mass, const Vector& x) {
+  Vector q = fitState(basis, x);
+  const int first = sizeOf(basis.partition.boundary), modes = basis.modes();
+  const Vector rest = x - basis.vectors * q;
+  if (modes == 0 || rest.isZero(0.0)) return q;
+  const Sparse phi = basis.vectors.middleCols(first, modes), weighted = mass * phi;
+  q.segment(first, modes) +=
+      linalg::leastSquares(Matrix(phi.transpose() * weighted), Vector(weighted.transpose() * rest));
+  return q;
+}
+
 StartState startState(const model::Substructure& part, const Basis& basis, bool keepStatic) {
   const auto& m = part.model;
   StartState start;
-  start.velocity = fitState(basis, m.initialVelocity);
+  start.velocity = fitState(basis, m.mass, m.initialVelocity);
   start.offset =
       keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(m.size()));
   const Vector& reference = start.offset;
   if (m.initialDisplacement == reference)
     start.displacement = Vector::Zero(basis.vectors.cols());
+  else if (keepStatic)
+    start.displacement = fitState(basis, m.mass, m.initialDisplacement - reference);
   else
-    start.displacement = fitState(basis, m.initialDisplacement - reference);
+    start.displacement = fitState(basis, m.initialDisplacement);
   if (basis.forces() == 0) return start;
   start.forces = Vector::Zero(basis.forces());
   if (reference.isZero(0.0)) return start;

@@ -4,6 +4,7 @@
 #include "reduction/vectors/InitialState.hpp"
 
 #include <Teuchos_ParameterList.hpp>
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "linalg/trilinos/DirectSolver.hpp"
@@ -56,6 +57,68 @@ TEST(FitState, IsTheLeastSquaresSolution) {
   const Vector inside = basis.vectors * q;
   EXPECT_LT((fitState(basis, inside) - q).norm(), 1e-12)
       << "a state inside the basis is met exactly";
+}
+
+/// The bar with the mass of its dofs growing tenfold along it and the third dof in other units.
+model::Substructure unevenBar(double unit) {
+  auto part = hangingBar();
+  const int n = part.model.size();
+  Vector scale(n);
+  for (int i = 0; i < n; ++i) scale[i] = (i == 2 ? unit : 1.0);
+  const Vector root =
+      Vector::LinSpaced(n, 0, 1).unaryExpr([](double s) { return std::pow(10.0, 0.5 * s); });
+  const auto scaled = [&](const Sparse& A, const Vector& by) {
+    return Sparse(by.asDiagonal() * A * by.asDiagonal());
+  };
+  part.model.mass = scaled(part.model.mass, root.cwiseProduct(scale));
+  auto& K = part.model.stiffness.own().front().matrix;
+  K = scaled(K, scale);
+  return part;
+}
+
+TEST(FitState, LosesTheLeastKineticEnergy) {
+  const auto part = unevenBar(1.0);
+  const Sparse& M = part.model.mass;
+  const Basis basis = basisOf(part, 4);
+  const Vector x = Vector::LinSpaced(12, 1, 3).array().square();
+  const Vector q = fitState(basis, M, x);
+  EXPECT_EQ(q[0], x[11]) << "q_C = D_C";
+  const Vector rest = x - basis.vectors * q;
+  const Matrix modal = Matrix(basis.vectors).rightCols(4);
+  EXPECT_LT((modal.transpose() * M * rest).norm(), 1e-11) << "normal equations";
+  const auto lost = [&](const Vector& state) {
+    const Vector e = x - basis.vectors * state;
+    return e.dot(M * e);
+  };
+  EXPECT_LT(lost(q), 0.95 * lost(fitState(basis, x)));
+  for (int k = 1; k < 5; ++k)
+    for (const double step : {-1e-3, 1e-3}) {
+      Vector other = q;
+      other[k] += step;
+      EXPECT_GT(lost(other), lost(q)) << k;
+    }
+}
+
+TEST(FitState, DoesNotDependOnTheUnitsOfADof) {
+  const Vector x = Vector::LinSpaced(12, 1, 3).array().square();
+  const auto motion = [&](double unit) {
+    const auto part = unevenBar(unit);
+    const Basis basis = basisOf(part, 4);
+    Vector inUnits = x;
+    inUnits[2] /= unit;
+    Vector fitted = basis.vectors * fitState(basis, part.model.mass, inUnits);
+    fitted[2] *= unit;
+    return fitted;
+  };
+  EXPECT_LT((motion(1e3) - motion(1.0)).norm(), 1e-9);
+}
+
+TEST(FitState, ReachesVectorsWithoutMass) {
+  auto part = hangingBar();
+  const Basis basis = basisOf(part, 4);
+  part.model.mass *= 0.0;
+  const Vector x = Vector::LinSpaced(12, 1, 3).array().square();
+  EXPECT_EQ(fitState(basis, part.model.mass, x), fitState(basis, x));
 }
 
 // The forces on the interface are coordinates behind the modes: a motion of the modes has none.
