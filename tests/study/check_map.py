@@ -119,7 +119,12 @@ def failures():
         expect("map.h5 says what is known", file["/known/lateral acceleration"][:].ravel().tolist() == [1, 0, 1, 0])
     longer = ["--set", "Transient/End Time=0.3", *SHORT[2:]]
     limit = tooljoint("map", DECK, "--output", "limited", *longer, "--set", "Map/Time Limit=1e-4")
-    expect("a point over its time limit is given up", limit.returncode == 0 and summary("limited")["map"]["failed"] == 4, limit.stderr[-300:])
+    expect("a point over its time limit is given up", summary("limited")["map"]["failed"] == 4, limit.stderr[-300:])
+    expect("a map without a point ends with 4 and the first reason", limit.returncode == 4 and "No point of the map could be computed" in limit.stderr
+           and "It was given up" in limit.stderr.split("No point of the map")[1] and [row["status"] for row in table("limited")] == ["failed"] * 4,
+           f"({limit.returncode}) {limit.stderr[-400:]}")
+    both = tooljoint("map", DECK, "--output", "limited_2", *longer, "--set", "Map/Time Limit=1e-4", ranks=2)
+    expect("on two ranks likewise", both.returncode == 4 and "No point of the map could be computed" in both.stderr, f"({both.returncode}) {both.stderr[-400:]}")
     more = tooljoint("map", DECK, "--output", "limited", *longer)
     expect("and computed when the limit is gone", more.returncode == 0 and known(more) == 0 and summary("limited")["map"]["done"] == 4)
     for what, arguments, sentence in [("no list", ["--without", "Map"], "has no Map list"), ("no such row", ["--row", "5", "--output", "x"], "the map has the rows 1 to 4")]:
@@ -200,7 +205,7 @@ def inclined():
 
 def main():
     # points known from an earlier test would not be computed
-    for folder in ("one", "np1", "np2_groups", "np2_together", "killed", "failed", "limited", "parts", "plan", "inclined"):
+    for folder in ("one", "np1", "np2_groups", "np2_together", "killed", "failed", "limited", "limited_2", "parts", "plan", "inclined"):
         shutil.rmtree(folder, ignore_errors=True)
     against_runs()
     many_ranks()

@@ -56,6 +56,7 @@ class Map {
           summarise(plan_, rows_->rows(), files_.summary());
         });
     if (plan_.settings.pictures) parallel::agree([&] { drawMap(folder()); });
+    refuseIfAllFailed();
   }
 
  private:
@@ -130,6 +131,24 @@ class Map {
     if (missing.size() > mostNamed)
       log::warn(std::to_string(missing.size() - mostNamed) +
                 " further cells are missing; map.csv has their reasons.");
+  }
+
+  /// Rank 0 knows the rows.
+  void refuseIfAllFailed() {
+    parallel::agree([&] {
+      if (parallel::rank() != 0) return;
+      const auto& rows = rows_->rows();
+      const auto failed = std::find_if(rows.begin(), rows.end(),
+                                       [](const MapRow& row) { return row.status == "failed"; });
+      if (failed == rows.end() || std::any_of(rows.begin(), rows.end(), [](const MapRow& row) {
+            return row.status == "done";
+          }))
+        return;
+      throw ConvergenceError(
+          "No point of the map could be computed; map.csv has the reasons. The first, " +
+          plan_.points[static_cast<std::size_t>(failed - rows.begin())].plan.label + ": " +
+          failed->reason);
+    });
   }
 
   const cases::Case& scene_;
