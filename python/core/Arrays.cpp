@@ -20,7 +20,31 @@ py::array shared(const T* values, Eigen::Index size, const py::capsule& owner) {
   return std::move(array);
 }
 
+/// "3 x 2"; "one number" for a scalar.
+std::string shapeOf(const py::array& array) {
+  std::string text;
+  for (py::ssize_t i = 0; i < array.ndim(); ++i)
+    text += (i == 0 ? "" : " x ") + std::to_string(array.shape(i));
+  return text.empty() ? "one number" : text;
+}
+
 }  // namespace
+
+Vector toVector(const Numbers& values, Eigen::Index size, const std::string& what) {
+  using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  const auto given = py::array::ensure(values);
+  const bool isReal = given && given.dtype().kind() != 'c';
+  const auto numbers = isReal ? Values::ensure(given) : Values();
+  if (!isReal || !numbers) {
+    PyErr_Clear();
+    throw ModelError(what + " is no vector of real numbers.");
+  }
+  const bool flat = numbers.ndim() < 2 || (numbers.ndim() == 2 && numbers.shape(1) == 1);
+  if (!flat || numbers.size() != size)
+    throw ModelError(what + " is an array of " + shapeOf(numbers) + "; expected are " +
+                     std::to_string(size) + " entries, one for each dof of the model.");
+  return Eigen::Map<const Vector>(numbers.data(), size);
+}
 
 CsrMatrix toScipy(const model::SharedSparse& matrix) {
   auto* kept = new model::SharedSparse(matrix);
@@ -72,12 +96,8 @@ void copyInto(const py::object& array, py::ssize_t rows, py::ssize_t columns, do
       values.ndim() == 1 && (columns == 1 || rows == 1) && values.size() == rows * columns;
   const bool fits = values.ndim() == 2 && values.shape(0) == rows && values.shape(1) == columns;
   if (!flat && !fits) {
-    std::string found;
-    for (py::ssize_t i = 0; i < values.ndim(); ++i)
-      found += (i == 0 ? "" : " x ") + std::to_string(values.shape(i));
-    throw ModelError(who + " returned an array of " + (found.empty() ? "one number" : found) +
-                     "; expected are " + std::to_string(rows) + " x " + std::to_string(columns) +
-                     ".");
+    throw ModelError(who + " returned an array of " + shapeOf(values) + "; expected are " +
+                     std::to_string(rows) + " x " + std::to_string(columns) + ".");
   }
   std::copy_n(values.data(), values.size(), to);
 }

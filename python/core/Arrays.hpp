@@ -25,6 +25,16 @@ class CsrMatrix : public py::object {
   static bool isObject(PyObject*) { return true; }
 };
 
+/// Anything numpy takes as numbers; ArrayLike in the signatures.
+class Numbers : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(Numbers, object, isObject)
+  static bool isObject(PyObject*) { return true; }
+};
+
+/// A copy of `size` numbers, one for each dof. ModelError, naming `what`, for anything else.
+Vector toVector(const Numbers& values, Eigen::Index size, const std::string& what);
+
 /// scipy.sparse.csr_matrix of the storage of `matrix`, without a copy. Read-only: models share it.
 CsrMatrix toScipy(const model::SharedSparse& matrix);
 
@@ -55,4 +65,8 @@ void copyInto(const py::object& array, py::ssize_t rows, py::ssize_t columns, do
 template <>
 struct pybind11::detail::handle_type_name<tooljoint::python::CsrMatrix> {
   static constexpr auto name = const_name("scipy.sparse.csr_matrix");
+};
+template <>
+struct pybind11::detail::handle_type_name<tooljoint::python::Numbers> {
+  static constexpr auto name = const_name("numpy.ndarray");
 };

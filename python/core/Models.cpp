@@ -13,6 +13,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "coupling/input/ComponentAxes.hpp"
+#include "reduction/part/Partition.hpp"
 
 namespace tooljoint::python {
 
@@ -89,12 +90,6 @@ py::dict terms(const model::SharedList<model::MatrixTerm>& list) {
 }
 
 CsrMatrix sum(const Sparse& matrix) { return toScipy(matrix); }
-
-void checkVector(const SecondOrderModel& model, const Vector& vector, const char* what) {
-  if (vector.size() != model.size())
-    throw ModelError(std::string(what) + " has " + std::to_string(vector.size()) +
-                     " entries; the model has " + std::to_string(model.size()) + " dofs.");
-}
 
 void addPoints(SecondOrderModel& model, const std::string& name,
                std::shared_ptr<const model::PointLaw> law, const py::object& rows, Vector offset,
@@ -197,11 +192,11 @@ void bindChanges(py::class_<SecondOrderModel, ModelPointer>& type) {
           "Add law(t) K; without a law K is constant. ModelError.")
       .def(
           "add_load",
-          [](SecondOrderModel& m, const Vector& vector, const std::string& name,
+          [](SecondOrderModel& m, const Numbers& vector, const std::string& name,
              const py::object& law) {
-            checkVector(m, vector, "The load");
+            const Vector force = toVector(vector, m.size(), "The load");
             const int index = lawOf(m, name, law);
-            m.loads.push_back({name, vector, index});
+            m.loads.push_back({name, force, index});
             m.validate();
           },
           py::arg("vector"), py::arg("name") = "load", py::arg("law") = py::none(),
@@ -212,11 +207,9 @@ void bindChanges(py::class_<SecondOrderModel, ModelPointer>& type) {
            "Add points with the forces rows' f(d, d', t), d = offset + rows q [m]. ModelError.")
       .def(
           "set_start",
-          [](SecondOrderModel& m, const Vector& displacement, const Vector& velocity) {
-            checkVector(m, displacement, "The displacement");
-            checkVector(m, velocity, "The velocity");
-            m.initialDisplacement = displacement;
-            m.initialVelocity = velocity;
+          [](SecondOrderModel& m, const Numbers& displacement, const Numbers& velocity) {
+            m.initialDisplacement = toVector(displacement, m.size(), "The displacement");
+            m.initialVelocity = toVector(velocity, m.size(), "The velocity");
             m.validate();
           },
           py::arg("displacement"), py::arg("velocity"),
@@ -229,8 +222,10 @@ void bindParts(py::module_& module) {
       module, "Part", "A part before its reduction: a model, and which of its dofs may be joined.")
       .def(py::init([](const std::string& name, const ModelPointer& model,
                        std::vector<int> interface, std::vector<int> retained) {
-             return std::make_shared<Substructure>(
+             auto part = std::make_shared<Substructure>(
                  Substructure{name, *model, std::move(interface), std::move(retained), Vector()});
+             reduction::checkPart(*part);
+             return part;
            }),
            py::arg("name"), py::arg("model"), py::arg("interface"), py::arg("retained"))
       .def_readonly("name", &Substructure::name, "Name of the part.")

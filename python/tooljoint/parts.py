@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from . import _core
+from .errors import ModelError
 from .lists import checked, describe, placed
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Itera
     interface: positions of the dofs that may be joined with equal ones (node and component) of other parts.
     retained: positions of further dofs that stay as they are when the part is reduced.
 
-    ModelError for matrices that do not fit each other or are not symmetric.
+    ModelError for matrices that do not fit each other or are not symmetric, and for positions that are none.
 
     >>> import numpy as np, tooljoint as tj
     >>> bar = tj.part("bar", np.eye(3), [[2, -1, 0], [-1, 2, -1], [0, -1, 1]], interface=[2], nodes=[1, 2, 3])
@@ -42,12 +43,21 @@ def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Itera
         nodes = np.arange(size) // width + 1
     if components is None:
         components = _repeating(nodes, width)
-    model = _core.Model(mass, stiffness, np.asarray(nodes, int), np.asarray(components, int), list(component_names))
+    model = _core.Model(mass, stiffness, _whole(nodes, "nodes"), _whole(components, "components"), list(component_names))
     if damping is not None:
         model.add_damping(damping)
     if load is not None:
         model.add_load(load)
-    return _core.Part(name, model, sorted(map(int, interface)), sorted(map(int, retained)))
+    return _core.Part(name, model, sorted(_whole(interface, "interface")), sorted(_whole(retained, "retained")))
+
+
+def _whole(values: Any, what: str) -> list[int]:
+    """Whole numbers of any kind as a list of int. ModelError."""
+    values = list(values) if np.iterable(values) else [values]
+    for value in values:
+        if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)) or not float(value).is_integer():
+            raise ModelError(f"{what} has {value!r}; expected are whole numbers.")
+    return [int(value) for value in values]
 
 
 def _repeating(nodes, width):

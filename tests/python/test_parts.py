@@ -58,6 +58,27 @@ class Matrices(unittest.TestCase):
         with self.assertRaisesRegex(tj.ModelError, "2 rows, but 3 nodes"):
             tj.part("bad", np.eye(2), np.eye(2), nodes=[1, 2, 3], components=[0, 0, 0])
 
+    def test_positions_that_are_none_are_refused(self):
+        for name, wrong in {"nodes": ["a", "b"], "components": [0.5, 0], "interface": [2], "retained": [-1]}.items():
+            with self.assertRaisesRegex(tj.ModelError, "whole numbers" if name in ("nodes", "components") else name):
+                tj.part("bad", np.eye(2), np.eye(2), **{name: wrong})
+        with self.assertRaisesRegex(tj.ModelError, "retained"):
+            tj.part("bad", np.eye(2), np.eye(2), interface=[1], retained=[1])
+        with self.assertRaisesRegex(tj.ModelError, "whole numbers"):
+            tj.part("mask", np.eye(2), np.eye(2), interface=[True, False])
+
+    def test_vectors_that_do_not_fit_are_refused(self):
+        part = tj.part("chain", np.eye(3), np.eye(3))
+        for load, reason in ((np.ones((3, 2)), "3 x 2"), (np.ones(2), "array of 2; expected are 3 entries"), ("abc", "no vector"), (1j * np.ones(3), "no vector"),
+                             (None, "one number")):
+            with self.assertRaisesRegex(tj.ModelError, reason):
+                part.model.add_load(load)
+            with self.assertRaisesRegex(tj.ModelError, reason):
+                part.model.set_start(load, np.zeros(3))
+        part.model.add_load(np.ones((3, 1)))
+        part.model.add_load([1, 2, 3])
+        self.assertEqual(part.model.load().tolist(), [2, 3, 4])
+
 
 class Reduction(unittest.TestCase):
     def setUp(self):
