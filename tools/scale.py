@@ -5,12 +5,13 @@
     tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--rows] [--short]
     tools/scale.py --program build/release/tooljoint --motions
     tools/scale.py --program build/release/tooljoint --statics
+    tools/scale.py --program build/release/tooljoint --reduced
     tools/scale.py --program build/release/tooljoint --cut [--most DOFS] [--short]
 
 Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are
 in the work folder already are not run again. --short takes the smallest of each and prints the tables only. --motions
 measures motions divided among ranks alone, on a machine of two cores without other work, and renews their chapter;
---statics does the same for static states.
+--statics does the same for static states, --reduced compares full and reduced motions of the same error.
 --cut measures blocks cut into substructures against one shift-invert run on the whole, and renews their chapter.
 """
 import argparse
@@ -51,6 +52,13 @@ CUT_WHOLE = 200000  # dofs of the largest block that is solved as a whole, too
 CUT_CHAPTER = "## Large parts cut into substructures"
 CHAPTER = "## Motions divided among ranks"
 STATICS_CHAPTER = "## Static states divided among ranks"
+REDUCED_CHAPTER = "## Full against reduced, 5 km hanging"
+REDUCED_DECK = "vertical_5000m"
+REDUCED_ERROR = 0.02  # vibration error that is asked for
+REDUCED_END = 10, 2  # simulated [s]; with --short
+# The row of the deck's study whose real time factor is measured, and what makes a run of it.
+REDUCED_ROW = "Cut-off Frequency 6 Hz"
+REDUCED_SET = ("Transient/Generalized-alpha/Tolerance=4e-3", "Transient/Step=5 ms", "Reduction/Mode Selection/Cut-off Frequency=6 Hz")
 STATICS = "stress_170m", "inclined_1000m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m"
 # Stages of --verbose: the equilibrium, and what a static state takes beside it.
 EQUILIBRIUM = "static equilibrium"
@@ -302,6 +310,44 @@ def motions(options):
             f"as measured here and {1e6 * MESSAGE:.0f} us log2(ranks) for a message, with a core for each rank.\n\n" + counts(options))
 
 
+def real_time(options, ranks):
+    """Simulated seconds per second of the motion of REDUCED_SET, the best of three runs."""
+    end = REDUCED_END[1 if options.short else 0]
+    words = ["run", str(PROJECT / f"xml/{REDUCED_DECK}.xml"), "--output", "out", "--set", f"Transient/End Time={end}", "--set", "Output/XDMF=false",
+             "--set", f"Transient/Ranks={'Divide' if ranks > 1 else 'Alike'}"]
+    for setting in REDUCED_SET:
+        words += ["--set", setting]
+    found = []
+    for repeat in range(1 if options.short else 3):
+        name = f"real_time_{ranks}_{repeat}"
+        row = measured(options, name, words, ranks)
+        if row["code"] != 0:
+            raise SystemExit(f"{name}: exit {row['code']}\n{row['output'][-2000:]}")
+        found.append(json.loads((pathlib.Path(options.work) / name / "out/summary.json").read_text(encoding="utf-8"))["transient"]["wall_s"])
+    return end / min(found)
+
+
+def reduced(options):
+    """The study of the deck, and the real time factor of a row of it."""
+    row = measured(options, "study_reduced", ["study", str(PROJECT / f"xml/{REDUCED_DECK}.xml"), "--output", "out"])
+    if row["code"] != 0:
+        raise SystemExit(f"study: exit {row['code']}\n{row['output'][-2000:]}")
+    with open(pathlib.Path(options.work) / "study_reduced/out/study.csv", encoding="utf-8") as text:
+        runs = [each for each in csv.DictReader(text) if each["kind"] == "method" and each["status"] == "done"]
+    right = [each for each in runs if float(each["vibration_error"]) <= REDUCED_ERROR]
+    best = {model: min((each for each in right if each["model"] == model), key=lambda each: float(each["cpu_s"])) for model in ("full", "reduced")}
+    lines = [(model, each["label"], each["reduced_dofs"], f"{float(each['cpu_s']):.3f}", f"{100 * float(each['vibration_error']):.2f} %")
+             for model, each in best.items()]
+    ratio = float(best["full"]["cpu_s"]) / float(best["reduced"]["cpu_s"])
+    chosen = next(each for each in runs if REDUCED_ROW in each["label"] and "by cut-off" in each["label"])
+    factors = [(ranks, f"{real_time(options, ranks):.1f}") for ranks in (1, 2)]
+    return (f"{REDUCED_CHAPTER}\n\nThe study of `xml/{REDUCED_DECK}.xml`: of the runs with a vibration error of at most {100 * REDUCED_ERROR:.0f} %, those with the least CPU time of the\n"
+            f"motion on one rank. The reduced model is {ratio:.1f} times as fast.\n\n" +
+            table(("model", "run", "dofs", "CPU of the motion [s]", "vibration error"), lines) +
+            f"\nReal time factor of {chosen['label']} (vibration error {100 * float(chosen['vibration_error']):.2f} %) over {REDUCED_END[1 if options.short else 0]} s,\n"
+            "the best of three runs:\n\n" + table(("ranks", "simulated seconds per second"), factors))
+
+
 def renew(chapter):
     """This chapter in the document, at its place or at the end."""
     head = chapter.splitlines()[0]
@@ -351,10 +397,12 @@ def main():
     parser.add_argument("--cut", action="store_true", help="blocks cut into substructures alone; renews their chapter of the document")
     parser.add_argument("--motions", action="store_true", help="motions divided among ranks alone; renews their chapter of the document")
     parser.add_argument("--statics", action="store_true", help="static states divided among ranks alone; renews their chapter of the document")
+    parser.add_argument("--reduced", action="store_true", help="full and reduced motions of the same error alone; renews their chapter of the document")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
-    if options.motions or options.cut or options.statics:
-        chapter = motions(options) if options.motions else cuts(options) if options.cut else statics(options)
+    alone = [write for chosen, write in ((options.motions, motions), (options.cut, cuts), (options.statics, statics), (options.reduced, reduced)) if chosen]
+    if alone:
+        chapter = alone[0](options)
         print(chapter)
         if not options.short:
             renew(chapter)
@@ -365,8 +413,9 @@ def main():
     if options.rows:
         text += "\n" + rows(options, 3 if options.short else 15)
     text += "\n" + statics(options) + "\n" + motions(options)
-    if not options.short and kept(CUT_CHAPTER):
-        text += "\n" + kept(CUT_CHAPTER)
+    for head in (CUT_CHAPTER, REDUCED_CHAPTER):
+        if not options.short and kept(head):
+            text += "\n" + kept(head)
     print(text)
     if not options.short:
         blas = os.popen(f"{options.program} --version").read()
