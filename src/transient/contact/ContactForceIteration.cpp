@@ -174,6 +174,10 @@ bool ContactForceIteration::correct(double t, double c, double small, bool all) 
   return few;
 }
 
+void ContactForceIteration::finish(double t, double c) {
+  for (std::size_t b = 0; b < forces_.size(); ++b) forces_[b].stand(model_->points()[b], t, c);
+}
+
 bool ContactForceIteration::sweepEveryFourth(double t, double c, double small, int colour) {
   long moved = 0, looked = 0;
   for (const auto& batch : model_->points()) looked += static_cast<long>(batch.active().size());

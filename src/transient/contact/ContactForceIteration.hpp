@@ -75,6 +75,8 @@ class ContactForceIteration {
   /// points, which converges where neighbours that stick and slip throw each other off when all
   /// move at once. Returns as correct().
   bool sweepEveryFourth(double t, double c, double small, int colour);
+  /// Leaves the forces that act in the step with the points.
+  void finish(double t, double c);
 
  private:
   void prepare(std::size_t number, double t, double c);

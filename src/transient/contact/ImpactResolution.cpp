@@ -55,14 +55,23 @@ const double* ImpactResolution::mobility(int b, int point) const {
   return &sets_[at(b)].mobility[at(point * w * w)];
 }
 
-/// What is met at the end of a step is a little force at a high speed: both count.
-ImpactResolution::Bound ImpactResolution::bound(int b, int point, double h, const double* before) {
-  const PointBatch& batch = model_->points()[at(b)];
+/// What is met at the end of a step is a little force at a high speed: both count. The tangents of
+/// a force may be left from an iterate that did not reach the wall.
+ImpactResolution::Bound ImpactResolution::bound(int b, int point, double t, double h,
+                                                const double* before) {
+  PointBatch& batch = model_->points()[at(b)];
   const int w = batch.width();
+  const auto stiff = [&](int k) { return batch.dfdd()[point * w * w + k * w + k] != 0; };
+  bool pushes = false, known = false;
+  for (int k = 0; k < w; ++k) {
+    pushes = pushes || batch.force()[point * w + k] != 0;
+    known = known || stiff(k);
+  }
+  if (pushes && !known) batch.evaluateHere(t, point, true);
   const double* W = mobility(b, point);
   Bound found;
   for (int k = 0; k < w; ++k) {
-    if (batch.dfdd()[point * w * w + k * w + k] == 0) continue;
+    if (!stiff(k)) continue;
     const double push = batch.force()[point * w + k] / batch.scale(point);
     found.change += h * W[k * w + k] * std::abs(push - before[k]);
     found.speed += std::abs(batch.v()[point * w + k]);
@@ -98,7 +107,7 @@ int ImpactResolution::halvingsOfPoints(const State& from, const State& to, doubl
     const int w = batch.width();
     for (int p : batch.active()) {
       const double* last = &sets_[at(b)].force[at(p * w)];
-      const auto [change, speed] = bound(b, p, h, last);
+      const auto [change, speed] = bound(b, p, to.t, h, last);
       if (!matters(change * (change + 2 * speed))) continue;
       met_.face(batch, p, mobility(b, p), to.t);
       met_.measure(change + speed, h);

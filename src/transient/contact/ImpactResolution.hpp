@@ -61,7 +61,7 @@ class ImpactResolution {
     double speed = 0;
   };
   const double* mobility(int batch, int point) const;
-  Bound bound(int batch, int point, double h, const double* before);
+  Bound bound(int batch, int point, double t, double h, const double* before);
   bool resolves(const MetWall& wall, double change, double h) const;
   double calmNeeded(const State& to, double h);
   double square() const;

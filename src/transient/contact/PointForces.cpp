@@ -227,6 +227,17 @@ void PointForces::solveAlone(PointBatch& batch, int point, double t, double c) {
   for (int i = 0; i < w; ++i) p_[at(first + i)] = phi_[i], target_[at(first + i)] = guess_[i];
 }
 
+void PointForces::stand(PointBatch& batch, double t, double c) {
+  points_.clear();
+  const int w = batch.width();
+  for (int p : batch.active()) {
+    if (!alone_[at(p)]) continue;
+    points_.push_back(p);
+    std::copy_n(&target_[at(p * w)], w, &y_[at(p * w)]);
+  }
+  if (!points_.empty()) evaluate(batch, t, c, false);
+}
+
 /// Not a number counts as wrong.
 bool PointForces::isWrong(int point, double small) const {
   return !(error_[at(point)] <= Tuned::rightEnough * small);

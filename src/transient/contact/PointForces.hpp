@@ -54,6 +54,10 @@ class PointForces {
   void measure(const PointBatch& batch, double small, double& force);
   /// The next p; whole steps where Newton helps, else to where the point is alone in equilibrium.
   void correct(PointBatch& batch, double t, double c);
+  /// Laws at the end of the iteration where points have been solved by themselves: the equilibrium
+  /// found there, which may be beside y by the tolerance. On a stiff wall that is the difference
+  /// between the force that acts in the step and none.
+  void stand(PointBatch& batch, double t, double c);
 
   bool isWrong(int point, double small) const;
   /// The largest error of these points; not a number where one of them is.

@@ -39,6 +39,7 @@ bool PointRelaxation::solve(State& to, const StepScheme& scheme, Counters& count
     if (!parts_.model->addMissed(q_.data(), to.t)) break;
   }
   complete(to);
+  points_.finish(to.t, scheme.velocity);
   return true;
 }
 

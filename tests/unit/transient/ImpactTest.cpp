@@ -93,6 +93,21 @@ TEST_P(Rebound, IsThatOfTheLawOfHuntAndCrossley) {
     }
 }
 
+/// Walls on which the force of the step stands at 1e-11 m, less than the tolerance of positions:
+/// the step may end beside the wall, and has had its force.
+TEST(Impacts, AreSeenWhereTheStepEndsBesideTheWall) {
+  for (double k : {3e12, 5e13, 3e14})
+    for (int i = 0; i < 20; ++i) {
+      auto model = fallingMass(k, 0, 0);
+      model::StopParameters stop;
+      stop.stiffness = k;
+      model.points[0].law = model::stops({stop});
+      auto o = options("Generalized-alpha", 0.08, (3.0 + 0.01 * i) * 1e-3, 0.08);
+      o.own.set("Spectral Radius", 0.65);
+      EXPECT_NEAR(apex(model, o), 1.0, 0.02) << k << " " << i;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Steps, Rebound,
                          ::testing::Combine(::testing::Values(1e-4, 1e-3, 5e-3),
                                             ::testing::Values(0.0, 0.2, 0.5, 0.8, 1.0)));
