@@ -68,6 +68,23 @@ void DelayLine::append(double t, const double* y, const double* yDot, double* me
   std::copy(yDot, yDot + values_, std::copy(y, y + values_, newest + 1));
 }
 
+void DelayLine::raise(double t0, const double* y0, double t1, const double* y1,
+                      double* memory) const {
+  const int count = static_cast<int>(memory[0]);
+  for (int age = 0; age < count; ++age) {
+    double* one = memory + (sample(memory, age) - memory);
+    if (one[0] < t0) return;
+    if (one[0] > t1) continue;
+    const double share = t1 > t0 ? (one[0] - t0) / (t1 - t0) : 1.0;
+    for (int i = 0; i < values_; ++i) {
+      const double y = y0[i] + share * (y1[i] - y0[i]);
+      if (y <= one[1 + i]) continue;
+      one[1 + i] = y;
+      one[1 + values_ + i] = t1 > t0 ? (y1[i] - y0[i]) / (t1 - t0) : 0.0;
+    }
+  }
+}
+
 void DelayLine::at(double t, const double* memory, double* y, double* yDot) const {
   const int count = static_cast<int>(memory[0]);
   const double* after = sample(memory, 0);

@@ -36,9 +36,11 @@ class DelayLine {
   double oldest(const double* memory) const {
     return sample(memory, static_cast<int>(memory[0]) - 1)[0];
   }
-  double* newestValues(double* memory) const {
-    return memory + header + static_cast<int>(memory[1]) * row_ + 1;
-  }
+  /// Samples from t0 to t1 >= t0 become at least the values of the line from (t0, y0) to (t1, y1),
+  /// and take its rates where they do.
+  void raise(double t0, const double* y0, double t1, const double* y1, double* memory) const;
+  /// Smallest distance of samples.
+  double spacing() const { return spacing_; }
 
  private:
   static constexpr int header = 2;  ///< number of samples, slot of the newest

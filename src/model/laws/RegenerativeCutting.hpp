@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <optional>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -35,7 +37,7 @@ struct CuttingParameters {
 /// (first coordinate, positive into the rock) and the angle phi of the bit (second one). With the
 /// surface S(phi) that the blade before has left,
 ///
-///     delta = max(0, U - S(phi - 2 pi/n)),  S(phi) = max(U, S(phi - 2 pi/n)),  v = U',  w = phi'
+///     delta = max(0, U - S'),  S(phi) = max(U, S'),  S' = S(phi - 2 pi/n),  v = U',  w = phi'
 ///     W = c(w) n a zeta eps delta + g(v) n a l sigma
 ///     T = s+(w) n a^2 eps delta/2 + s(w) g(v) n mu gamma a^2 l sigma/2
 ///
@@ -44,7 +46,9 @@ struct CuttingParameters {
 /// nothing and leaves what it finds. g: 0 for a retreating bit, rising to 1 at the axial velocity
 /// of the parameters, where the wear flats carry any share; s: the sign of w, smoothed over the
 /// angular velocity; s+: its positive part; c: 1 for w >= 0, falling to 0 over the same width for
-/// w < 0. A bit that turns backward does not cut and does not change the surface.
+/// w < 0. A bit that turns backward does not cut and does not change the surface. On its way
+/// forward again it meets what it has cut itself: behind the foremost angle S' = max(S(phi), S(phi
+/// - 2 pi/n)), taken and left within two samples of it.
 class RegenerativeCutting : public Formula<2> {
  public:
   /// Throws ModelError for parameters out of their range.
@@ -55,28 +59,55 @@ class RegenerativeCutting : public Formula<2> {
         cutting_(p.blades * p.radius * p.specificEnergy),
         wear_(p.blades * p.radius * p.wearFlat * p.contactStress) {}
 
-  int held() const { return surface_.states(); }
+  int held() const { return Track::size + surface_.states(); }
 
   /// Steady drilling at the speeds of the start before it; a flat bottom at the bit where it does
   /// not turn.
   void initial(double, const double* d, const double* v, double* x) const {
     const double slope = v[1] > p_.angularVelocity ? std::max(0.0, v[0] / v[1]) : 0.0;
-    surface_.start(d[1], d, &slope, x);
+    std::fill(x, x + Track::size, 0.0);
+    x[Track::U] = d[0];
+    x[Track::phi] = d[1];
+    surface_.start(d[1], d, &slope, x + Track::size);
   }
 
-  /// The surface behind the blades grows where the bit is farther than it ever was.
+  /// The surface behind the blades grows where the bit is farther than it ever was. What it cuts on
+  /// a way it goes again belongs to the surface when it has gone that way.
   void accept(double, const double* d, const double* v, double* held) const {
     double before = 0, slope = 0;
     behind(d[1], held, before, slope);
-    const bool cuts = d[0] > before;
-    const double S = cuts ? d[0] : before;
-    if (d[1] <= surface_.newest(held)) {  // it stands or turns back: deeper at the same angle
-      double* newest = surface_.newestValues(held);
-      if (v[1] > -p_.angularVelocity) *newest = std::max(*newest, S);
-      return;
+    double* surface = held + Track::size;
+    const double newest = surface_.newest(surface), U = held[Track::U], phi = held[Track::phi];
+    const bool cuts = d[0] > before, forward = d[1] > phi;
+    if (held[Track::again] == 0.0 && d[1] < newest) {
+      held[Track::again] = 1.0;
+      held[Track::onTheWay] = 0.0;
     }
-    if (cuts) slope = v[1] > p_.angularVelocity ? v[0] / v[1] : 0.0;
-    surface_.append(d[1], &S, &slope, held);
+    if (held[Track::again] != 0.0) {
+      if (forward && held[Track::onTheWay] == 0.0) {
+        held[Track::onTheWay] = 1.0;
+        held[Track::fromU] = U;
+        held[Track::fromPhi] = phi;
+      }
+      const bool arrives = d[1] >= newest;
+      if (held[Track::onTheWay] != 0.0 && (!forward || arrives)) {
+        const double share = arrives ? (newest - phi) / (d[1] - phi) : 0.0,
+                     end = U + share * (d[0] - U);
+        surface_.raise(held[Track::fromPhi], held + Track::fromU, arrives ? newest : phi, &end,
+                       surface);
+        held[Track::onTheWay] = 0.0;
+      }
+      if (arrives) held[Track::again] = 0.0;
+    }
+    held[Track::U] = d[0];
+    held[Track::phi] = d[1];
+    const double S = cuts ? d[0] : before;
+    if (d[1] > newest) {
+      if (cuts) slope = v[1] > p_.angularVelocity ? v[0] / v[1] : 0.0;
+      surface_.append(d[1], &S, &slope, surface);
+    } else if (d[1] > newest - surface_.spacing() && v[1] > -p_.angularVelocity) {
+      surface_.raise(newest, &S, newest, &S, surface);  // it stands: deeper at the same angle
+    }
   }
 
   template <class T>
@@ -86,6 +117,13 @@ class RegenerativeCutting : public Formula<2> {
     const T faces = s < 0.0 ? T(1.0 + s) : T(1.0);
     f[0] = -(faces * cutting_ * p_.inclination * chip + wear_ * g);
     f[1] = -0.5 * p_.radius * (forward * cutting_ * chip + s * p_.friction * wear_ * g);
+  }
+
+  /// The bit cuts what it left a pitch ago: 1 - e^{-i omega tau}, tau = (2 pi/n) / w.
+  std::optional<std::complex<double>> heldFactor(double omega, const double*,
+                                                 const double* v) const {
+    if (v[1] <= p_.angularVelocity) return 1.0;
+    return 1.0 - std::polar(1.0, -omega * pitch_ / v[1]);
   }
 
   /// Everything the rock takes is lost in cutting and friction.
@@ -105,15 +143,31 @@ class RegenerativeCutting : public Formula<2> {
   double pitch() const { return pitch_; }  ///< angle between blades [rad]
 
  private:
-  /// S and dS/dphi at phi - 2 pi/n.
+  /// Held states before the surface: U and phi of the last step, and, of a bit that has turned
+  /// back, whether it is behind its foremost angle, whether it goes forward there, and from where.
+  struct Track {
+    enum { U, phi, again, onTheWay, fromU, fromPhi, size };
+  };
+
+  /// S' and its slope.
   void behind(double phi, const double* held, double& S, double& slope) const {
-    const double angle = phi - pitch_, newest = surface_.newest(held);
+    const double* surface = held + Track::size;
+    const double angle = phi - pitch_, newest = surface_.newest(surface);
     if (angle > newest)
       throw ConvergenceError(
           "A bit of " + std::to_string(p_.blades) + " blades turns by " +
           formatNumber(std::round(100 * (phi - newest)) / 100) +
           " rad in a step, more than the angle between its blades. Reduce Transient/Step.");
-    surface_.at(std::max(angle, surface_.oldest(held)), held, &S, &slope);
+    surface_.at(std::max(angle, surface_.oldest(surface)), surface, &S, &slope);
+    // The rock in front of a blade on its way again begins a sample ahead of it.
+    const double ahead = phi + surface_.spacing();
+    if (held[Track::again] == 0.0 || ahead >= newest) return;
+    double own = 0, ownSlope = 0;
+    surface_.at(std::max(ahead, surface_.oldest(surface)), surface, &own, &ownSlope);
+    if (own <= S) return;
+    const double away = (newest - ahead) / surface_.spacing(), share = std::min(away, 1.0);
+    slope += share * (ownSlope - slope) - (away < 1.0 ? (own - S) / surface_.spacing() : 0.0);
+    S += share * (own - S);
   }
 
   template <class T>

@@ -105,6 +105,38 @@ TEST(RegenerativeCutting, CutsNothingOffBottomOrBackward) {
   EXPECT_NEAR(forces(law, 0, d, {0.0, 0.0}, x)[0], -stiffness * 1e-3, 1e-9 * stiffness);
 }
 
+/// A bit that advances steadily while its rotary speed swings to both signs removes the rock above
+/// its path once: depth over angle, summed forward, is what a grid over the angle loses in the same
+/// path.
+TEST(RegenerativeCutting, CutsNoRockTwiceOnItsWayForwardAgain) {
+  auto p = bit();
+  p.wearFlat = 0;
+  p.samples = 1024;
+  const RegenerativeCutting cutting(p);
+  const FormulaLaw<RegenerativeCutting> law(cutting, 1);
+  const double mean = 3, swing = 6, omega = 2 * constants::twoPi, V = 3e-3, h = 1e-4;
+  const int cells = 8192;
+  std::vector<double> bottom(cells, 0.0);
+  const double cell = cutting.pitch() / cells;
+  std::vector<double> d{0.0, 0.0}, x(static_cast<std::size_t>(law.states()));
+  law.initialState(0, d.data(), std::vector<double>{0.0, 0.0}.data(), x.data());
+  double cut = 0, lost = 0;
+  for (int i = 1; i <= 60000; ++i) {
+    const double t = i * h, before = d[1];
+    const std::vector<double> v{V, mean + swing * std::sin(omega * t)};
+    d = {V * t, mean * t + swing / omega * (1 - std::cos(omega * t))};
+    const double depth = -forces(law, t, d, v, x)[0] / (3 * 0.1 * 0.6 * 50e6);
+    law.accept(t, d.data(), v.data(), x.data());
+    if (d[1] <= before) continue;
+    cut += depth * (d[1] - before);
+    for (auto k = std::lround(std::floor(before / cell)) + 1; k * cell <= d[1]; ++k) {
+      double& b = bottom[static_cast<std::size_t>(k % cells)];
+      if (d[0] > b) lost += (d[0] - b) * cell, b = d[0];
+    }
+  }
+  EXPECT_NEAR(cut, lost, 0.01 * lost);
+}
+
 TEST(RegenerativeCutting, RefusesStepsLongerThanAPitch) {
   const FormulaLaw<RegenerativeCutting> law(RegenerativeCutting(bit()), 1);
   const std::vector<double> v{0.0, 10.0};
