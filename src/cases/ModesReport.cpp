@@ -24,6 +24,7 @@
 #include "io/Csv.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "model/DofNames.hpp"
+#include "model/laws/HarmonicTangent.hpp"
 #include "reduction/part/Partition.hpp"
 #include "stability/StateStability.hpp"
 
@@ -144,7 +145,8 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
     dampedTable.row(
         {static_cast<double>(i + 1), size / constants::twoPi, ratio, s.imag() / constants::twoPi});
   }
-  log::info(verdict({damped.values.begin(), damped.values.end()}, stability::setsWithStates(full)));
+  log::info(
+      verdict({damped.values.begin(), damped.values.end()}, model::setsWithMovingStates(full, t)));
   reportTimes();
   if (!options.output.empty()) dampedTable.writeInto(options.output, "damped_modes.csv");
 }
@@ -173,7 +175,7 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   log::info(estimate::comparisonTable(damped, true));
   std::vector<std::complex<double>> values;
   for (const auto& mode : damped) values.push_back(mode.full);
-  log::info(verdict(values, stability::setsWithStates(full)));
+  log::info(verdict(values, model::setsWithMovingStates(full, t)));
   reportTimes();
   if (!options.output.empty()) writeTable(damped, options.output, "damped_modes.csv");
 }

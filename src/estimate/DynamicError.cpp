@@ -86,6 +86,13 @@ std::vector<Linearised> linearise(const std::vector<model::Substructure>& parts,
   return matrices;
 }
 
+std::vector<Linearised> linearise(const std::vector<model::Substructure>& parts, double t,
+                                  double omega) {
+  std::vector<Linearised> matrices;
+  for (const auto& part : parts) matrices.push_back(linearise(part.model, t, omega));
+  return matrices;
+}
+
 linalg::EnergyRounding roundingOfParts(const std::vector<model::Substructure>& parts,
                                        const coupling::Synthesis& synthesis) {
   std::vector<Sparse> absolute, shapes;

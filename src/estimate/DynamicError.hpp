@@ -17,6 +17,9 @@ namespace tooljoint::estimate {
 
 /// Every part about its initial state with the laws and point laws of time t.
 std::vector<Linearised> linearise(const std::vector<model::Substructure>& parts, double t);
+/// The same in motions e^{i omega t}, which the states of point laws follow.
+std::vector<Linearised> linearise(const std::vector<model::Substructure>& parts, double t,
+                                  double omega);
 
 /// What rounding leaves of the energy of a coupled shape: that of the parts it was projected from.
 linalg::EnergyRounding roundingOfParts(const std::vector<model::Substructure>& parts,

@@ -17,6 +17,7 @@
 #include "estimate/PartResidual.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "model/DofNames.hpp"
+#include "model/laws/HarmonicTangent.hpp"
 
 namespace tooljoint::estimate {
 
@@ -27,6 +28,19 @@ using constants::twoPi;
 /// modes beyond the full ones, among which a shape is looked for: the rigid-body motions of one
 /// body.
 constexpr int moreModes = 6;
+
+/// R' J R for tangents J of all points of a set, width x width each, row-major.
+Sparse onDofs(const model::PointSet& set, const Vector& tangents) {
+  const auto rows = static_cast<int>(set.rows.rows()), width = set.law->width();
+  Triplets entries;
+  for (int row = 0; row < rows; ++row)
+    for (int c = 0; c < width; ++c)
+      if (const double value = tangents[row * width + c]; value != 0)
+        entries.emplace_back(row, row / width * width + c, value);
+  Sparse tangent(rows, rows);
+  tangent.setFromTriplets(entries.begin(), entries.end());
+  return Sparse(set.rows.transpose()) * Sparse(tangent * set.rows);
+}
 
 /// -sum R' (df/dv) R of the point laws about the initial state.
 Sparse pointDamping(const model::SecondOrderModel& model, double t) {
@@ -40,14 +54,7 @@ Sparse pointDamping(const model::SecondOrderModel& model, double t) {
     Vector f = Vector::Zero(d.size()), dfdd = Vector::Zero(d.size() * width),
            dfdv = Vector::Zero(d.size() * width);
     set.law->evaluateWithTangent(t, active, d.data(), v.data(), f.data(), dfdd.data(), dfdv.data());
-    Triplets entries;
-    for (int row = 0; row < d.size(); ++row)
-      for (int c = 0; c < width; ++c)
-        if (dfdv[row * width + c] != 0)
-          entries.emplace_back(row, row / width * width + c, dfdv[row * width + c]);
-    Sparse tangent(d.size(), d.size());
-    tangent.setFromTriplets(entries.begin(), entries.end());
-    sum -= Sparse(Sparse(set.rows.transpose()) * Sparse(tangent * set.rows));
+    sum -= onDofs(set, dfdv);
   }
   return sum;
 }
@@ -73,6 +80,21 @@ Linearised linearise(const model::SecondOrderModel& model, double t) {
   return {reduction::symmetricPart(model.mass), model.dampingAt(t) + pointDamping(model, t),
           model.stiffnessAt(t) +
               model.pointStiffness(t, model.initialDisplacement, model.initialVelocity)};
+}
+
+Linearised linearise(const model::SecondOrderModel& model, double t, double omega) {
+  auto matrices = linearise(model, t);
+  for (const auto& set : model.points) {
+    const auto* law = model::stateful(*set.law);
+    if (law == nullptr || law->states() == 0) continue;
+    const auto change =
+        model::tangentByStates(*law, t, Vector(set.offset + set.rows * model.initialDisplacement),
+                               Vector(set.rows * model.initialVelocity), omega);
+    const Eigen::Map<const ComplexVector> entries(change.data(), sizeOf(change));
+    matrices.stiffness -= onDofs(set, entries.real());
+    matrices.damping -= onDofs(set, entries.imag() / std::max(omega, model::slowestOmega));
+  }
+  return matrices;
 }
 
 namespace {

@@ -44,7 +44,11 @@ struct ModeComparison {
 struct Linearised {
   Sparse mass, damping, stiffness;  ///< damping and stiffness unsymmetric
 };
+/// States of point laws stay as they are.
 Linearised linearise(const model::SecondOrderModel& model, double t);
+/// Motions e^{i omega t}, omega >= 0 [rad/s], which the states follow (model::tangentByStates):
+/// what they add to K + i omega C is real in K and imaginary in i omega C.
+Linearised linearise(const model::SecondOrderModel& model, double t, double omega);
 
 /// Motions of the coupled model in the dofs of the full one: column by column, dofs matched by
 /// their labels, or, where the full model was itself coupled from unreduced parts, D_p = maps[p] z,

@@ -28,7 +28,7 @@ constexpr Complex imaginary{0.0, 1.0};
 /// known to 1e-4 of their distance.
 constexpr int goldenSteps = 20;
 
-constexpr int storeFormat = 1;  ///< raised when the meaning of a kept point changes
+constexpr int storeFormat = 2;  ///< raised when the meaning of a kept point changes
 
 /// Rows of the recovery that the deck names.
 struct Rows {
@@ -191,7 +191,7 @@ class Sweep {
     const double omega = settings_.bySpeed() ? settings_.order * where : constants::twoPi * where;
     point.frequency = omega / constants::twoPi;
     const Complex s = imaginary * omega;
-    const auto m = rotating_.at(point.speed);
+    const auto m = rotating_.at(point.speed, omega);
     linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness, s);
     requireInverse(Q, point);
     const ComplexMatrix y = Q.solve(loads_.on(rotating_.model(), point.speed));
@@ -232,7 +232,7 @@ class Sweep {
     const ComplexMatrix z = Q.solveTransposed(outputs(rotating_.model(), point));
     const Matrix errors =
         rotating_.error()
-            .ofResponses(rotating_.partsAt(point.speed), s, y, loads, z, outputsOfParts)
+            .ofResponses(rotating_.partsAt(point.speed, s.imag()), s, y, loads, z, outputsOfParts)
             .cwiseAbs();
     const auto given = static_cast<Eigen::Index>(settings_.outputs.size());
     point.estimate = errors.topRows(given);
@@ -243,9 +243,9 @@ class Sweep {
     ResponsePoint point;
     point.speed = reduced.speed;
     point.frequency = reduced.frequency;
-    const auto m = rotating_.fullAt(point.speed);
-    const linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness,
-                                     imaginary * constants::twoPi * point.frequency);
+    const double omega = constants::twoPi * point.frequency;
+    const auto m = rotating_.fullAt(point.speed, omega);
+    const linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness, imaginary * omega);
     requireInverse(Q, point);
     const ComplexMatrix y = Q.solve(loads_.on(rotating_.full(), point.speed));
     point.x = loads_.outputs(rotating_.full()).transpose() * y;

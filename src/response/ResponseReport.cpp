@@ -249,6 +249,7 @@ void runResponse(const cases::Case& one, const std::string& folder, bool fresh) 
         cases::announce(one);
         rotating = std::make_unique<RotatingCase>(one, settings.friction);
         if (settings.bySpeed()) rotating->announceLaws();
+        rotating->announceUnknownStates();
         try {
           response = respond(*rotating, settings, {one, files.folder().folder(), fresh});
         } catch (const DeckError& fault) {

@@ -10,6 +10,8 @@
 #include "estimate/PartResidual.hpp"
 #include "model/DofNames.hpp"
 #include "model/SteadyRotation.hpp"
+#include "model/laws/HarmonicTangent.hpp"
+#include "stability/StateStability.hpp"
 
 namespace tooljoint::response {
 
@@ -58,16 +60,22 @@ std::vector<model::Substructure> RotatingCase::turningParts(double speed) const 
   return turned;
 }
 
-estimate::Linearised RotatingCase::at(double speed) const {
-  return estimate::linearise(turning(model(), speed), time_);
+template <class Models>
+auto RotatingCase::linearised(const Models& models, std::optional<double> omega) const {
+  return omega ? estimate::linearise(models, time_, *omega) : estimate::linearise(models, time_);
 }
 
-estimate::Linearised RotatingCase::fullAt(double speed) const {
-  return estimate::linearise(turning(full(), speed), time_);
+estimate::Linearised RotatingCase::at(double speed, std::optional<double> omega) const {
+  return linearised(turning(model(), speed), omega);
 }
 
-std::vector<estimate::Linearised> RotatingCase::partsAt(double speed) const {
-  return estimate::linearise(turningParts(speed), time_);
+estimate::Linearised RotatingCase::fullAt(double speed, std::optional<double> omega) const {
+  return linearised(turning(full(), speed), omega);
+}
+
+std::vector<estimate::Linearised> RotatingCase::partsAt(double speed,
+                                                        std::optional<double> omega) const {
+  return linearised(turningParts(speed), omega);
 }
 
 linalg::QuadraticModes RotatingCase::modes(const estimate::Linearised& m, int count) const {
@@ -100,6 +108,19 @@ std::vector<estimate::ModeComparison> RotatingCase::compare(double speed, int co
 std::vector<estimate::ModeComparison> RotatingCase::compare(
     double speed, const linalg::DampedTarget& target) const {
   return compareAt(speed, target);
+}
+
+void RotatingCase::announceHeldStates() const {
+  const auto held = stability::withoutStates(model::setsWithMovingStates(model(), time_));
+  if (!held.empty()) log::info("states     " + held);
+}
+
+void RotatingCase::announceUnknownStates() const {
+  const auto unknown = model::setsWithUnknownStates(model(), time_);
+  if (!unknown.empty())
+    log::warn("The laws of " + quotedList(unknown) +
+              " do not say how their states follow a harmonic motion. These states stay as they "
+              "are at rest in the responses.");
 }
 
 void RotatingCase::announceLaws() const {

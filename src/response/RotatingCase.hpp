@@ -38,10 +38,12 @@ class RotatingCase {
   /// The full model, made when first asked for. Collective.
   const model::SecondOrderModel& full() const;
 
-  /// Matrices of the model that is solved, of the full model and of the parts.
-  estimate::Linearised at(double speed) const;
-  estimate::Linearised fullAt(double speed) const;
-  std::vector<estimate::Linearised> partsAt(double speed) const;
+  /// Matrices of the model that is solved, of the full model and of the parts, at a rotary speed
+  /// [rad/s]. With `omega`, in motions e^{i omega t} that the states of point laws follow; else
+  /// these stay as they are.
+  estimate::Linearised at(double speed, std::optional<double> omega = {}) const;
+  estimate::Linearised fullAt(double speed, std::optional<double> omega = {}) const;
+  std::vector<estimate::Linearised> partsAt(double speed, std::optional<double> omega = {}) const;
 
   /// The `count` damped modes of smallest |s| of the model that is solved, fewer where there are
   /// fewer.
@@ -59,11 +61,17 @@ class RotatingCase {
 
   /// Logs which laws follow the speed, and warns where no matrix does.
   void announceLaws() const;
+  /// Says which point laws have states that modes leave as they are.
+  void announceHeldStates() const;
+  /// Warns of the point laws whose states do not follow a harmonic motion.
+  void announceUnknownStates() const;
 
  private:
   /// compareDampedModes at a speed of `which`: a count or a target.
   template <class Which>
   std::vector<estimate::ModeComparison> compareAt(double speed, const Which& which) const;
+  template <class Models>
+  auto linearised(const Models& models, std::optional<double> omega) const;
   model::SecondOrderModel turning(const model::SecondOrderModel& model, double speed) const;
   std::vector<model::Substructure> turningParts(double speed) const;
 

@@ -24,8 +24,9 @@
 #include "linalg/trilinos/DividedModes.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
-#include "model/laws/StatefulPointLaw.hpp"
+#include "model/laws/HarmonicTangent.hpp"
 #include "reduction/part/Partition.hpp"
+#include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::stability {
 
@@ -34,6 +35,14 @@ namespace {
 /// Modes of the symmetric tangent that the damped equations are projected on: so many beyond those
 /// of negative pivots, and at most.
 constexpr int modesBeyond = 12, mostModes = 60;
+/// A model of so few dofs is not projected on fewer modes than it has.
+constexpr int fewDofs = 60;
+/// Growing modes of the projection that are looked at in the whole equations.
+constexpr std::size_t mostRefined = 4;
+/// Part of the fastest growth that counts as fast.
+constexpr double nearly = 0.8;
+/// Share of a vector's size that is new beside those before it.
+constexpr double independent = 1e-6;
 /// Accuracy of these modes: they span a basis, and what grows in it is refined.
 constexpr double basisAccuracy = 1e-4;
 /// Shift of the modes of a state that some motion leaves without any force [1/s2]: with one as
@@ -61,6 +70,49 @@ bool canFlutter(const model::SecondOrderModel& model, const estimate::Linearised
     for (Sparse::InnerIterator it(skew, i); it; ++it)
       if (std::abs(it.value()) > skewRounding * std::sqrt(rows[i] * rows[it.col()])) return true;
   return false;
+}
+
+/// The lowest modes of each component alone (all other dofs held) on which a point law pushes the
+/// way it moves: rows of C = -df/dv with a negative diagonal. Among the lowest modes of a long
+/// string, which bend it, the torsional ones that a bit law or falling friction drives are far
+/// away.
+std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model,
+                                            const Sparse& symmetric, const Sparse& mass,
+                                            const Sparse& pointDamping) {
+  std::map<int, std::vector<int>> components;
+  std::map<int, bool> driven;
+  for (int i = 0; i < model.size(); ++i) {
+    const auto& dof = model.dofs[at(i)];
+    if (dof.kind != model::DofLabel::Kind::Physical) continue;
+    components[dof.component].push_back(i);
+    if (pointDamping.coeff(i, i) < 0.0) driven[dof.component] = true;
+  }
+  std::vector<Matrix> all;
+  for (const auto& [component, dofs] : components) {
+    if (!driven[component]) continue;
+    linalg::EigenOptions options;
+    options.tolerance = basisAccuracy;
+    options.shift = floatingShift;
+    const auto modes = linalg::lowestFiniteModes(reduction::block(symmetric, dofs, dofs),
+                                                 reduction::block(mass, dofs, dofs),
+                                                 std::min(sizeOf(dofs), modesBeyond), options);
+    Matrix shapes = Matrix::Zero(model.size(), modes.count());
+    shapes(dofs, Eigen::all) = modes.vectors;
+    all.push_back(std::move(shapes));
+  }
+  return all;
+}
+
+/// These columns and what is new in further ones, orthonormal in M.
+Matrix joined(const Sparse& mass, const Matrix& first, const std::vector<Matrix>& more) {
+  if (more.empty()) return first;
+  reduction::OrthonormalSet set(mass, independent, "The modes of the static state");
+  const auto add = [&](const Matrix& columns) {
+    for (Eigen::Index j = 0; j < columns.cols(); ++j) set.add(columns.col(j));
+  };
+  add(first);
+  for (const auto& columns : more) add(columns);
+  return set.basis();
 }
 
 /// Growing modes of the equations projected on the columns of `basis`, the fastest first.
@@ -100,6 +152,40 @@ std::optional<linalg::DampedMode> ofWholeEquations(const estimate::Linearised& t
   } catch (const ConvergenceError&) {
     return std::nullopt;
   }
+}
+
+struct GrowingMode {
+  linalg::DampedMode mode;
+  bool refined;  ///< with the whole equations
+};
+
+/// Of the modes that grow nearly as fast as the fastest one, that of lowest frequency: the
+/// overtones of a string that friction drives grow as fast as its fundamental. Nothing where the
+/// whole equations have none.
+std::optional<GrowingMode> mostTelling(const estimate::Linearised& tangent,
+                                       std::vector<linalg::DampedMode> ritz) {
+  if (ritz.empty()) return std::nullopt;
+  const double fastest = ritz.front().s.real();
+  std::sort(ritz.begin() + 1, ritz.end(), [&](const auto& a, const auto& b) {
+    const bool x = a.s.real() >= nearly * fastest, y = b.s.real() >= nearly * fastest;
+    if (x != y) return x;
+    return x ? std::abs(a.s.imag()) < std::abs(b.s.imag()) : a.s.real() > b.s.real();
+  });
+  std::vector<GrowingMode> found;
+  for (std::size_t i = 0; i < ritz.size() && (i < mostRefined || found.empty()); ++i) {
+    const auto exact = ofWholeEquations(tangent, ritz[i]);
+    const GrowingMode one{exact ? *exact : ritz[i], exact.has_value()};
+    if (isGrowth(one.mode.s)) found.push_back(one);
+  }
+  if (found.empty()) return std::nullopt;
+  double rate = 0;
+  for (const auto& one : found) rate = std::max(rate, one.mode.s.real());
+  const GrowingMode* best = nullptr;
+  for (const auto& one : found)
+    if (one.mode.s.real() >= nearly * rate &&
+        (best == nullptr || std::abs(one.mode.s.imag()) < std::abs(best->mode.s.imag())))
+      best = &one;
+  return *best;
 }
 
 /// A chain of which a rank would have fewer dofs than this is left to all ranks alike.
@@ -166,13 +252,6 @@ ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape
 
 }  // namespace
 
-std::vector<std::string> setsWithStates(const model::SecondOrderModel& model) {
-  std::vector<std::string> names;
-  for (const auto& set : model.points)
-    if (model::stateSize(*set.law) > 0) names.push_back(set.name);
-  return names;
-}
-
 std::string withoutStates(const std::vector<std::string>& held) {
   if (held.empty()) return "";
   return " The states of " + quotedList(held) +
@@ -183,7 +262,7 @@ std::string withoutStates(const std::vector<std::string>& held) {
 StateStability assess(const model::SecondOrderModel& model, double t) {
   const Stage stage("stability of the static state");
   StateStability found;
-  found.held = setsWithStates(model);
+  found.held = model::setsWithMovingStates(model, t);
   const auto tangent = estimate::linearise(model, t);
   const Sparse symmetric =
       reduction::symmetricPart(model.stiffnessAt(t)) + coupling::normalStiffness(model);
@@ -197,29 +276,33 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
     const bool floats = linalg::eigenvaluesBelow(symmetric, tangent.mass, slowest) > 0;
     options.shift = floats ? floatingShift : -4 * slowest;  // below all
   }
-  const int wanted = std::min({model.size(), mostModes, found.negativePivots + modesBeyond});
+  const int wanted = model.size() <= fewDofs
+                         ? model.size()
+                         : std::min(mostModes, found.negativePivots + modesBeyond);
   const auto share = parallel::size() > 1 && !linalg::hasMasslessDofs(tangent.mass)
                          ? shareOf(model, symmetric, tangent.mass)
                          : nullptr;
   const auto modes =
       share ? linalg::lowestModesOfChain(symmetric, tangent.mass, wanted, options, share)
             : linalg::lowestFiniteModes(symmetric, tangent.mass, wanted, options);
-  found.examined = modes.count();
-  count("modes of the static state", modes.count());
+  const Matrix basis = wanted == model.size()
+                           ? modes.vectors
+                           : joined(tangent.mass, modes.vectors,
+                                    modesOfDrivenComponents(model, symmetric, tangent.mass,
+                                                            tangent.damping - model.dampingAt(t)));
+  found.examined = static_cast<int>(basis.cols());
+  count("modes of the static state", found.examined);
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
-  for (const auto& ritz : growingModes(tangent, modes.vectors)) {
-    const auto exact = ofWholeEquations(tangent, ritz);
-    const auto& mode = exact ? *exact : ritz;
-    if (!isGrowth(mode.s)) continue;
-    found.refined = exact.has_value();
-    found.growthRate = mode.s.real();
-    if (std::abs(mode.s.imag()) > noGrowth * std::abs(mode.s))
-      found.frequency = std::abs(mode.s.imag()) / constants::twoPi;
-    found.shape = mode.shape.real();
-    found.shape /= found.shape.cwiseAbs().maxCoeff();
-    found.outline = outlineOf(model, found.shape);
-    break;
-  }
+  const auto growing = growingModes(tangent, basis);
+  const auto worst = mostTelling(tangent, growing);
+  if (!worst) return found;
+  found.refined = worst->refined;
+  found.growthRate = worst->mode.s.real();
+  if (std::abs(worst->mode.s.imag()) > noGrowth * std::abs(worst->mode.s))
+    found.frequency = std::abs(worst->mode.s.imag()) / constants::twoPi;
+  found.shape = worst->mode.shape.real();
+  found.shape /= found.shape.cwiseAbs().maxCoeff();
+  found.outline = outlineOf(model, found.shape);
   return found;
 }
 

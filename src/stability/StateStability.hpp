@@ -28,8 +28,9 @@ struct StateStability {
   int negativePivots = 0;
   double staticGrowthRate = 0.0;  ///< sqrt(-lambda_min) of the symmetric tangent [1/s]; 0 without
                                   ///< negative pivots
-  /// Real part of the rightmost damped eigenvalue found [1/s]; 0 where none was needed: without
-  /// negative pivots only friction and skew stiffness can make a motion grow.
+  /// Of the damped modes found that grow nearly as fast as the fastest one, the real part of that
+  /// of lowest frequency [1/s]; 0 where none was needed: without negative pivots only friction and
+  /// skew stiffness can make a motion grow.
   double growthRate = 0.0;
   double frequency = 0.0;  ///< its imaginary part, Hz; 0 for a state that is left without vibration
   bool refined = true;  ///< false: s is a Ritz value of the projection, which the whole equations
@@ -37,17 +38,14 @@ struct StateStability {
   int examined = 0;     ///< modes the damped equations were projected on; 0 where none was needed
   Vector shape;  ///< of the growing mode, dofs of the model, largest entry 1; empty when stable
   ShapeOutline outline;  ///< of that
-  /// Point sets whose laws have states (a delay line, the integral of a controller), which the
-  /// assessment leaves as they are at rest: what grows by them is not seen.
+  /// Point sets whose laws have states that follow a motion (a delay line, the integral of a
+  /// controller), which the assessment leaves as they are at rest: what grows by them is not seen.
   std::vector<std::string> held;
 
   bool stable() const { return shape.size() == 0; }
   /// The state is left without vibration: another state of rest exists.
   bool diverges() const { return !stable() && frequency == 0.0; }
 };
-
-/// Names of the point sets whose laws have states.
-std::vector<std::string> setsWithStates(const model::SecondOrderModel& model);
 
 /// What a verdict on these modes leaves out, as a sentence after a blank; empty without such sets.
 std::string withoutStates(const std::vector<std::string>& held);
@@ -59,7 +57,8 @@ constexpr double slowestGrowth = 1e-3;
 /// Assesses q(0) with the matrices, laws and point laws of time t. The negative pivots are counted
 /// by Sylvester's law of inertia. Where there are some, or where friction or skew stiffness can
 /// make a motion grow without them, the damped equations are projected on the lowest modes of the
-/// symmetric tangent, and a growing mode found there is refined with the whole equations; where the
+/// symmetric tangent and on those of the components that point laws drive (friction that falls with
+/// the speed), and a growing mode found there is refined with the whole equations; where the
 /// refinement does not converge, those of their modes that are nearest decide, and where they are
 /// not found, the projected mode is kept (`refined` false). Growth that needs
 /// motions beyond these modes, or the states of point laws, is not seen (`tooljoint modes` lists

@@ -98,6 +98,13 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
     }
   }
 
+  std::optional<std::complex<double>> heldFactor(double t, double omega, int point, const double* d,
+                                                 const double* v) const override {
+    if (with_ == nullptr) return 1.0;
+    place(t, all_, d, v);
+    return with_->heldFactor(t, omega, point, y_.data(), yDot_.data());
+  }
+
   int reach() const override { return 3; }
   void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override {
     for (int p : points) y_[at(n_ * p)] = separation(p, d);

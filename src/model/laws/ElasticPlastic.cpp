@@ -2,6 +2,8 @@
 // A spring that yields: dry friction with elastic sticking (Prandtl element, Jenkin element).
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <optional>
 
 #include "model/laws/PointLawRegistry.hpp"
 
@@ -25,6 +27,10 @@ struct ElasticPlastic : Formula<1, 0, 1> {
   }
   void accept(double, const double* d, const double*, double* p) const {
     p[0] = std::clamp(p[0], d[0] - F / k, d[0] + F / k);
+  }
+  /// A small motion does not yield.
+  std::optional<std::complex<double>> heldFactor(double, const double*, const double*) const {
+    return 1.0;
   }
   Power power(const PointAt<double>& at, const double* xDot) const {
     Power power;

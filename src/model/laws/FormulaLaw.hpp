@@ -13,7 +13,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <complex>
 #include <memory>
+#include <optional>
 #include <unsupported/Eigen/AutoDiff>
 #include <utility>
 #include <vector>
@@ -45,6 +47,11 @@ struct Formula {
   }
   /// Held states at the end of a step, from those of its start.
   void accept(double /*t*/, const double* /*d*/, const double* /*v*/, double* /*held*/) const {}
+  /// StatefulPointLaw::heldFactor() of a formula with held states.
+  std::optional<std::complex<double>> heldFactor(double /*omega*/, const double* /*d*/,
+                                                 const double* /*v*/) const {
+    return std::nullopt;
+  }
   /// Force that is recorded.
   Channel channel() const { return {"force", "N", "Force along the first coordinate"}; }
 };
@@ -94,6 +101,12 @@ class FormulaLaw final : public StatefulPointLaw {
 
   void accept(double t, const double* d, const double* v, double* x) const override {
     for (int p = 0; p < points_; ++p) law_.accept(t, d + p * W, v + p * W, x + p * states() + R);
+  }
+
+  std::optional<std::complex<double>> heldFactor(double /*t*/, double omega, int p, const double* d,
+                                                 const double* v) const override {
+    if (law_.held() == 0) return 1.0;
+    return law_.heldFactor(omega, d + p * W, v + p * W);
   }
 
   Power powers(double t, const std::vector<int>& points, const double* d, const double* v,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A motor with a speed controller: top drives, rotary tables, spindles.
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <optional>
 
 #include "common/Error.hpp"
 #include "model/laws/PointLawRegistry.hpp"
@@ -46,6 +48,10 @@ struct SpeedControl : Formula<1, 1, 2> {
     const T wanted = demand(at);
     f[0] = wanted > Fmax ? T(Fmax) : wanted < -Fmax ? T(-Fmax) : wanted;
     g[0] = ki > 0.0 && kp > 0.0 ? T((f[0] - wanted) / kp) : T(0.0);
+  }
+  /// They are numbers of the start.
+  std::optional<std::complex<double>> heldFactor(double, const double*, const double*) const {
+    return 1.0;
   }
   Power power(const PointAt<double>& at, const double*) const {
     double f = 0.0, g = 0.0;

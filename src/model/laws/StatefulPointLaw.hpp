@@ -8,6 +8,8 @@
 /// values, and a checkpoint holds them. A law is a constant function of them.
 #pragma once
 
+#include <complex>
+#include <optional>
 #include <vector>
 
 #include "model/laws/PointLaw.hpp"
@@ -50,6 +52,16 @@ class StatefulPointLaw : public PointLaw {
   /// The end (t, d, v) of a step of the motion: held states of all points become those of this
   /// time. Called for steps that may still be rejected, with a copy of the states.
   virtual void accept(double /*t*/, const double* /*d*/, const double* /*v*/, double* /*x*/) const {
+  }
+
+  /// What held states do in a small motion e^{i omega t} of a point about (d, v), as a factor of
+  /// df/dd: 1 where they stay as they are, 1 - e^{-i omega tau} where forces are of y(t) - y(t -
+  /// tau). Nothing where that is not known, as it is by default of a law with held states.
+  virtual std::optional<std::complex<double>> heldFactor(double /*t*/, double /*omega*/,
+                                                         int /*point*/, const double* /*d*/,
+                                                         const double* /*v*/) const {
+    if (states() > rated()) return std::nullopt;
+    return 1.0;
   }
 
   /// As PointLaw::power() in the middle of a chord of the motion, where the rated states are x and

@@ -271,6 +271,7 @@ void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) 
         states = std::make_unique<RotatingStates>(one, settings.friction, settings.stateOfEachSpeed,
                                                   settings.speeds.front());
         states->first().announceLaws();
+        states->first().announceHeldStates();
         requireDofs(one, settings, states->first().model().size());
         diagram = campbell(*states, settings, {one, files.folder().folder(), fresh});
         print(diagram, settings, states->first().estimated());

@@ -9,6 +9,7 @@
 #include "Reduced.hpp"
 #include "common/Error.hpp"
 #include "model/laws/Connectors.hpp"
+#include "model/laws/PointLawRegistry.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace ModeComparisonTest {
@@ -32,6 +33,33 @@ TEST(ModeComparison, WithAllModesShapesAreTheSame) {
                 1e-6);  // QR of the linearised problem: rounding of (omega_max / omega)^2
       EXPECT_LT(mode.estimate, 1e-6);
     }
+  }
+}
+
+/// A mass on a spring and a dashpot in series: x = F / (k i omega T/(1 + i omega T) - omega^2 m).
+TEST(Linearise, FollowsTheStatesOfPointLawsInHarmonicMotions) {
+  const double m = 2, k = 300, c = 20;
+  model::SecondOrderModel mass;
+  mass.componentNames = {"u"};
+  mass.dofs = {model::DofLabel::physical(1, 0)};
+  mass.mass = Sparse((m * Matrix::Identity(1, 1)).sparseView());
+  mass.stiffness.push_back({"none", Sparse(1, 1), 0});
+  mass.initialDisplacement = mass.initialVelocity = Vector::Zero(1);
+  Teuchos::ParameterList own("Maxwell");
+  own.set("Stiffness", k).set("Damping", c);
+  const Sparse row = Sparse(Matrix::Identity(1, 1).sparseView());
+  mass.points.push_back({"link",
+                         model::PointLawRegistry::instance().make("Maxwell", own, {1, 1}),
+                         {1},
+                         row,
+                         Vector::Zero(1)});
+  const auto held = estimate::linearise(mass, 0.0);
+  EXPECT_NEAR(held.stiffness.coeff(0, 0), k, 1e-12 * k);
+  for (const double omega : {0.5, 12.0, 400.0}) {
+    const auto moved = estimate::linearise(mass, 0.0, omega);
+    const Complex lag(0, omega * c / k), i(0, 1);
+    const Complex found = moved.stiffness.coeff(0, 0) + i * omega * moved.damping.coeff(0, 0);
+    EXPECT_LT(std::abs(found - k * lag / (1.0 + lag)), 1e-12 * k) << omega;
   }
 }
 
