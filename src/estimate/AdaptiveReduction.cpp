@@ -79,6 +79,7 @@ class Rounds {
         coupling_(coupling) {
     options_.modes.kind = reduction::ModeRule::Kind::PerPart;
     options_.modes.counts.assign(parts.size(), firstModes);
+    for (const auto& part : parts) interiors_.push_back(sizeOf(part.interior()));
   }
 
   Outcome run() {
@@ -102,13 +103,18 @@ class Rounds {
   /// More modes of this part can be asked for.
   bool canGrow(std::size_t p) const {
     const int count = options_.modes.counts[p];
-    return count != reduction::ModeRule::whole &&
-           count < outcome_.synthesis.parts[p].report.interior;
+    return count != reduction::ModeRule::whole && count < interiors_[p];
+  }
+
+  /// Modes of a part, or what it has in their place: interior dofs that are masters.
+  int modesOf(std::size_t p) const {
+    const auto& part = outcome_.synthesis.parts[p];
+    return part.modes + interiors_[p] - part.report.interior;
   }
 
   int modes() const {
     int sum = 0;
-    for (const auto& part : outcome_.synthesis.parts) sum += part.modes;
+    for (std::size_t p = 0; p < parts_.size(); ++p) sum += modesOf(p);
     return sum;
   }
 
@@ -163,13 +169,12 @@ class Rounds {
                                 round.motionError / std::max(rule_.motionTolerance, 1e-300));
     bool grown = false;
     for (std::size_t p = 0; p < parts_.size(); ++p) {
-      const auto& reduced = outcome_.synthesis.parts[p];
-      const int interior = reduced.report.interior;
-      if (!wanted[p] || reduced.modes >= interior) continue;
-      const int more = std::max(2, off > 100  ? 3 * reduced.modes
-                                   : off > 10 ? reduced.modes
-                                              : (reduced.modes + 1) / 2);
-      const int next = std::min(interior, reduced.modes + more);
+      const int present = modesOf(p);
+      if (!wanted[p] || present >= interiors_[p]) continue;
+      const int more = std::max(2, off > 100  ? 3 * present
+                                   : off > 10 ? present
+                                              : (present + 1) / 2);
+      const int next = std::min(interiors_[p], present + more);
       options_.modes.counts[p] =
           rule_.motionTolerance > 0 && dearerThanWhole(p, next) ? reduction::ModeRule::whole : next;
       grown = true;
@@ -179,9 +184,9 @@ class Rounds {
 
   /// A part with so many modes is integrated at a greater expense than the part itself.
   bool dearerThanWhole(std::size_t p, int count) const {
-    const auto& report = outcome_.synthesis.parts[p].report;
-    const double size = report.interface + report.retained + count;
-    return count >= nearlyAll * report.interior || size * size > tooFull * entries(parts_[p]);
+    const double size =
+        outcome_.synthesis.parts[p].report.interface + sizeOf(parts_[p].retained) + count;
+    return count >= nearlyAll * interiors_[p] || size * size > tooFull * entries(parts_[p]);
   }
 
   [[noreturn]] void refuse() const {
@@ -206,6 +211,7 @@ class Rounds {
   const EstimateOptions estimates_;
   const MotionProbe& probe_;
   const coupling::CouplingOptions& coupling_;
+  std::vector<int> interiors_;  ///< interior dofs of each part
   reduction::ReductionCache cache_;
   Outcome outcome_;
   double motion_ = 0;  ///< MotionEstimate::motion of the last model that went to the end with an

@@ -138,7 +138,10 @@ double assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vecto
   return full;
 }
 
-/// Counts of the full model at bounds between its estimated eigenvalues.
+/// Counts of the full model at bounds between its eigenvalues. With a Ritz basis the coupled
+/// eigenvalues are never below the full ones in their order. A bound that lies neither in nor
+/// between the estimate and the coupled value of a mode so has as many full eigenvalues below it as
+/// coupled ones, and more only where modes are missing.
 class ModeCounts {
  public:
   /// \param full estimated eigenvalues, one for each coupled mode
@@ -151,56 +154,73 @@ class ModeCounts {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return full_[a] < full_[b]; });
+    double below = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 1; i < order.size(); ++i) {
-      const double below = full_[order[i - 1]], above = full_[order[i]];
+      below = std::max({below, full_[order[i - 1]], estimates[order[i - 1]].eigenvalue});
+      const double above = full_[order[i]];
       const bool bothRigid = std::max(std::abs(below), std::abs(above)) <= smallest;
-      if (!bothRigid && above - below > closest * std::abs(above)) gaps_.push_back({below, above});
+      if (!bothRigid && above - below > closest * std::abs(above))
+        gaps_.push_back({below, above, std::abs(estimates[order[i]].error) > sure});
     }
     // Just below the last one.
     const auto& last = estimates[order.back()];
     const double above = full_[order.back()];
     const double margin = std::max(closest, std::abs(last.error)) * std::abs(above);
-    if (!gaps_.empty() && above - margin > gaps_.back().middle())
-      gaps_.push_back({std::max(gaps_.back().middle(), above - 2.0 * margin), above});
+    if (!gaps_.empty() && above - margin > gaps_.back().middle() && gaps_.back().above == above)
+      gaps_.push_back({std::max(gaps_.back().middle(), above - 2.0 * margin), above, true});
   }
 
-  /// The bound above which modes are missing, if there are any.
+  /// The bound above which modes are missing, if there are any. It has none missing itself;
+  /// -infinity where there is no such bound.
   std::optional<double> missingAbove() const {
-    if (gaps_.empty() || !missing(gaps_.size() - 1)) return {};
-    std::size_t good = 0, bad = gaps_.size();  // the first `good` gaps lack nothing
-    for (--bad; good < bad;) {
+    std::size_t bad = 0;
+    while (bad < gaps_.size() &&
+           !((gaps_[bad].doubtful || bad + 1 == gaps_.size()) && missing(gaps_[bad].middle())))
+      ++bad;
+    if (bad == gaps_.size()) return {};
+    std::size_t good = 0;  // the first `good` gaps lack nothing, as far as they are looked at
+    while (good < bad) {
       const std::size_t middle = (good + bad) / 2;
-      if (missing(middle))
+      if (missing(gaps_[middle].middle()))
         bad = middle;
       else
         good = middle + 1;
     }
-    return gaps_[bad].middle();
+    const double above = gaps_[bad].at(justAbove);
+    if (!missing(above)) return above;
+    return good > 0 ? gaps_[good - 1].middle() : -std::numeric_limits<double>::infinity();
   }
 
  private:
   /// Relative distance of eigenvalues that counts do not part.
   static constexpr double closest = 1e-4;
+  /// A full eigenvalue is beside a coupled one of a smaller estimated error. Where it is larger the
+  /// estimate may be that of another mode, and the full model is asked.
+  static constexpr double sure = 1e-3;
+  /// Part of a gap in which a bound is beside the mode below it.
+  static constexpr double justAbove = 0.02;
+  /// Relative distance of the second bound where the first has no count.
+  static constexpr double beside = 1e-7;
 
   struct Gap {
     double below, above;
+    bool doubtful;  ///< to be counted, whatever is found elsewhere
     double at(double share) const { return below + share * (above - below); }
     double middle() const { return at(0.5); }
   };
 
-  bool missing(std::size_t number) const {
-    const Gap& gap = gaps_[number];
+  bool missing(double bound) const {
     const auto expected =
-        std::count_if(full_.begin(), full_.end(), [&](double x) { return x < gap.middle(); });
-    return count(gap) > expected;
+        std::count_if(full_.begin(), full_.end(), [&](double x) { return x < bound; });
+    return count(bound) > expected;
   }
 
   /// A bound that is an eigenvalue of an interior has no count; one beside it has.
-  int count(const Gap& gap) const {
+  int count(double bound) const {
     try {
-      return coupling::fullEigenvaluesBelow(parts_, synthesis_, gap.middle());
+      return coupling::fullEigenvaluesBelow(parts_, synthesis_, bound);
     } catch (const ConvergenceError&) {
-      return coupling::fullEigenvaluesBelow(parts_, synthesis_, gap.at(0.55));
+      return coupling::fullEigenvaluesBelow(parts_, synthesis_, bound + beside * std::abs(bound));
     }
   }
 

@@ -71,6 +71,26 @@ TEST(FrequencyTolerance, GivesAllFrequenciesThatAreAskedFor) {
   EXPECT_EQ(static_cast<int>(all.frequencies.size()), full.size());
 }
 
+/// Masters are to Guyan reduction what modes are to others.
+TEST(FrequencyTolerance, TakesMoreMastersOfGuyanReduction) {
+  std::vector<model::Substructure> parts{samples::bar("left", 1, 30, 100.0, 1.0, {1}),
+                                         samples::bar("right", 31, 25, 90.0, 1.0, {56})};
+  for (auto& part : parts) samples::classify(part, {31});
+  const auto full = coupling::couple(parts);
+  const auto guyan = reduction::makeBasis("Guyan", Teuchos::ParameterList());
+  int before = 0;
+  for (const double allowed : {3e-2, 3e-3}) {
+    const auto outcome = estimate::synthesise(parts, *guyan, tolerance(allowed), lowest(4));
+    for (const auto& mode : estimate::compareModes(full, parts, outcome.synthesis, 4))
+      EXPECT_LE(std::abs(mode.error), allowed);
+    const int masters = outcome.synthesis.coupled.model.size() - 1;
+    EXPECT_EQ(outcome.rounds.back().modes, masters);
+    EXPECT_GT(masters, before);
+    EXPECT_LT(masters, full.size());
+    before = masters;
+  }
+}
+
 TEST(FrequencyTolerance, PartsThatDoNotMatterGetNoModes) {
   // A stiff short bar between two soft ones.
   std::vector<model::Substructure> parts{samples::bar("soft", 1, 20, 100.0, 1.0, {1}),
