@@ -7,6 +7,9 @@ namespace tooljoint::cases {
 
 namespace {
 
+/// A motion that is faster than its samples is looked at up to so many times as often.
+constexpr double mostSamples = 16;
+
 estimate::MotionOptions motionOptions(const RestingCase& rest) {
   estimate::MotionOptions options;
   options.components = rest.measures().vibration();
@@ -18,11 +21,18 @@ estimate::MotionOptions motionOptions(const RestingCase& rest) {
 ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress) {
   ReducedCase out{rest.parts(), {}};
   const auto& parts = out.unreduced.parts;
+  double sampling = 0.0;  // of the rounds before
   const auto probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
-    estimate::MotionEstimator estimator(parts, synthesis, rest.rest(), motionOptions(rest));
     auto options = transient::readOptions(one.transient());
     options.progress = options.progress && progress;
-    return estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
+    const double finest = options.sampling / mostSamples;
+    if (sampling > 0) options.sampling = sampling;
+    for (;; options.sampling *= 0.5) {
+      sampling = options.sampling;
+      estimate::MotionEstimator estimator(parts, synthesis, rest.rest(), motionOptions(rest));
+      const auto found = estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
+      if (found.reached < 1.0 || !found.isTooFast() || sampling <= finest) return found;
+    }
   };
   out.outcome = estimate::synthesise(parts, one.reduction(), probe, out.unreduced.options);
   return out;

@@ -164,15 +164,29 @@ struct MotionEstimator::Impl {
 MotionEstimator::MotionEstimator(const std::vector<model::Substructure>& parts,
                                  const coupling::Synthesis& synthesis, Vector rest,
                                  MotionOptions options)
-    : impl_(std::make_unique<Impl>(parts, synthesis, std::move(rest), std::move(options))) {}
+    : impl_(std::make_unique<Impl>(parts, synthesis, rest, options)),
+      coarse_(std::make_unique<Impl>(parts, synthesis, std::move(rest), std::move(options))) {}
 MotionEstimator::~MotionEstimator() = default;
 
-void MotionEstimator::states(const Vector& x) { impl_->pointStates = x; }
+void MotionEstimator::states(const Vector& x) {
+  impl_->pointStates = x;
+  if (coarse_) coarse_->pointStates = x;
+}
 
 void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot,
                              const Vector& /*qDDot*/) {
   const auto start = std::chrono::steady_clock::now();
-  Impl& m = *impl_;
+  const bool second = coarse_ && impl_->sums.samples % 2 == 0;
+  look(*impl_, t, q, qDot);
+  if (second) try {
+      look(*coarse_, t, q, qDot);
+    } catch (const ConvergenceError&) {
+      coarse_.reset();
+    }
+  impl_->wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void MotionEstimator::look(Impl& m, double t, const Vector& q, const Vector& qDot) {
   if (m.pointStates.size() != m.compiled.stateSize())
     throw Error(ExitCode::Internal, "The states of the point laws were not given to the estimate.");
   if (m.sums.samples > 0 && t > m.time) m.advance(t, q, qDot);
@@ -181,7 +195,6 @@ void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot,
   m.qDot = qDot;
   if (m.sums.samples == 0) m.begin(t);
   m.measure(q);
-  m.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// The error of the initial state: u = P e, u' = P e'; what of it no mode has vibrates in the
@@ -421,6 +434,8 @@ MotionEstimate MotionEstimator::result() const {
   estimate.samples = m.sums.samples;
   estimate.motion = m.sums.motions;
   estimate.wall = m.wall;
+  if (coarse_ && coarse_->sums.samples > fewSamples && coarse_->sums.motions > 0)
+    estimate.ofEverySecond = std::sqrt(coarse_->sums.errors / coarse_->sums.motions);
   if (m.sums.motions > 0) {
     estimate.error = std::sqrt(m.sums.errors / m.sums.motions);
     estimate.largest =

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct MotionOptions {
 struct MotionEstimate {
   double error = 0;  ///< |x - x_full| / |x - x_static| over all recovered nodes and samples: the
                      ///< estimate of the vibration error
+  std::optional<double> ofEverySecond;  ///< the same from every second sample alone; nothing where
+                                        ///< a law cannot be evaluated so seldom
   double largest =
       0;  ///< the same for the worst sample, against the mean of |x - x_static| over the samples
   Vector byPart;  ///< squared size of the truncated motion of each part, as a fraction of the
@@ -32,6 +35,12 @@ struct MotionEstimate {
   double reached =
       1;  ///< fraction of the window that was computed, below 1 where the motion was stopped
   double wall = 0;  ///< wall time of the estimate [s]
+
+  /// The error grows when the motion is looked at more often: it is faster than the samples, and
+  /// larger than said here.
+  bool isTooFast() const { return ofEverySecond && *ofEverySecond < slowest * error; }
+  /// What an estimate of every second sample has of a motion that all of them follow.
+  static constexpr double slowest = 0.6;
 };
 
 /// A limit at which a motion is stopped: sum |x - x_full|^2 so far exceeds error^2 sum |x -
@@ -59,7 +68,8 @@ struct MotionLimit {
 /// k and c with the tangents of the point laws along the motion, the errors of their states with
 /// them (StateErrors). One step per sample, residuals as
 /// means over the interval (M D'' is M times the change of velocity), all matrices those of the
-/// model at that time. Not included: motion faster than the samples, and the error of the
+/// model at that time. Not included: motion faster than the samples, which a second estimate
+/// from half of them tells of (MotionEstimate::isTooFast), and the error of the
 /// time integration. Compare the dual-weighted residuals of W. Bangerth and R. Rannacher, Adaptive
 /// Finite Element Methods for Differential Equations (2003), chapter 1, of which this is the
 /// forward form.
@@ -82,7 +92,10 @@ class MotionEstimator : public transient::SampleSink {
 
  private:
   struct Impl;
+  void look(Impl& at, double t, const Vector& q, const Vector& qDot);
+
   std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Impl> coarse_;  ///< of every second sample
 };
 
 /// Integrates `model`, the coupled one of the estimator, to its end or until its error exceeds the

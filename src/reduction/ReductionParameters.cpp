@@ -22,7 +22,9 @@ void declareEstimates(deck::ListSpec& list) {
   using deck::Range;
   list.choice("Error Estimate", std::string("None"), {"None", "Frequencies", "Transient", "Both"},
               "A-posteriori error estimates from residuals: of the coupled frequencies about the "
-              "static state, of the vibration error during the transient, or of both.");
+              "static state, of the vibration error during the transient, or of both. That of the "
+              "transient does not see motion within the Sampling Interval, and is too small where "
+              "truncated modes vibrate faster.");
   list.integer("Estimated Frequencies", 20, Range::atLeast(1),
                "Number of the lowest coupled frequencies in estimates and tolerances.")
       .expert();

@@ -70,8 +70,9 @@ std::string describeMotionError(const estimate::MotionEstimate& error) {
   return fmt::sprintf(
       "estimate    error of the motion by the reduction: vibration error %.2e, worst sample %.2e, "
       "from %ld "
-      "samples in %.2f s",
-      error.error, error.largest, error.samples, error.wall);
+      "samples in %.2f s%s",
+      error.error, error.largest, error.samples, error.wall,
+      error.ofEverySecond ? fmt::sprintf("; %.2e from half of them", *error.ofEverySecond) : "");
 }
 
 std::string describeTransient(const transient::TransientReport& report,

@@ -178,6 +178,11 @@ class Run {
     auto report = files_.integrate(model, case_.transient(), *recorder_, both);
     const auto error = estimator->result();
     log::info(describeMotionError(error));
+    if (error.isTooFast())
+      log::warn("The motion is faster than its samples: the estimate of its error, " +
+                formatNumber(error.error) + ", is " + formatNumber(*error.ofEverySecond) +
+                " from half of them, and the error may be larger. Reduce Transient/Sampling "
+                "Interval.");
     summarise(error, files_.summary());
     return report;
   }
