@@ -91,6 +91,15 @@ py::dict terms(const model::SharedList<model::MatrixTerm>& list) {
 
 CsrMatrix sum(const Sparse& matrix) { return toScipy(matrix); }
 
+/// A change that is refused leaves the model as it was. Copies share what is not changed.
+template <class Change>
+void change(SecondOrderModel& model, const Change& make) {
+  SecondOrderModel changed = model;
+  make(changed);
+  changed.validate();
+  model = std::move(changed);
+}
+
 void addPoints(SecondOrderModel& model, const std::string& name,
                std::shared_ptr<const model::PointLaw> law, const py::object& rows, Vector offset,
                const Nodes& nodes) {
@@ -104,8 +113,7 @@ void addPoints(SecondOrderModel& model, const std::string& name,
                      std::to_string(model.size()) + ": coordinates of the points x dofs.");
   if (set.offset.size() == 0) set.offset = Vector::Zero(wanted);
   if (set.entities.empty()) set.entities.assign(at(set.law->size()), 0);
-  model.points.push_back(std::move(set));
-  model.validate();
+  change(model, [&](SecondOrderModel& changed) { changed.points.push_back(std::move(set)); });
 }
 
 std::vector<std::string> dofNames(const SecondOrderModel& model) {
@@ -174,9 +182,10 @@ void bindChanges(py::class_<SecondOrderModel, ModelPointer>& type) {
           "add_damping",
           [](SecondOrderModel& m, const py::object& matrix, const std::string& name,
              const py::object& law) {
-            const int index = lawOf(m, name, law);
-            m.damping.push_back({name, toSparse(matrix, "damping matrix"), index});
-            m.validate();
+            change(m, [&](SecondOrderModel& changed) {
+              const int index = lawOf(changed, name, law);
+              changed.damping.push_back({name, toSparse(matrix, "damping matrix"), index});
+            });
           },
           py::arg("matrix"), py::arg("name") = "damping", py::arg("law") = py::none(),
           "Add law(t) C; without a law C is constant. ModelError.")
@@ -184,9 +193,10 @@ void bindChanges(py::class_<SecondOrderModel, ModelPointer>& type) {
           "add_stiffness",
           [](SecondOrderModel& m, const py::object& matrix, const std::string& name,
              const py::object& law) {
-            const int index = lawOf(m, name, law);
-            m.stiffness.push_back({name, toSparse(matrix, "stiffness matrix"), index});
-            m.validate();
+            change(m, [&](SecondOrderModel& changed) {
+              const int index = lawOf(changed, name, law);
+              changed.stiffness.push_back({name, toSparse(matrix, "stiffness matrix"), index});
+            });
           },
           py::arg("matrix"), py::arg("name"), py::arg("law") = py::none(),
           "Add law(t) K; without a law K is constant. ModelError.")
@@ -194,10 +204,11 @@ void bindChanges(py::class_<SecondOrderModel, ModelPointer>& type) {
           "add_load",
           [](SecondOrderModel& m, const Numbers& vector, const std::string& name,
              const py::object& law) {
-            const Vector force = toVector(vector, m.size(), "The load");
-            const int index = lawOf(m, name, law);
-            m.loads.push_back({name, force, index});
-            m.validate();
+            change(m, [&](SecondOrderModel& changed) {
+              const Vector force = toVector(vector, changed.size(), "The load");
+              const int index = lawOf(changed, name, law);
+              changed.loads.push_back({name, force, index});
+            });
           },
           py::arg("vector"), py::arg("name") = "load", py::arg("law") = py::none(),
           "Add law(t) F [N]; without a law F is constant. Laws of one name are one law. "
@@ -208,9 +219,10 @@ void bindChanges(py::class_<SecondOrderModel, ModelPointer>& type) {
       .def(
           "set_start",
           [](SecondOrderModel& m, const Numbers& displacement, const Numbers& velocity) {
-            m.initialDisplacement = toVector(displacement, m.size(), "The displacement");
-            m.initialVelocity = toVector(velocity, m.size(), "The velocity");
-            m.validate();
+            change(m, [&](SecondOrderModel& changed) {
+              changed.initialDisplacement = toVector(displacement, m.size(), "The displacement");
+              changed.initialVelocity = toVector(velocity, m.size(), "The velocity");
+            });
           },
           py::arg("displacement"), py::arg("velocity"),
           "q(0) [m] and q'(0) [m/s], dofs. ModelError.");

@@ -29,7 +29,8 @@ def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Itera
     interface: positions of the dofs that may be joined with equal ones (node and component) of other parts.
     retained: positions of further dofs that stay as they are when the part is reduced.
 
-    ModelError for matrices that do not fit each other or are not symmetric, and for positions that are none.
+    ModelError for matrices that do not fit each other, a mass that is not symmetric, and positions that are none. Undamped modes are those of
+    the symmetric part of the stiffness; `damped_modes` takes all of it.
 
     >>> import numpy as np, tooljoint as tj
     >>> bar = tj.part("bar", np.eye(3), [[2, -1, 0], [-1, 2, -1], [0, -1, 1]], interface=[2], nodes=[1, 2, 3])

@@ -58,7 +58,11 @@ Vector singularValues(const Eigen::MatrixXcd& A) {
 DenseLu::DenseLu(const Matrix& A) : lu_(A) {}
 Matrix DenseLu::solve(const Matrix& b) const { return lu_.solve(b); }
 Vector DenseLu::solve(const Vector& b) const { return lu_.solve(b); }
-double DenseLu::reciprocalCondition() const { return lu_.rcond(); }
+/// Eigen's estimate loses the NaN of a pivot that is zero.
+double DenseLu::reciprocalCondition() const {
+  const auto pivots = lu_.matrixLU().diagonal();
+  return pivots.allFinite() && (pivots.array() != 0.0).all() ? lu_.rcond() : 0.0;
+}
 
 Matrix inverseOf(const Matrix& A) { return A.inverse(); }
 

@@ -42,7 +42,7 @@ class DenseLu {
   explicit DenseLu(const Matrix& A);
   Matrix solve(const Matrix& b) const;
   Vector solve(const Vector& b) const;
-  /// Estimate of 1 / cond(A) in the 1-norm.
+  /// Estimate of 1 / cond(A) in the 1-norm; 0 where A has no inverse.
   double reciprocalCondition() const;
 
  private:

@@ -75,9 +75,21 @@ class Matrices(unittest.TestCase):
                 part.model.add_load(load)
             with self.assertRaisesRegex(tj.ModelError, reason):
                 part.model.set_start(load, np.zeros(3))
+        for refused in (lambda: part.model.add_load([1, np.nan, 1]), lambda: part.model.add_damping(np.eye(2)), lambda: part.model.add_stiffness(np.eye(4), "k"),
+                        lambda: part.model.set_start([np.inf, 0, 0], np.zeros(3))):
+            with self.assertRaises(tj.ModelError):
+                refused()
+        self.assertEqual(len(tj.modes(part, 2).frequency), 2, "what was refused has left nothing")
         part.model.add_load(np.ones((3, 1)))
         part.model.add_load([1, 2, 3])
         self.assertEqual(part.model.load().tolist(), [2, 3, 4])
+
+
+    def test_a_dof_without_mass_and_stiffness_is_refused(self):
+        loose = np.diag([1.0, 1, 1, 1, 0])
+        for count in (1, 4, 5):
+            with self.assertRaisesRegex(tj.ModelError, "neither mass nor stiffness"):
+                tj.modes(tj.part("loose", loose, loose), count)
 
 
 class Reduction(unittest.TestCase):

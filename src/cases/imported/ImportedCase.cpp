@@ -209,6 +209,19 @@ std::vector<std::int64_t> ImportedCase::recordedNodes() const {
   for (const auto& name : wanted.get<Teuchos::Array<std::string>>("Nodes")) {
     const auto found = numbers.find(name);
     if (found == numbers.end()) throw DeckError(deck().error("Output/Nodes", unknownNode(name)));
+    const auto& shown =
+        scene.parts[static_cast<std::size_t>(scene.nodes.at(found->second).front().part)].name;
+    if (scene.coupling.connections.releases(found->second) &&
+        name.substr(0, name.rfind(':')) != shown)
+      throw DeckError(deck().error(
+          "Output/Nodes",
+          "names " + inQuotes(name) +
+              ", of which a component is released: results have this node "
+              "as part " +
+              inQuotes(shown) +
+              " moves it. Name it in that part, or leave the nodes "
+              "apart (without the joint and its Releases) and join the other components by "
+              "Coupling/Constraints."));
     chosen.insert(found->second);
   }
   return {chosen.begin(), chosen.end()};

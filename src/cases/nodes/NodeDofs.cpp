@@ -50,6 +50,21 @@ std::set<std::int64_t> numbersOf(const RestingCase& rest, const NodeDof& dof) {
   return found;
 }
 
+/// Where a joint is released, the recovery has the motion of the first part that has the node.
+void requireShown(const RestingCase& rest, const NodeDof& dof, std::int64_t number) {
+  const auto joined = rest.parts();
+  if (!joined.options.connections.releases(number, dof.component)) return;
+  const auto names = coupling::namesOf(joined.parts);
+  std::size_t first = 0;
+  while (!contains(joined.parts[first].model.recoveryNodes, number)) ++first;
+  if (dof.part == names[first]) return;
+  throw DeckError(dof.where + " is " + dof.component + " of node " + std::to_string(dof.node) +
+                  (dof.part.empty() ? "" : " of part " + inQuotes(dof.part)) +
+                  ", which is released: results have it for part " + inQuotes(names[first]) +
+                  " only. Name that part, or leave the nodes apart (without the joint and its "
+                  "Releases) and join the other components by Coupling/Constraints.");
+}
+
 }  // namespace
 
 NodeRow findRow(const RestingCase& rest, const model::SecondOrderModel& model, const NodeDof& dof) {
@@ -69,6 +84,7 @@ NodeRow findRow(const RestingCase& rest, const model::SecondOrderModel& model, c
     throw DeckError(dof.where + "/Component is " + inQuotes(dof.component) +
                     ", but the nodes have the components " + quotedList(names) + ".");
   row.component = static_cast<int>(it - names.begin());
+  requireShown(rest, dof, row.number);
   return row;
 }
 

@@ -12,12 +12,23 @@ namespace tooljoint::coupling {
 
 namespace {
 
-/// z of the state q: its entries where the dependent coordinates agree, else (S' M S) z = S' M q.
-Vector fit(const Sparse& M, const Sparse& S, const Vector& q, const std::vector<int>& others) {
+/// z of the state q: its entries where the dependent coordinates agree; else those of physical dofs
+/// P, and of the others (S_m' M S_m) z_m = S_m' M (q - S_P z_P).
+Vector fit(const model::SecondOrderModel& model, const Sparse& S, const Vector& q,
+           const std::vector<int>& others) {
   Vector z = q(others);
   if ((S * z - q).cwiseAbs().maxCoeff() <= 1e-12 * q.cwiseAbs().maxCoeff()) return z;
-  const Sparse weighted = M * S;
-  return Matrix(S.transpose() * weighted).ldlt().solve(weighted.transpose() * q);
+  std::vector<int> modal;
+  for (int j = 0; j < sizeOf(others); ++j)
+    if (model.dofs[at(others[at(j)])].kind != model::DofLabel::Kind::Physical) modal.push_back(j);
+  if (modal.empty()) return z;
+  z(modal).setZero();
+  const Matrix columns = Matrix(S)(Eigen::all, modal), weighted = model.mass * columns;
+  const Vector rest = q - S * z;
+  const Vector fitted =
+      Matrix(columns.transpose() * weighted).ldlt().solve(weighted.transpose() * rest);
+  z(modal) = fitted;
+  return z;
 }
 
 }  // namespace
@@ -49,8 +60,8 @@ void condenseDependent(Coupling& coupling, const reduction::DependentCoordinates
         entries.emplace_back(dependent.dofs[at(f)], others[at(j)], dependent.rows(f, j));
   Substitution s;
   const std::vector<int> column = keepOnly(model, keep, entries, 0, s);
-  s.initialDisplacement = fit(model.mass, s.map, model.initialDisplacement, others);
-  s.initialVelocity = fit(model.mass, s.map, model.initialVelocity, others);
+  s.initialDisplacement = fit(model, s.map, model.initialDisplacement, others);
+  s.initialVelocity = fit(model, s.map, model.initialVelocity, others);
   substitute(model, s);
   changeCoordinates(coupling, s.map);
   std::vector<int> interface;

@@ -178,6 +178,13 @@ class Labeller {
       }
   }
 
+  /// The boundary dofs of a part follow from its modes.
+  bool derives(int p) const { return alignedParts_[at(p)].boundaryRows.rows() > 0; }
+  static constexpr const char* derivedStart =
+      "The bases of these parts have no boundary dofs of their own (Dual Craig-Bampton), and their "
+      "modes give each part another start. Choose a basis with boundary dofs, such as "
+      "\"Craig-Bampton\", or keep more modes.";
+
   /// Puts the values of all parts together; those of joined dofs must agree.
   template <class ValuesOf>
   Vector gather(const ValuesOf& valuesOf, const std::string& what,
@@ -198,7 +205,8 @@ class Labeller {
         } else if (std::abs(all[joint] - values[i]) > agreementOfValues * largest) {
           throw ModelError("The " + what + " of " + describe(part(p).dofs[at(i)]) + " is " +
                            formatNumber(all[joint]) + " in part \"" + name(first) + "\" and " +
-                           formatNumber(values[i]) + " in part \"" + name(p) + "\". " + advice);
+                           formatNumber(values[i]) + " in part \"" + name(p) + "\". " +
+                           (derives(first) || derives(p) ? std::string(derivedStart) : advice));
         }
         all[dof] = all[joint];
       }

@@ -5,6 +5,7 @@
 /// a node has its own frame.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -67,6 +68,12 @@ struct Connections {
                                   ///< (hinges, slides); without a part: free in every part
   std::vector<Constraint> constraints;
   std::vector<Connector> connectors;
+  /// Whether a component of a node, or any without one, is released: parts move apart there.
+  bool releases(std::int64_t node, const std::string& component = "") const {
+    return std::any_of(released.begin(), released.end(), [&](const PartDof& dof) {
+      return dof.node == node && (component.empty() || dof.component == component);
+    });
+  }
   bool empty() const {
     return frames.empty() && released.empty() && constraints.empty() && connectors.empty();
   }
