@@ -14,6 +14,11 @@ namespace {
 
 using deck::Range;
 
+/// The bit and the rock of the source (Tucker and Wang 2003), in SI units.
+namespace source {
+constexpr double a1 = 3.429e-3, a2 = 5.672e-8, a3 = 1.374e-4, a4 = 9.537e6, a5 = 1.475e3;
+}
+
 /// In the advance v and the speed w of the bit, Z = w/sqrt(w^2 + e^2):
 ///
 ///     W = v/(a_2 Z^2) - a_3 w/(a_2 Z) + a_1/a_2,   T = v a_4 Z^2/w + a_5 Z
@@ -52,18 +57,24 @@ class TuckerWang final : public BitLaw {
     law_.a5 = list.get<double>("Torque of Friction");
     law_.e = list.get<double>("Regularisation Speed");
     law_.floor = list.get<double>("Smallest Z Squared");
+    ofSource_ = law_.a1 == source::a1 && law_.a2 == source::a2 && law_.a3 == source::a3 &&
+                law_.a4 == source::a4 && law_.a5 == source::a5;
   }
   bool givesWeight() const override { return true; }
   std::shared_ptr<const model::PointLaw> make(double) const override {
     return std::make_shared<model::FormulaLaw<Penetration>>(law_, 1);
   }
-  WeightRange calibration() const override { return {100e3, 250e3}; }
+  WeightRange calibration() const override {
+    return ofSource_ ? WeightRange{100e3, 250e3} : WeightRange{};
+  }
   std::string describe() const override {
-    return "weight and torque by the rate of penetration, calibrated for 100 to 250 kN";
+    return std::string("weight and torque by the rate of penetration") +
+           (ofSource_ ? ", calibrated for 100 to 250 kN" : "");
   }
 
  private:
   Penetration law_;
+  bool ofSource_;  ///< rock and bit are those of the source, fitted to these weights
 };
 
 const bool penetrationBitRegistered = addBitLaw<TuckerWang>(
@@ -73,19 +84,19 @@ const bool penetrationBitRegistered = addBitLaw<TuckerWang>(
                    "v a_4 Z^2/omega + a_5 Z. Calibrated for 100 to 250 kN; outside the rock may "
                    "pull. (R. W. Tucker and C. Wang, Meccanica 38 (2003) 143-159; T. G. Ritto, C. "
                    "Soize and R. Sampaio, Int. J. Non-Linear Mech. 44 (2009) 865-876.)")
-        .real("Threshold Rate", "m/s", 3.429e-3, Range::nonNegative(),
+        .real("Threshold Rate", "m/s", source::a1, Range::nonNegative(),
               "a_1: what of the rate a weight has to overcome first.")
         .expert()
-        .real("Rate per Weight", "m/(N s)", 5.672e-8, Range::positive(),
+        .real("Rate per Weight", "m/(N s)", source::a2, Range::positive(),
               "a_2: rate of penetration per weight on bit.")
         .expert()
-        .real("Rate per Speed", "m/rad", 1.374e-4, Range::nonNegative(),
+        .real("Rate per Speed", "m/rad", source::a3, Range::nonNegative(),
               "a_3: rate of penetration per rotary speed.")
         .expert()
-        .real("Torque per Depth", "N rad", 9.537e6, Range::nonNegative(),
+        .real("Torque per Depth", "N rad", source::a4, Range::nonNegative(),
               "a_4: torque per depth of cut v/omega.")
         .expert()
-        .real("Torque of Friction", "N m", 1.475e3, Range::nonNegative(),
+        .real("Torque of Friction", "N m", source::a5, Range::nonNegative(),
               "a_5: torque of a bit that does not penetrate.")
         .expert()
         .real("Regularisation Speed", "rad/s", 2.0, Range::positive(),

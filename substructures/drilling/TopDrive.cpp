@@ -63,6 +63,15 @@ void checkParameters(const Teuchos::ParameterList& list, const Control& control)
       list.isParameter("Tuning Frequency") == list.isParameter("High-Pass Frequency"))
     throw DeckError(list.name() + "/Control is " + inQuotes(control.name) +
                     ", which needs either Tuning Frequency or High-Pass Frequency. Give one.");
+  if (list.isParameter("Tuning Frequency") && given(list, "Inertia") == 0.0)
+    throw DeckError(list.name() +
+                    "/Tuning Frequency has no effect on a drive without Inertia, which has no "
+                    "integral gain then. Give the Inertia, or High-Pass Frequency instead.");
+  if (list.isParameter("Torque Limit") && given(list, "Integral Gain") > 0.0 &&
+      given(list, "Proportional Gain") == 0.0)
+    throw DeckError(list.name() +
+                    "/Torque Limit with an Integral Gain needs a positive Proportional Gain, which "
+                    "keeps the integral within the limit.");
 }
 
 }  // namespace

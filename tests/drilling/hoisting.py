@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bits of smooth curves and of penetration, and the autodriller, against closed forms and integrations of their own."""
+import csv
 import math
 
 import models
@@ -83,6 +84,26 @@ def driller(program, name, top, end=60.0, settings=None, **lists):
     return program.run(name, program.deck(name, deck), {**ALPHA, "Transient/Step": 5e-3, **(settings or {})})
 
 
+def ahead(program, own):
+    """Torque and drag of a string with an autodriller drills ahead with the set weight, and the torque of the bit at the speed of the operation."""
+    bit = models.PenetrationBit()
+    for name, rotary in (("constant", {"Law": "Constant", "Constant": {"Speed": SPEED}}),
+                         ("from rest", {"Law": "Exponential", "Exponential": {"Final Speed": SPEED, "Time Constant": 1.0}})):
+        deck = models.string_deck(((PIPE, 1),), **{
+            "Loads": {"Gravity": 9.81}, "Supports": {"Bit": "theta_z"}, "Bit": {"Law": "Tucker-Wang"}, "Rotary Speed": rotary,
+            "Top Drive": {"Autodriller": own}, "Contact": {"Stiffness": 1e7, "Damping": 1e4, "Friction": {"Static": 1e-6, "Dynamic": 1e-6}},
+            "Torque and Drag": {"Count": 1, "Stiff String": "None"}, "Transient": {"End Time": 1.0}})
+        for speed, settings in ((SPEED, {}), (6.0, {"Torque and Drag/Rotary Speed": 6.0})):
+            run = program.run("ahead", program.deck("ahead", deck), settings, command="torque-drag")
+            with open(run.folder / "torque_drag.csv", newline="", encoding="utf-8") as text:
+                rows = {row["operation"]: {key.split(" [")[0]: cell for key, cell in row.items()} for row in csv.DictReader(text)}
+            off, on = (rows[operation] for operation in ("Rotate off bottom", "Drill rotating"))
+            weight = float(off["hook_load"]) - float(on["hook_load"])
+            near(f"autodriller, {name}, {speed:g} rad/s: drills ahead with its weight", weight, own["Weight On Bit"], 1e-3 * own["Weight On Bit"])
+            advance = (weight - float(bit.weight(0.0, speed))) / float(bit.factor(speed))
+            near(f"autodriller, {name}, {speed:g} rad/s: torque of the bit", float(on["surface_torque"]) - float(off["surface_torque"]), float(bit.torque(advance, speed)), 10.0)
+
+
 def autodriller(program):
     """The loop of block, lines, pipe and bit: linear motion and closed-loop poles; the block speed it begins with; its limits."""
     bit = models.PenetrationBit()
@@ -110,6 +131,7 @@ def autodriller(program):
     full = driller(program, "driller_end", {"Block Speed": feed, "Autodriller": own}, 200.0, {"Transient/Step": 0.02})
     near("autodriller: the weight on bit in the end", full.data("transient/weight_on_bit")[-1], begin + lack, 1e-3 * lack)
     near("autodriller: the speed of the block in the end", full.data("transient/block_speed")[-1], settled, 1e-3 * settled)
+    ahead(program, own)
     limit = feed + 0.5 * lack / slope
     run = driller(program, "driller_limit", {"Block Speed": feed, "Autodriller": {**own, "Largest Block Speed": limit}}, 200.0, {"Transient/Step": 0.02})
     speeds = run.data("transient/block_speed")

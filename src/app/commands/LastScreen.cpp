@@ -72,15 +72,16 @@ struct Check {
   const char* advice;
 };
 
+constexpr const char* shorterSteps = "half of Transient/Step";
+
 constexpr std::array checks{
     Check{"balance of torque", "/static/torque_balance_defect", "/static/torque_scale", 1e-2,
           "--set \"Path/Pre-stress=Full tangent\""},
     Check{"residual of the static state", "/static/residual", nullptr, 1e-8, nullptr},
-    Check{"balance of energy", "/transient/energy_residual", nullptr, 1e-2,
-          "half of Transient/Step"},
-    Check{"step error", "/transient/step_error", nullptr, 5e-2, "half of Transient/Step"},
+    Check{"balance of energy", "/transient/energy_residual", nullptr, 1e-2, shorterSteps},
+    Check{"step error", "/transient/step_error", nullptr, 5e-2, shorterSteps},
     Check{"share of steps that did not converge", "/transient/unconverged_steps",
-          "/transient/steps", 1e-3, "half of Transient/Step"},
+          "/transient/steps", 1e-3, shorterSteps},
 };
 
 struct Worst {
@@ -159,12 +160,23 @@ void ofChecks(const Json& summary) {
                           brief(worst.check->bound, 6));
 }
 
+/// Steps that follow their error have no length of their own.
+std::string adviceOf(const Check& check, const Json& summary) {
+  const auto integrator = summary.at("/transient/integrator"_json_pointer);
+  if (check.advice != shorterSteps || !integrator.is_string()) return check.advice;
+  const auto name = integrator.get<std::string>();
+  for (const char* adaptive : {"adaptive", "ARKODE", "CVODE"})
+    if (name.find(adaptive) != std::string::npos)
+      return "a tenth of Transient/" + name + "/Tolerance";
+  return check.advice;
+}
+
 /// What to try next, a line each: what mends a check that is not met, else what shows more.
 std::vector<std::string> next(const Json& summary, const std::string& folder,
                               const std::string& deck) {
   const auto worst = worstCheck(summary);
   if (worst.check != nullptr && worst.value > worst.check->bound && worst.check->advice != nullptr)
-    return {"the run again with " + std::string(worst.check->advice) + " (" + worst.check->name +
+    return {"the run again with " + adviceOf(*worst.check, summary) + " (" + worst.check->name +
             ")"};
   if (!number(summary, "/transient/steps"))
     return {"tooljoint " +

@@ -9,6 +9,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
 #include "deck/Defaults.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "substructures/beam/VonMises.hpp"
@@ -164,17 +165,17 @@ std::vector<softstring::Operation> softOperations(const Scene& scene,
   const double deckSpeed = scene.rotary.present() ? std::abs(scene.rotary.speed(started)) : 0.0;
   const auto& loads = scene.list().sublist("Loads");
   drilling::BitLoad bit{loads.get<double>("Weight On Bit"), loads.get<double>("Torque On Bit")};
+  const double speed = settings.rotarySpeed.value_or(deckSpeed > 0.0 ? deckSpeed : usualSpeed);
   if (scene.bit) {
+    const Scene drilled = turningAt(scene, speed);
     const auto steady = drilling::steadyLoad(
-        drilling::bitOnString(*scene.bit, scene.string.nodeCount() - 1, scene.rotary,
-                              scene.topDrive.blockSpeed, bit.weight),
+        drilling::bitOnString(*scene.bit, scene.string.nodeCount() - 1, drilled.rotary,
+                              drilled.topDrive.blockSpeed, bit.weight),
         started);
     if (scene.bit->law->givesWeight()) bit.weight = steady.weight;
     bit.torque = steady.torque;
   }
-  return softstring::operations(
-      settings, settings.rotarySpeed.value_or(deckSpeed > 0.0 ? deckSpeed : usualSpeed), bit.weight,
-      bit.torque);
+  return softstring::operations(settings, speed, bit.weight, bit.torque);
 }
 
 TorqueDragProfile torqueDragAt(const SoftModel& model,
@@ -242,12 +243,24 @@ void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& s
   }
 }
 
+/// Of the weights that the law of the bit gives.
+void warnOfCalibration(const Scene& scene, const std::vector<softstring::Operation>& operations) {
+  if (!scene.bit || !scene.bit->law->givesWeight()) return;
+  double heaviest = 0.0;
+  for (const auto& one : operations) heaviest = std::max(heaviest, one.weightOnBit);
+  if (heaviest == 0.0) return;
+  const auto warning =
+      drilling::outsideCalibration(*scene.bit, "drilling ahead", heaviest, heaviest);
+  if (!warning.empty()) log::warn(warning);
+}
+
 }  // namespace
 
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFolder& store) {
   const auto settings = torqueDragSettings(scene);
   const SoftModel model = softModel(scene);
   const auto operations = softOperations(scene, settings);
+  warnOfCalibration(scene, operations);
   std::vector<TorqueDragProfile> profiles;
   const double deepest = *std::max_element(settings.depths.begin(), settings.depths.end());
   for (const double depth : settings.depths)

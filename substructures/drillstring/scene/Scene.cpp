@@ -112,6 +112,27 @@ void checkLoads(const Scene& scene, Faults& faults) {
   }
 }
 
+/// A law that gives the weight on bit needs a bit that advances, and that it cuts.
+void checkAdvance(const Scene& scene, Faults& faults) {
+  const auto& drive = scene.topDrive;
+  const std::string name = inQuotes(scene.bit->name);
+  if (drive.constantHookLoad || drive.autodriller) return;
+  if (drive.blockSpeed == 0.0) {
+    faults.add("Bit/Law", "is " + name +
+                              ", whose weight on bit comes from the advance of the bit, but the "
+                              "string does not advance. Give Top Drive/Block Speed or Top "
+                              "Drive/Autodriller, or set Top Drive/Hook to \"Constant Load\".");
+    return;
+  }
+  if (!scene.rotary.present() || scene.rotary.sense(scene.startTime()) >= 0.0) return;
+  const auto backward =
+      drilling::bitOnString(*scene.bit, scene.string.nodeCount() - 1,
+                            loads::RotarySpeed::steady(-1.0), drive.blockSpeed, 0.0);
+  if (drilling::steadyLoad(backward, 0.0).weight == 0.0)
+    faults.add("Rotary Speed", "is negative, but a bit of the law " + name +
+                                   " cuts forward only. Turn the string in the positive sense.");
+}
+
 /// What a law at the bit asks of the loads and supports.
 void checkBit(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
@@ -131,6 +152,7 @@ void checkBit(const Scene& scene, Faults& faults) {
   if (scene.held[at(kNodeDofs * (scene.string.nodeCount() - 1) + dof)] != 0)
     faults.add("Bit/Law", "is " + name + ", but the Supports hold " + componentNames()[at(dof)] +
                               " of the bit, on which it acts. Release it.");
+  if (law.givesWeight()) checkAdvance(scene, faults);
 }
 
 /// What an autodriller asks of the others.
@@ -166,6 +188,12 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
                "theta_z out of Supports/Top, or set Control to \"Stiff\".");
   if (drive.turnsFreely() && !scene.rotary.present())
     faults.add("Top Drive/Control", "needs the set speed: give Rotary Speed.");
+  if (drive.control == drilling::DriveControl::Torque && !drive.torqueGiven &&
+      scene.rotary.present() && scene.rotary.speed(scene.startTime()) == 0.0)
+    faults.add("Top Drive/Control",
+               "is \"Torque\" without a Torque, which is then that of the static state. The "
+               "string stands still there. Give Top Drive/Torque, or let the string turn from the "
+               "start.");
   if (drive.turnsFreely() && !scene.moves())
     faults.add("Top Drive/Control",
                "has no effect without Transient: the drive holds the static state. Add Transient.");
