@@ -32,8 +32,11 @@ namespace {
 
 /// A displacement, rotation or modal coordinate beyond this is a run that has blown up.
 constexpr double blowUp = 1e6;
-/// Samples in a row with an energy balance that is wrong after which a run is refused.
+/// Samples in a row with an energy balance that is wrong after which a run is refused, and of one
+/// that is open but makes no energy, the part of all samples they must be at least: at the start
+/// little energy has been exchanged.
 constexpr int sustained = 10;
+constexpr double sustainedPart = 0.1;
 
 /// Part of the integral of a law of time that fixed steps may miss without a warning.
 constexpr double unresolved = 0.01;
@@ -381,8 +384,11 @@ class Run {
   /// A start far from equilibrium may overshoot and is damped again, so that an open balance counts
   /// only when it persists.
   void watchEnergy() {
-    runawaySamples_ = isWrong(ledger_.look(model_, next_)) ? runawaySamples_ + 1 : 0;
+    const auto account = ledger_.look(model_, next_);
+    runawaySamples_ = isWrong(account) ? runawaySamples_ + 1 : 0;
     if (runawaySamples_ < sustained) return;
+    const double all = (options_.end - options_.start) / options_.sampling;
+    if (!account.runaway() && runawaySamples_ < sustainedPart * all) return;
     std::swap(state_, next_);
     throw ConvergenceError(describeBalance(ledger_.account(model_, state_)));
   }

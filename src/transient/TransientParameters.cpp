@@ -61,7 +61,7 @@ deck::ListSpec parameters() {
       .expert()
       .real("Energy Residual Limit", "", usual.energyResidualLimit, deck::Range::positive(),
             "With the energy ledger: a run fails when the energy residual is larger in size at the "
-            "end of the motion, or for ten samples in a row.")
+            "end of the motion, or for ten samples in a row that are a tenth of all.")
       .expert();
   for (const auto& [name, entry] : registry.entries()) {
     deck::ListSpec own(name, entry.doc);

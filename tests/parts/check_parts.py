@@ -196,7 +196,7 @@ def cost_energy_and_remarks():
     summary = json.loads(pathlib.Path("said", "summary.json").read_text(encoding="utf-8"))
     ratio, energy = summary["reduction"]["cost_ratio"], summary["transient"]["energy_residual"]
     expect("cost of a step of both models", f"reduced model {ratio:.2f} of the full model" in done.stdout and 0 < ratio < 2, str(ratio))
-    expect("energy balance", f"energy balance closes to {energy:.2g} of" in done.stdout and 0 < energy < 1e-3, str(energy))
+    expect("energy balance", f"energy balance closes to {energy:.2g} of" in done.stdout and 0 < energy < 2e-3, str(energy))
     full = tooljoint("run", str(deck), "--output", "remarked", "--set", "Reduction/Basis=Enhanced Craig-Bampton", *short)
     warned = json.loads(pathlib.Path("remarked", "summary.json").read_text(encoding="utf-8"))["warnings"]
     expect("remarks of the coupling are warnings", any("coupled matrices are full" in line for line in warned), full.stderr[-300:])
