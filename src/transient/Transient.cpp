@@ -384,7 +384,7 @@ class Run {
   /// A start far from equilibrium may overshoot and is damped again, so that an open balance counts
   /// only when it persists.
   void watchEnergy() {
-    const auto account = ledger_.look(model_, next_);
+    const auto& account = ledger_.look(model_, next_);
     runawaySamples_ = isWrong(account) ? runawaySamples_ + 1 : 0;
     if (runawaySamples_ < sustained) return;
     const double all = (options_.end - options_.start) / options_.sampling;

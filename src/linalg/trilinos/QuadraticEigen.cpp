@@ -171,14 +171,15 @@ double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer&
 
 /// One mode of each independent motion at zero, the first ones of `values`. A free body without
 /// damping has every one of them twice, in a Jordan chain, which rounding tears into two values
-/// with nearly the same vector. These vectors span the motions, but any two of them may be nearly
-/// parallel: their singular vectors are taken, of half as many as there are at least.
+/// with nearly the same vector. With gyroscopics two motions may share one complex vector, since
+/// rounding makes a pair of their values. These vectors span the motions, but any two of them may
+/// be nearly parallel: their singular vectors are taken, of half as many as there are at least.
 void keepIndependentZeros(const ShiftedInverse& inverse, std::vector<Complex>& values,
                           std::vector<ComplexVector>& vectors) {
   const auto firstOther =
       std::find_if(values.begin(), values.end(), [](Complex s) { return s != 0.0; });
   const auto zeros = std::distance(values.begin(), firstOther);
-  if (zeros < 2) return;
+  if (zeros == 0) return;
   std::vector<Vector> columns;
   for (auto phi = vectors.begin(); phi != vectors.begin() + zeros; ++phi) {
     // of a real shape times a complex number one part may be rounding: it must stay as small

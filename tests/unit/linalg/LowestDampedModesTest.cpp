@@ -194,8 +194,9 @@ TEST(LowestDampedModes, FindMoreCopiesThanABlockHas) {
 // A free body moves at zero twice in a Jordan chain: every motion is listed once, as zero, with
 // gyroscopics and without.
 TEST(LowestDampedModes, RigidBodyMotionsAreZeroAndListedOnce) {
-  for (double g : {0.0, 0.4}) {
-    Shaft s = shaft(90, g, 0.0, true);
+  for (const auto& [n, g] : {std::pair(90, 0.0), std::pair(90, 0.4), std::pair(40, 0.4),
+                             std::pair(130, 0.3), std::pair(90, 1.3), std::pair(130, 5.0)}) {
+    Shaft s = shaft(n, g, 0.0, true);
     const auto modes = lowestDampedModes(s.M, s.C, s.K, 6);
     ASSERT_EQ(modes.values.size(), 6);
     // gyroscopic coupling of free masses turns one chain into a whirl at g / m, far below the first
