@@ -24,7 +24,7 @@
 #include "io/Csv.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "model/DofNames.hpp"
-#include "model/laws/HarmonicTangent.hpp"
+#include "model/HarmonicTangent.hpp"
 #include "reduction/part/Partition.hpp"
 #include "stability/StateStability.hpp"
 

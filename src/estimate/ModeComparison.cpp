@@ -17,7 +17,7 @@
 #include "estimate/PartResidual.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "model/DofNames.hpp"
-#include "model/laws/HarmonicTangent.hpp"
+#include "model/HarmonicTangent.hpp"
 
 namespace tooljoint::estimate {
 

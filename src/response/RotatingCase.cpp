@@ -9,8 +9,8 @@
 #include "common/report/Log.hpp"
 #include "estimate/PartResidual.hpp"
 #include "model/DofNames.hpp"
+#include "model/HarmonicTangent.hpp"
 #include "model/SteadyRotation.hpp"
-#include "model/laws/HarmonicTangent.hpp"
 #include "stability/StateStability.hpp"
 
 namespace tooljoint::response {

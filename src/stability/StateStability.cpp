@@ -24,7 +24,7 @@
 #include "linalg/trilinos/DividedModes.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
-#include "model/laws/HarmonicTangent.hpp"
+#include "model/HarmonicTangent.hpp"
 #include "reduction/part/Partition.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 

@@ -77,30 +77,11 @@ class RegenerativeCutting : public Formula<2> {
     double before = 0, slope = 0;
     behind(d[1], held, before, slope);
     double* surface = held + Track::size;
-    const double newest = surface_.newest(surface), U = held[Track::U], phi = held[Track::phi];
-    const bool cuts = d[0] > before, forward = d[1] > phi;
-    if (held[Track::again] == 0.0 && d[1] < newest) {
-      held[Track::again] = 1.0;
-      held[Track::onTheWay] = 0.0;
-    }
-    if (held[Track::again] != 0.0) {
-      if (forward && held[Track::onTheWay] == 0.0) {
-        held[Track::onTheWay] = 1.0;
-        held[Track::fromU] = U;
-        held[Track::fromPhi] = phi;
-      }
-      const bool arrives = d[1] >= newest;
-      if (held[Track::onTheWay] != 0.0 && (!forward || arrives)) {
-        const double share = arrives ? (newest - phi) / (d[1] - phi) : 0.0,
-                     end = U + share * (d[0] - U);
-        surface_.raise(held[Track::fromPhi], held + Track::fromU, arrives ? newest : phi, &end,
-                       surface);
-        held[Track::onTheWay] = 0.0;
-      }
-      if (arrives) held[Track::again] = 0.0;
-    }
+    const double newest = surface_.newest(surface);
+    followAgain(d, held, newest);
     held[Track::U] = d[0];
     held[Track::phi] = d[1];
+    const bool cuts = d[0] > before;
     const double S = cuts ? d[0] : before;
     if (d[1] > newest) {
       if (cuts) slope = v[1] > p_.angularVelocity ? v[0] / v[1] : 0.0;
@@ -148,6 +129,31 @@ class RegenerativeCutting : public Formula<2> {
   struct Track {
     enum { U, phi, again, onTheWay, fromU, fromPhi, size };
   };
+
+  /// The way of a bit behind its foremost angle: each forward one, when it ends, deepens the
+  /// surface.
+  void followAgain(const double* d, double* held, double foremost) const {
+    const double U = held[Track::U], phi = held[Track::phi];
+    if (held[Track::again] == 0.0 && d[1] < foremost) {
+      held[Track::again] = 1.0;
+      held[Track::onTheWay] = 0.0;
+    }
+    if (held[Track::again] == 0.0) return;
+    const bool forward = d[1] > phi, arrives = d[1] >= foremost;
+    if (forward && held[Track::onTheWay] == 0.0) {
+      held[Track::onTheWay] = 1.0;
+      held[Track::fromU] = U;
+      held[Track::fromPhi] = phi;
+    }
+    if (held[Track::onTheWay] != 0.0 && (!forward || arrives)) {
+      const double share = arrives ? (foremost - phi) / (d[1] - phi) : 0.0,
+                   end = U + share * (d[0] - U);
+      surface_.raise(held[Track::fromPhi], held + Track::fromU, arrives ? foremost : phi, &end,
+                     held + Track::size);
+      held[Track::onTheWay] = 0.0;
+    }
+    if (arrives) held[Track::again] = 0.0;
+  }
 
   /// S' and its slope.
   void behind(double phi, const double* held, double& S, double& slope) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Laws with states in small harmonic motions, against their closed forms.
-#include "model/laws/HarmonicTangent.hpp"
+#include "model/HarmonicTangent.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>

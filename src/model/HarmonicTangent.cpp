@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/laws/HarmonicTangent.hpp"
+#include "model/HarmonicTangent.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
