@@ -224,6 +224,35 @@ def among_bending(program):
     near("its frequency [Hz]", static["growth_hz"], truth["frequency"], 1e-3 * truth["frequency"])
 
 
+def idle_bits(program):
+    """Bits that would do nothing, and drives without a torque or an integral, are refused."""
+    cutting = {"Bit/Law": "Cutting", "Bit/Cutting/Radius": 0.1, "Bit/Cutting/Blades": 4}
+    feed, steady, backward = {"Top Drive/Block Speed": 1e-3}, {"Rotary Speed": {"Law": "Constant", "Constant": {"Speed": 10.0}}}, \
+        {"Rotary Speed": {"Law": "Constant", "Constant": {"Speed": -10.0}}}
+    drive = {"Control": "Impedance Matched", "Tuning Frequency": 0.25, "Inertia": 0.0}
+    for what, settings, lists, sentence in (
+            ("a cutting bit that advances", {**cutting, **feed}, steady, None),
+            ("a cutting bit without advance", cutting, steady, "does not advance"),
+            ("a cutting bit that turns backward", {**cutting, **feed}, backward, "cuts forward only"),
+            ("a torque of the static state from rest", {}, {"Top Drive": {"Control": "Torque", "Inertia": 1500.0}}, "stands still"),
+            ("a tuned drive without inertia", {}, {"Top Drive": drive}, "without Inertia"),
+            ("a limit of an integral alone", {}, {"Top Drive": {"Control": "Speed", "Inertia": 1500.0, "Proportional Gain": 0.0, "Integral Gain": 10.0,
+                                                                "Torque Limit": 1e4}}, "needs a positive Proportional Gain")):
+        own = {} if settings else {"Loads": {"Gravity": 9.81, "Weight On Bit": WEIGHT}, "Bit": COLLAR_BIT}
+        rotary = {"Rotary Speed": {"Law": "Exponential", "Exponential": {"Final Speed": SPEED, "Time Constant": RISE}}}
+        deck = models.string_deck(PIECES, **{"Loads": {"Gravity": 9.81}, **own, **rotary, **lists})
+        deck["Transient"] = {"End Time": 0.1}
+        for path, value in settings.items():
+            *names, last = path.split("/")
+            at = deck
+            for name in names:
+                at = at.setdefault(name, {})
+            at[last] = value
+        run = program.run("idle", program.deck("idle", deck))
+        text = " ".join(run.output.split())
+        expect(f"{what}: {'accepted' if sentence is None else 'refused'}", run.code == (0 if sentence is None else 2) and (sentence or "") in text, text[-300:])
+
+
 def misfit(t, x, roots):
     """Part of x that is no sum of the modes with these roots, relative."""
     columns = np.column_stack([np.ones(len(t)), *(part(np.exp(s * t)) for s in roots for part in (np.real, np.imag))])
@@ -385,7 +414,7 @@ def cutting(program):
          np.abs(drift + lost - impulse).max() / np.abs(impulse).max(), 0.0, 0.02)
 
 
-CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, among_bending, matched, cutting, oscillator, whirl, hoisting.tanh_bit,
+CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, among_bending, idle_bits, matched, cutting, oscillator, whirl, hoisting.tanh_bit,
                                        hoisting.penetration_bit, hoisting.autodriller)}
 ON_REQUEST = {"stick_slip_2500m": scene_2500m.stick_slip_2500m,
               "combinations": lambda program: combinations(program, "without-sundials" not in sys.argv)}

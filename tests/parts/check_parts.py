@@ -212,6 +212,30 @@ def refused():
     expect("a study of parts needs a Study list", done.returncode == 2 and "has no Study list" in done.stderr)
 
 
+def released():
+    """At a released dof results have the motion of the first part: those that name the other one are refused."""
+    good = ROOT / "tests" / "decks" / "parts" / "good"
+    imported = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" value="{good}"/></ParameterList>' for name in "ab")
+    pathlib.Path("released.xml").write_text(
+        f'<ParameterList name="released"><ParameterList name="Parts"><ParameterList name="Imported">{imported}</ParameterList>'
+        '<Parameter name="Joints" type="Array(string)" value="{a:right = b:left}"/></ParameterList>'
+        '<ParameterList name="Coupling"><ParameterList name="Releases"><ParameterList name="slide"><Parameter name="Node" type="string" value="b:1"/>'
+        '<Parameter name="Components" type="string" value="u"/></ParameterList></ParameterList></ParameterList>'
+        '<ParameterList name="Transient"><Parameter name="End Time" type="double" value="0.01"/><Parameter name="Step" type="double" value="1e-3"/></ParameterList>'
+        '<ParameterList name="Response"><Parameter name="Highest Frequency" type="double" value="1"/><Parameter name="Points" type="int" value="2"/>'
+        '<Parameter name="Excitation" type="string" value="Transfer"/><ParameterList name="Loads"><ParameterList name="f"><Parameter name="Part" type="string" value="a"/>'
+        '<Parameter name="Node" type="int" value="2"/><Parameter name="Component" type="string" value="u"/></ParameterList></ParameterList>'
+        '<ParameterList name="Outputs"><ParameterList name="x"><Parameter name="Part" type="string" value="b"/><Parameter name="Node" type="int" value="1"/>'
+        '<Parameter name="Component" type="string" value="u"/></ParameterList></ParameterList></ParameterList></ParameterList>', encoding="utf-8")
+    nodes = tooljoint("run", "released.xml", "--output", "released", "--set", "Output/Nodes={b:1}")
+    expect("a recorded node that is released is refused", nodes.returncode == 2 and 'names "b:1", of which a component is released' in nodes.stderr, nodes.stderr[-300:])
+    other = tooljoint("run", "released.xml", "--output", "released", "--set", "Output/Nodes={b:2}")
+    expect("others are recorded", other.returncode == 0, other.stderr[-300:])
+    response = tooljoint("response", "released.xml", "--output", "released_response")
+    expect("an output that is released is refused", response.returncode == 2 and "which is released: results have it for part \"a\" only" in response.stderr,
+           f"({response.returncode}) {response.stderr[-400:]}")
+
+
 if __name__ == "__main__":
     documented_scripts()
     frame()
@@ -221,4 +245,5 @@ if __name__ == "__main__":
     goes_on()
     cost_energy_and_remarks()
     refused()
+    released()
     sys.exit(finish())

@@ -162,9 +162,8 @@ void ofChecks(const Json& summary) {
 
 /// Steps that follow their error have no length of their own.
 std::string adviceOf(const Check& check, const Json& summary) {
-  const auto integrator = summary.at("/transient/integrator"_json_pointer);
-  if (check.advice != shorterSteps || !integrator.is_string()) return check.advice;
-  const auto name = integrator.get<std::string>();
+  if (check.advice != shorterSteps) return check.advice;
+  const auto name = summary.at("/transient/integrator"_json_pointer).get<std::string>();
   for (const char* adaptive : {"adaptive", "ARKODE", "CVODE"})
     if (name.find(adaptive) != std::string::npos)
       return "a tenth of Transient/" + name + "/Tolerance";

@@ -38,4 +38,21 @@ TEST(TiedCoordinates, EstimatesStayNearTheTrueErrors) {
   }
 }
 
+/// A velocity of the interior leaves the boundary at rest, whatever coordinates depend on others.
+TEST(TiedCoordinates, KeepTheBoundaryOfTheStart) {
+  auto parts = samples::loopFrame(10, false);
+  for (auto& part : parts) part.model.initialVelocity.setZero();
+  parts[0].model.initialVelocity[parts[0].interior().front()] = 0.01;
+  const auto synthesis = checks::synthesise(parts, "Enhanced Craig-Bampton", 2, [](auto& list) {
+    list.set("Residual Coordinates", std::string("Tied"));
+  });
+  const auto& model = synthesis.coupled.model;
+  ASSERT_GT(synthesis.coupled.dependent, 0);
+  EXPECT_GT(model.initialVelocity.norm(), 0.0);
+  for (int i = 0; i < model.size(); ++i)
+    if (model.dofs[static_cast<std::size_t>(i)].kind == model::DofLabel::Kind::Physical) {
+      EXPECT_EQ(model.initialVelocity[i], 0.0) << i;
+    }
+}
+
 }  // namespace TiedCoordinatesTest
