@@ -322,8 +322,8 @@ StaticState describe(const StaticInput& input, const StaticProblem& problem,
   state.torque.resize(elements);
   state.geometricStiffness.reserve(input.elements.size());
   for (int e = 0; e < elements; ++e) {
-    state.axialForce(e) = problem.axialForce(e, displacement);
-    state.torque(e) = problem.torque(e, displacement);
+    state.axialForce(e) = problem.elements().axialForce(e, displacement);
+    state.torque(e) = problem.elements().torque(e, displacement);
     state.geometricStiffness.push_back(problem.geometricStiffness(e, displacement));
   }
   state.compressedElements = static_cast<int>((state.axialForce.array() < 0.0).count());

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
-#include "linalg/chains/ChainShare.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::equilibrium {
@@ -20,7 +18,8 @@ constexpr int kDofs = beam::nodal::perNode;
 constexpr std::array<int, contact::StaticContact::kForces> kContactDofs{
     beam::nodal::u, beam::nodal::v, beam::nodal::w, beam::nodal::thetaZ};
 
-void check(const StaticInput& input) {
+/// The input, if its parts have the same size.
+const StaticInput& checked(const StaticInput& input) {
   const int dofs = kDofs * input.nodes;
   const bool fits = input.nodes == static_cast<int>(input.elements.size()) + 1 &&
                     input.load.size() == dofs &&
@@ -35,51 +34,27 @@ void check(const StaticInput& input) {
       if (node < 1 || node > input.nodes)
         throw ModelError("A contact point is at node " + std::to_string(node) +
                          ", but the string has nodes 1 to " + std::to_string(input.nodes) + ".");
+  return input;
 }
 
 }  // namespace
 
-Vector pretensionForces(const StaticInput& input) {
-  Vector forces = Vector::Zero(kDofs * input.nodes);
-  for (std::size_t e = 0; e < input.elements.size(); ++e) {
-    const StaticElement& element = input.elements[e];
-    forces.segment<12>(kDofs * static_cast<int>(e)) -=
-        element.pretension * (element.rotation.row(8) - element.rotation.row(2)).transpose();
-  }
-  return forces;
-}
-
 StaticProblem::StaticProblem(const StaticInput& input)
-    : input_(input), pretension_(pretensionForces(input)) {
-  check(input);
+    : input_(checked(input)),
+      elements_(input),
+      free_(kDofs, input.held),
+      pretension_(pretensionForces(input)) {
   switches_.geometricStiffness = input.geometricStiffness;
-  index_.assign(input.held.size(), -1);
-  for (std::size_t i = 0; i < index_.size(); ++i)
-    if (input.held[i] == 0) {
-      index_[i] = unknowns_++;
-      nodeOf_.push_back(static_cast<int>(i) / kDofs);
-    }
-  if (unknowns_ == 0)
+  if (size() == 0)
     throw ModelError(
         "The supports fix every degree of freedom of the string. Free at least one dof.");
 
   std::vector<std::vector<int>> lists;
   lists.reserve(input.elements.size() + at(input.contact != nullptr ? input.contact->size() : 0));
-  unitAxial_.reserve(input.elements.size());
-  unitTorque_.reserve(input.elements.size());
   double length = 0.0;
-  for (std::size_t e = 0; e < input.elements.size(); ++e) {
-    const StaticElement& element = input.elements[e];
-    const auto first = index_.begin() + static_cast<std::ptrdiff_t>(e) * kDofs;
-    lists.emplace_back(first, first + 2 * kDofs);
-    const beam::Matrix12 r =
-        input.chordSlopes ? element.rotation : beam::slopeRotation(element.rotation);
-    unitAxial_.push_back(r.transpose() * element.formulation->geometricAxial() * r);
-    unitTorque_.push_back(r.transpose() * element.formulation->geometricTorque() * r);
-    const beam::Matrix12 k = element.formulation->stiffness();
-    axialStiffness_.push_back(k(8, 8));
-    torsionalStiffness_.push_back(k(11, 11));
-    length += element.formulation->length();
+  for (int e = 0; e < elements_.size(); ++e) {
+    lists.push_back(free_.ofElement(e));
+    length += input.elements[at(e)].formulation->length();
   }
   if (input.contact != nullptr) {
     const std::vector<int>& nodes = input.contact->points().node;
@@ -90,10 +65,10 @@ StaticProblem::StaticProblem(const StaticInput& input)
     for (const int node : nodes) {
       const int first = kDofs * (node - 1);
       auto& dofs = lists.emplace_back();
-      for (const int component : kContactDofs) dofs.push_back(index_[at(first + component)]);
+      for (const int component : kContactDofs) dofs.push_back(free_.unknown(first + component));
     }
   }
-  assembler_ = beam::SparseAssembler(unknowns_, std::move(lists));
+  assembler_ = beam::SparseAssembler(size(), std::move(lists));
 
   // Forces are measured against the largest load, moments against that load on a mean element
   // length.
@@ -116,54 +91,23 @@ StaticProblem::StaticProblem(const StaticInput& input)
 }
 
 Vector StaticProblem::expand(const Vector& x) const {
-  Vector full = Vector::Zero(static_cast<int>(index_.size()));
-  for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0) full(static_cast<int>(i)) = x(index_[i]);
+  Vector full = Vector::Zero(kDofs * input_.nodes);
+  free_.put(x, full);
   return full;
 }
 
-Vector StaticProblem::restrict(const Vector& full) const {
-  Vector x(unknowns_);
-  for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0) x(index_[i]) = full(static_cast<int>(i));
-  return x;
-}
-
-beam::Vector12 StaticProblem::motion(int element, const Vector& full) const {
-  const beam::Vector12 d = full.segment<12>(kDofs * element);
-  return input_.kinks.empty() ? d : beam::Vector12(d + input_.kinks[at(element)]);
-}
-
-double StaticProblem::axialForce(int element, const Vector& full) const {
-  const StaticElement& e = input_.elements[at(element)];
-  return e.pretension + axialStiffness_[at(element)] *
-                            (e.rotation.row(8) - e.rotation.row(2)).dot(motion(element, full));
-}
-
-double StaticProblem::torque(int element, const Vector& full) const {
-  const StaticElement& e = input_.elements[at(element)];
-  return torsionalStiffness_[at(element)] *
-         (e.rotation.row(11) - e.rotation.row(5)).dot(motion(element, full));
-}
-
 beam::Matrix12 StaticProblem::geometricStiffness(int element, const Vector& full) const {
-  if (!switches_.geometricStiffness) return beam::Matrix12::Zero();
-  return axialForce(element, full) * unitAxial_[at(element)] +
-         torque(element, full) * unitTorque_[at(element)];
+  return switches_.geometricStiffness ? elements_.geometricStiffness(element, full)
+                                      : beam::Matrix12(beam::Matrix12::Zero());
 }
 
-contact::StaticContact::Options StaticProblem::contactOptions() const {
+contact::StaticContact::Options StaticProblem::contactOptions(Nodes nodes) const {
   contact::StaticContact::Options options;
   options.lambda = switches_.lambda;
   options.frictionScale = switches_.frictionScale;
   options.stiffnessScale = switches_.stiffnessScale;
   options.pull = switches_.pull;
   options.sliding = input_.sliding;
-  return options;
-}
-
-contact::StaticContact::Options StaticProblem::contactOptions(Nodes nodes) const {
-  auto options = contactOptions();
   if (pointsBefore_.empty()) return options;
   options.first = pointsBefore_[at(nodes.begin)];
   options.last = pointsBefore_[at(nodes.end)];
@@ -184,14 +128,9 @@ void StaticProblem::contactForces(const Vector& full, Vector& forces, Vector& no
   normal.setZero(points);
   if (points == 0) return;
   const Vector uv = lateral(full);
-  input_.contact->evaluate(contactOptions(), uv.data(), forces.data());
-  input_.contact->normalForce(contactOptions(), uv.data(), normal.data());
-}
-
-std::vector<int> StaticProblem::firstOfNodes() const { return linalg::firstRows(nodeOf_); }
-
-StaticProblem::Nodes StaticProblem::nodesOf(RowRange rows) const {
-  return {nodeOf_[at(rows.begin)], nodeOf_[at(rows.end - 1)] + 1};
+  const auto options = contactOptions(allNodes());
+  input_.contact->evaluate(options, uv.data(), forces.data());
+  input_.contact->normalForce(options, uv.data(), normal.data());
 }
 
 void StaticProblem::residual(const Vector& x, Vector& r) const {
@@ -199,7 +138,7 @@ void StaticProblem::residual(const Vector& x, Vector& r) const {
 }
 
 void StaticProblem::residualRows(const Vector& x, RowRange rows, Vector& r) const {
-  r = restrict(unbalancedAt(nodesOf(rows), expand(x)));
+  r = restrict(unbalancedAt(free_.nodesOf(rows), expand(x)));
 }
 
 Vector StaticProblem::unbalanced(const Vector& full) const {
@@ -211,9 +150,8 @@ Vector StaticProblem::unbalancedAt(Nodes nodes, const Vector& full) const {
   if (switches_.pathReaction && input_.pathReaction.size() > 0) external += input_.pathReaction;
   Vector r = -external - pretension_;
   for (int e = firstElement(nodes); e < endElement(nodes); ++e) {
-    const beam::Vector12 d = motion(e, full);
-    const StaticElement& element = input_.elements[at(e)];
-    r.segment<12>(kDofs * e) += (element.stiffness + geometricStiffness(e, full)) * d;
+    r.segment<12>(kDofs * e) += (input_.elements[at(e)].stiffness + geometricStiffness(e, full)) *
+                                elements_.motion(e, full);
   }
   if (!touches()) return r;
   const auto options = contactOptions(nodes);
@@ -233,22 +171,16 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
 }
 
 void StaticProblem::jacobianRows(const Vector& x, RowRange rows, Sparse& jacobian) const {
-  jacobianAt(nodesOf(rows), x, jacobian);
+  jacobianAt(free_.nodesOf(rows), x, jacobian);
 }
 
 void StaticProblem::jacobianAt(Nodes nodes, const Vector& x, Sparse& jacobian) const {
   const Vector full = expand(x);
   assembler_.clear(jacobian);
   for (int e = firstElement(nodes); e < endElement(nodes); ++e) {
-    const StaticElement& element = input_.elements[at(e)];
-    const beam::Vector12 d = motion(e, full);
-    beam::Matrix12 k = element.stiffness + geometricStiffness(e, full);
-    if (switches_.geometricStiffness && switches_.exactJacobian) {
-      // dK_gpo/dD D: F_apo and T_apo change with D
-      const beam::Matrix12& r = element.rotation;
-      k += axialStiffness_[at(e)] * (unitAxial_[at(e)] * d) * (r.row(8) - r.row(2));
-      k += torsionalStiffness_[at(e)] * (unitTorque_[at(e)] * d) * (r.row(11) - r.row(5));
-    }
+    beam::Matrix12 k = input_.elements[at(e)].stiffness + geometricStiffness(e, full);
+    if (switches_.geometricStiffness && switches_.exactJacobian)
+      k += elements_.geometricTangent(e, full);
     assembler_.add(e, k, jacobian);
   }
   if (!touches()) return;
@@ -262,24 +194,21 @@ void StaticProblem::jacobianAt(Nodes nodes, const Vector& x, Sparse& jacobian) c
     Eigen::Matrix<double, n, n> k = Eigen::Matrix<double, n, n>::Zero();
     k.leftCols<2>() = -Eigen::Map<const Eigen::Matrix<double, n, 2, Eigen::RowMajor>>(
         tangents.data() + 2 * n * p);
-    assembler_.add(static_cast<int>(input_.elements.size()) + p, k, jacobian);
+    assembler_.add(elements_.size() + p, k, jacobian);
   }
 }
 
 Vector StaticProblem::residualScale() const {
-  Vector scale(unknowns_);
-  for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0)
-      scale(index_[i]) = 1.0 / (static_cast<int>(i) % kDofs < 3 ? forceScale_ : momentScale_);
+  Vector scale(size());
+  for (int i = 0; i < size(); ++i) scale(i) = 1.0 / (isForce(i) ? forceScale_ : momentScale_);
   return scale;
 }
 
 double StaticProblem::stepLimit(const Vector& /*x*/, const Vector& dx) const {
   if (switches_.lateralStepLimit <= 0.0) return 1.0;
   double largest = 0.0;
-  for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0 && static_cast<int>(i) % kDofs < 2)
-      largest = std::max(largest, std::abs(dx(index_[i])));
+  for (int i = 0; i < size(); ++i)
+    if (isLateral(i)) largest = std::max(largest, std::abs(dx(i)));
   return largest > switches_.lateralStepLimit ? switches_.lateralStepLimit / largest : 1.0;
 }
 
@@ -288,8 +217,8 @@ Vector StaticProblem::moved(const Vector& x, const Vector& dx, double s) const {
   if (!touches() || !switches_.slideAlongWall) return there;
   const contact::ContactPoints& points = input_.contact->points();
   for (std::size_t p = 0; p < points.node.size(); ++p) {
-    const std::size_t dof = at(kDofs * (points.node[p] - 1));
-    const int u = index_[dof], v = index_[dof + 1];
+    const int dof = kDofs * (points.node[p] - 1);
+    const int u = free_.unknown(dof), v = free_.unknown(dof + 1);
     if (u < 0 || v < 0) continue;
     const Eigen::Vector2d offset = input_.contact->offset(static_cast<int>(p));
     const Eigen::Vector2d from = Eigen::Vector2d(x(u), x(v)) + offset;
@@ -306,16 +235,16 @@ Vector StaticProblem::moved(const Vector& x, const Vector& dx, double s) const {
 
 std::vector<int> StaticProblem::lateralUnknowns() const {
   std::vector<int> lateral;
-  for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0 && static_cast<int>(i) % kDofs < 2) lateral.push_back(index_[i]);
+  for (int i = 0; i < size(); ++i)
+    if (isLateral(i)) lateral.push_back(i);
   return lateral;
 }
 
 std::string StaticProblem::unknownName(int i) const {
   static constexpr std::array<const char*, kDofs> names{"u",       "v",       "w",
                                                         "theta_x", "theta_y", "theta_z"};
-  const auto dof = static_cast<int>(std::find(index_.begin(), index_.end(), i) - index_.begin());
-  return std::string(names[at(dof % kDofs)]) + " of node " + std::to_string(dof / kDofs + 1);
+  return std::string(names[at(free_.component(i))]) + " of node " +
+         std::to_string(free_.node(i) + 1);
 }
 
 }  // namespace tooljoint::equilibrium

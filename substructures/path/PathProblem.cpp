@@ -6,31 +6,34 @@
 #include <utility>
 
 #include "common/Index.hpp"
-#include "linalg/chains/ChainShare.hpp"
 #include "substructures/beam/Rotation.hpp"
 
 namespace tooljoint::path {
+namespace {
+
+/// 1 for the dofs `held`, and for the rotations (along a curve depths too) that no element has.
+std::vector<char> heldDofs(const PathInput& input, int translations, const std::vector<int>& held) {
+  const int perNode = translations + 3;
+  const std::vector<beam::DofMap> present = beam::nodalDofs(input.elements);
+  std::vector<char> flags(present.size() * at(perNode), 0);
+  for (const int dof : held) flags[at(dof)] = 1;
+  for (int node = 0; node < sizeOf(present); ++node) {
+    if (translations == 1 && !present[at(node)][2]) flags[at(node * perNode)] = 1;
+    for (int axis = 0; axis < 3; ++axis)
+      if (!present[at(node)][at(3 + axis)]) flags[at(node * perNode + translations + axis)] = 1;
+  }
+  return flags;
+}
+
+}  // namespace
+
 PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
                          std::vector<Matrix3> reference, const std::vector<int>& held)
     : translations_(translations),
       state_(std::move(state)),
       reference_(std::move(reference)),
-      elements_(input.elements) {
-  const int perNode = dofsPerNode();
-  index_.assign(at(nodes() * perNode), 0);
-  for (const int dof : held) index_[at(dof)] = -1;
-  const std::vector<beam::DofMap> present = beam::nodalDofs(elements_);
-  for (int node = 0; node < nodes(); ++node) {
-    if (translations == 1 && !present[at(node)][2]) index_[at(node * perNode)] = -1;
-    for (int axis = 0; axis < 3; ++axis)
-      if (!present[at(node)][at(3 + axis)]) index_[at(node * perNode + translations + axis)] = -1;
-  }
-  for (std::size_t dof = 0; dof < index_.size(); ++dof)
-    if (index_[dof] >= 0) {
-      index_[dof] = unknowns_++;
-      nodeOf_.push_back(static_cast<int>(dof) / perNode);
-    }
-
+      elements_(input.elements),
+      free_(dofsPerNode(), heldDofs(input, translations, held)) {
   std::vector<std::vector<int>> lists;
   double rigidity = 0.0;
   double stretch = 0.0;
@@ -41,10 +44,9 @@ PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
                         section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()));
     stretch = std::max(stretch, section.axialRigidity() / elements_[e]->length());
     length += elements_[e]->length();
-    const auto first = index_.begin() + static_cast<std::ptrdiff_t>(e) * perNode;
-    lists.emplace_back(first, first + 2 * perNode);
+    lists.push_back(free_.ofElement(static_cast<int>(e)));
   }
-  assembler_ = beam::SparseAssembler(unknowns_, std::move(lists));
+  assembler_ = beam::SparseAssembler(size(), std::move(lists));
   // Forces are measured against E I/l^2 and, since positions carry the rounding of the whole depth
   // L, against a millionth of (E S/l) L; moments against E I/l.
   const double mean = length / static_cast<double>(elements_.size());
@@ -52,17 +54,9 @@ PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
   momentScale_ = rigidity / mean;
 }
 
-Vector PathProblem::start() const {
-  Vector x(unknowns_);
-  for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0) x(index_[i]) = state_(static_cast<int>(i));
-  return x;
-}
-
 Vector PathProblem::expand(const Vector& x) const {
   Vector state = state_;
-  for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0) state(static_cast<int>(i)) = x(index_[i]);
+  free_.put(x, state);
   return state;
 }
 
@@ -136,11 +130,9 @@ Matrix PathProblem::nodalForces(const Vector& x) const {
   return f;
 }
 
-std::vector<int> PathProblem::firstOfNodes() const { return linalg::firstRows(nodeOf_); }
-
 PathProblem::Elements PathProblem::elementsOf(RowRange rows) const {
-  const int first = nodeOf_[at(rows.begin)], last = nodeOf_[at(rows.end - 1)];
-  return {std::max(0, first - 1), std::min(last + 1, sizeOf(elements_))};
+  const auto nodes = free_.nodesOf(rows);
+  return {std::max(0, nodes.begin - 1), std::min(nodes.end, sizeOf(elements_))};
 }
 
 void PathProblem::residual(const Vector& x, Vector& r) const { residualOf(allElements(), x, r); }
@@ -152,7 +144,7 @@ void PathProblem::residualRows(const Vector& x, RowRange rows, Vector& r) const 
 void PathProblem::residualOf(Elements which, const Vector& x, Vector& r) const {
   const Vector state = expand(x);
   const auto elementResponses = evaluate(state, false, which);
-  r = Vector::Zero(unknowns_);
+  r = Vector::Zero(size());
   const int perNode = dofsPerNode();
   Vector local(2 * perNode);
   for (int e = which.begin; e < which.end; ++e) {
@@ -199,22 +191,19 @@ void PathProblem::jacobianOf(Elements which, const Vector& x, Sparse& jacobian) 
 }
 
 Vector PathProblem::residualScale() const {
-  Vector scale(unknowns_);
-  for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0)
-      scale(index_[i]) =
-          1.0 / (static_cast<int>(i) % dofsPerNode() < translations_ ? forceScale_ : momentScale_);
+  Vector scale(size());
+  for (int i = 0; i < size(); ++i)
+    scale(i) = 1.0 / (free_.component(i) < translations_ ? forceScale_ : momentScale_);
   constrainScale(scale);
   return scale;
 }
 
 std::string PathProblem::unknownName(int i) const {
-  const auto dof = static_cast<int>(std::find(index_.begin(), index_.end(), i) - index_.begin());
   static const char* const alongCurve[] = {"depth", "theta_x", "theta_y", "theta_z"};
   static const char* const inSpace[] = {"X", "Y", "Z", "theta_x", "theta_y", "theta_z"};
-  const int component = dof % dofsPerNode();
+  const int component = free_.component(i);
   return std::string(translations_ == 1 ? alongCurve[component] : inSpace[component]) +
-         " of node " + std::to_string(dof / dofsPerNode() + 1);
+         " of node " + std::to_string(free_.node(i) + 1);
 }
 
 }  // namespace tooljoint::path

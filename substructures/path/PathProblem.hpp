@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/NonlinearProblem.hpp"
+#include "substructures/beam/FreeDofs.hpp"
 #include "substructures/beam/SparseAssembler.hpp"
 #include "substructures/path/Path.hpp"
 
@@ -26,10 +27,10 @@ struct NodePose {
 /// the translations, and the internal moments in reference axes.
 class PathProblem : public model::ChainProblem {
  public:
-  int size() const override { return unknowns_; }
+  int size() const override { return free_.size(); }
   void residual(const Vector& x, Vector& r) const override;
   void jacobian(const Vector& x, Sparse& jacobian) const override;
-  std::vector<int> firstOfNodes() const override;
+  std::vector<int> firstOfNodes() const override { return free_.firstOfNodes(); }
   void residualRows(const Vector& x, RowRange rows, Vector& r) const override;
   void jacobianRows(const Vector& x, RowRange rows, Sparse& jacobian) const override;
   Vector residualScale() const override;
@@ -37,7 +38,7 @@ class PathProblem : public model::ChainProblem {
 
   int nodes() const { return static_cast<int>(reference_.size()); }
   /// Unknowns of the state the problem was built in (or last accepted).
-  Vector start() const;
+  Vector start() const { return free_.restrict(state_); }
   std::vector<NodePose> poses(const Vector& x) const;
   std::vector<beam::CorotationalResponse> responses(const Vector& x, bool withTangent) const;
   /// Internal forces and moments of all nodes in global axes, 6 x nodes [N, N m].
@@ -51,9 +52,7 @@ class PathProblem : public model::ChainProblem {
               std::vector<Matrix3> reference, const std::vector<int>& held);
 
   int dofsPerNode() const { return translations_ + 3; }
-  int unknownOf(int node, int dof) const {
-    return index_[static_cast<std::size_t>(node * dofsPerNode() + dof)];
-  }
+  int unknownOf(int node, int dof) const { return free_.unknown(node * dofsPerNode() + dof); }
   /// All dofs of all nodes, the held ones too.
   Vector expand(const Vector& x) const;
   /// Makes the state x the new reference: its triads become the reference triads, the rotation
@@ -91,12 +90,10 @@ class PathProblem : public model::ChainProblem {
   void jacobianOf(Elements which, const Vector& x, Sparse& jacobian) const;
 
   int translations_;
-  int unknowns_ = 0;
   Vector state_;
   std::vector<Matrix3> reference_;
-  std::vector<int> index_;   ///< unknown of each dof, -1 when held
-  std::vector<int> nodeOf_;  ///< of each unknown
   std::vector<std::shared_ptr<const beam::Element>> elements_;
+  beam::FreeDofs free_;
   beam::SparseAssembler assembler_;
   double forceScale_ = 1.0;
   double momentScale_ = 1.0;

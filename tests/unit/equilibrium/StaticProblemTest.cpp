@@ -77,10 +77,10 @@ TEST(StaticProblem, AxialForceAndTorqueFollowTheStretchAndTheTwist) {
   const StaticProblem problem(scene.input);
   for (int e = 0; e < 3; ++e) {
     const auto s = section(static_cast<std::size_t>(e));
-    EXPECT_NEAR(problem.axialForce(e, scene.displacement), s.axialRigidity() * stretch(scene, e, 2),
-                1e-9 * s.axialRigidity());
-    EXPECT_NEAR(problem.torque(e, scene.displacement), s.torsionalRigidity() * stretch(scene, e, 5),
-                1e-9 * s.torsionalRigidity());
+    EXPECT_NEAR(problem.elements().axialForce(e, scene.displacement),
+                s.axialRigidity() * stretch(scene, e, 2), 1e-9 * s.axialRigidity());
+    EXPECT_NEAR(problem.elements().torque(e, scene.displacement),
+                s.torsionalRigidity() * stretch(scene, e, 5), 1e-9 * s.torsionalRigidity());
   }
 }
 
@@ -176,8 +176,8 @@ TEST(StaticProblem, PretensionIsAStretchThatTheNodesHaveAlready) {
   const Vector expected = whole.unbalanced(stretched);
   EXPECT_LT((from.unbalanced(scene.displacement) - expected).norm(), 1e-10 * expected.norm());
   for (int e = 0; e < 3; ++e)
-    EXPECT_NEAR(from.axialForce(e, scene.displacement), whole.axialForce(e, stretched),
-                1e-9 * section(0).axialRigidity());
+    EXPECT_NEAR(from.elements().axialForce(e, scene.displacement),
+                whole.elements().axialForce(e, stretched), 1e-9 * section(0).axialRigidity());
 }
 
 /// Forces count against the largest load, moments against that load on a mean element length.
@@ -231,9 +231,9 @@ TEST(StaticState, SumsUpItsElements) {
   const StaticState state = describe(scene.input, problem, scene.displacement);
   int compressed = 0;
   for (int e = 0; e < 3; ++e) {
-    EXPECT_EQ(state.axialForce(e), problem.axialForce(e, scene.displacement));
-    EXPECT_EQ(state.torque(e), problem.torque(e, scene.displacement));
-    compressed += problem.axialForce(e, scene.displacement) < 0.0 ? 1 : 0;
+    EXPECT_EQ(state.axialForce(e), problem.elements().axialForce(e, scene.displacement));
+    EXPECT_EQ(state.torque(e), problem.elements().torque(e, scene.displacement));
+    compressed += problem.elements().axialForce(e, scene.displacement) < 0.0 ? 1 : 0;
     EXPECT_EQ(state.geometricStiffness[static_cast<std::size_t>(e)],
               problem.geometricStiffness(e, scene.displacement));
   }
