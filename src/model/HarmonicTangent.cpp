@@ -11,26 +11,22 @@
 namespace tooljoint::model {
 namespace {
 
-using Rows =
-    Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 using RowsOut = Eigen::Map<Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 /// Tangents of all points of a law in its initial state at (d, v).
-struct Tangents {
-  Tangents(const StatefulPointLaw& law, double t, const Vector& d, const Vector& v) {
-    const auto points = at(law.size()), w = at(law.width()), r = at(law.rated());
-    std::vector<int> all(points);
-    std::iota(all.begin(), all.end(), 0);
-    std::vector<double> x(points * at(law.states())), f(points * w), g(points * r);
-    for (auto* own : {&fd, &fv}) own->assign(points * w * w, 0.0);
-    for (auto* own : {&fx, &gd, &gv}) own->assign(points * w * r, 0.0);
-    gx.assign(points * r * r, 0.0);
-    law.initialState(t, d.data(), v.data(), x.data());
-    law.forcesWithTangents(t, all, d.data(), v.data(), x.data(), f.data(), g.data(),
-                           {fd.data(), fv.data(), fx.data(), gd.data(), gv.data(), gx.data()});
-  }
-  std::vector<double> fd, fv, fx, gd, gv, gx;
-};
+StateTangentArrays tangentsAtStart(const StatefulPointLaw& law, double t, const Vector& d,
+                                   const Vector& v) {
+  const auto points = at(law.size());
+  std::vector<int> all(points);
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<double> x(points * at(law.states())), f(points * at(law.width())),
+      g(points * at(law.rated()));
+  StateTangentArrays tangents(law);
+  law.initialState(t, d.data(), v.data(), x.data());
+  law.forcesWithTangents(t, all, d.data(), v.data(), x.data(), f.data(), g.data(),
+                         tangents.write());
+  return tangents;
+}
 
 /// d and v of a set at the start of the motion.
 struct Place {
@@ -53,11 +49,12 @@ bool isUnknown(const StatefulPointLaw& law, double t, const Place& place) {
 
 bool moves(const StatefulPointLaw& law, double t, const Place& place) {
   const auto change = tangentByStates(law, t, place.d, place.v, lookedAt);
-  const Tangents held(law, t, place.d, place.v);
+  const auto held = tangentsAtStart(law, t, place.d, place.v);
   double largest = 0, whole = 0;
   for (const auto& entry : change) largest = std::max(largest, std::abs(entry));
-  for (const auto* part : {&held.fd, &held.fv})
-    for (const double entry : *part) whole = std::max(whole, std::abs(entry));
+  for (int p = 0; p < law.size(); ++p)
+    whole =
+        std::max({whole, held.of(p).fd.cwiseAbs().maxCoeff(), held.of(p).fv.cwiseAbs().maxCoeff()});
   return largest > rounding * whole;
 }
 
@@ -65,20 +62,20 @@ bool moves(const StatefulPointLaw& law, double t, const Place& place) {
 
 std::vector<Complex> tangentByStates(const StatefulPointLaw& law, double t, const Vector& d,
                                      const Vector& v, double omega) {
-  const Tangents all(law, t, d, v);
+  const auto all = tangentsAtStart(law, t, d, v);
   const int w = law.width(), r = law.rated();
   const Complex s(0.0, std::max(omega, slowestOmega));
   std::vector<Complex> change(at(law.size() * w * w));
   for (int p = 0; p < law.size(); ++p) {
     RowsOut sum(&change[at(p * w * w)], w, w);
     const auto held = law.heldFactor(t, s.imag(), p, d.data(), v.data());
-    sum = (held.value_or(1.0) - 1.0) * Rows(&all.fd[at(p * w * w)], w, w).cast<Complex>();
+    const auto own = all.of(p);
+    sum = (held.value_or(1.0) - 1.0) * own.fd.cast<Complex>();
     if (r == 0) continue;
-    ComplexMatrix follows = -Rows(&all.gx[at(p * r * r)], r, r).cast<Complex>();
+    ComplexMatrix follows = -own.gx.cast<Complex>();
     follows.diagonal().array() += s;
-    const ComplexMatrix moved = Rows(&all.gd[at(p * r * w)], r, w).cast<Complex>() +
-                                s * Rows(&all.gv[at(p * r * w)], r, w).cast<Complex>();
-    sum += Rows(&all.fx[at(p * w * r)], w, r).cast<Complex>() * follows.fullPivLu().solve(moved);
+    const ComplexMatrix moved = own.gd.cast<Complex>() + s * own.gv.cast<Complex>();
+    sum += own.fx.cast<Complex>() * follows.fullPivLu().solve(moved);
   }
   return change;
 }

@@ -19,8 +19,6 @@ namespace {
 constexpr int most = 3;  ///< coordinates of a law here
 constexpr int W = 4;     ///< of a node: u, v, w, theta_z
 using Map = Eigen::Matrix<double, Eigen::Dynamic, W, Eigen::RowMajor, most, W>;
-using Rows =
-    Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 using RowsOut = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 class PointLawInBore final : public model::StatefulPointLaw, public model::Turning {
@@ -31,10 +29,9 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
         law_(std::move(law)),
         with_(model::stateful(*law_)),
         speed_(std::move(speed)),
-        n_(law_->width()) {
+        n_(law_->width()),
+        tangents_(size(), n_, rated()) {
     for (auto* array : {&y_, &yDot_, &force_}) array->assign(at(size() * n_), 0.0);
-    for (auto* array : {&fd_, &fv_}) array->assign(at(size() * n_ * n_), 0.0);
-    for (auto* array : {&fx_, &gd_, &gv_}) array->assign(at(size() * n_ * rated()), 0.0);
     rates_.assign(at(size() * rated()), 0.0);
     all_.resize(at(size()));
     std::iota(all_.begin(), all_.end(), 0);
@@ -69,19 +66,18 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
                           const double* v, const double* x, double* f, double* g,
                           const model::StateTangents& tangents) const override {
     place(t, points, d, v);
+    model::StateTangents own = tangents_.write();
+    own.gx = tangents.gx;
     if (with_ != nullptr)
-      with_->forcesWithTangents(
-          t, points, y_.data(), yDot_.data(), x, force_.data(), g,
-          {fd_.data(), fv_.data(), fx_.data(), gd_.data(), gv_.data(), tangents.gx});
+      with_->forcesWithTangents(t, points, y_.data(), yDot_.data(), x, force_.data(), g, own);
     else
-      law_->evaluateWithTangent(t, points, y_.data(), yDot_.data(), force_.data(), fd_.data(),
-                                fv_.data());
+      law_->evaluateWithTangent(t, points, y_.data(), yDot_.data(), force_.data(), own.fd, own.fv);
     const int r = rated();
     for (int p : points) {
       const auto where = kinematics(p, d, v);
       const Map J = jacobian(p, where), byD = placeSlope(where),
                 rateByD = rateSlope(where, v + W * p);
-      const Rows fd(&fd_[at(p * n_ * n_)], n_, n_), fv(&fv_[at(p * n_ * n_)], n_, n_);
+      const auto [fd, fv, fx, gd, gv, gx] = tangents_.of(p);
       const double* force = &force_[at(n_ * p)];
       Eigen::Map<Eigen::Vector4d>(f + W * p).noalias() =
           J.transpose() * Eigen::Map<const Vector>(force, n_);
@@ -90,8 +86,6 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
       dfdd = J.transpose().lazyProduct(Map(fd.lazyProduct(byD) + fv.lazyProduct(rateByD)));
       addTurning(where, force, dfdd);
       if (r == 0) continue;
-      const Rows fx(&fx_[at(p * n_ * r)], n_, r), gd(&gd_[at(p * n_ * r)], r, n_),
-          gv(&gv_[at(p * n_ * r)], r, n_);
       RowsOut(tangents.fx + p * W * r, W, r) = J.transpose().lazyProduct(fx);
       RowsOut(tangents.gd + p * W * r, r, W) = gd.lazyProduct(byD) + gv.lazyProduct(rateByD);
       RowsOut(tangents.gv + p * W * r, r, W) = gv.lazyProduct(J);
@@ -219,7 +213,8 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
   int n_;
   std::vector<int> all_;
   // of the law in one evaluation
-  mutable std::vector<double> y_, yDot_, force_, fd_, fv_, fx_, gd_, gv_, rates_;
+  mutable std::vector<double> y_, yDot_, force_, rates_;
+  mutable model::StateTangentArrays tangents_;
 };
 
 /// At rest in the initial state. What slides around has no velocity there: the friction of such a

@@ -8,6 +8,7 @@
 /// values, and a checkpoint holds them. A law is a constant function of them.
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 #include <optional>
 #include <vector>
@@ -83,6 +84,27 @@ class StatefulPointLaw : public PointLaw {
               const double* v) const final;
   void record(double t, const double* d, const double* v, double* out) const final;
   void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override;
+};
+
+/// Tangents of all points of a law.
+class StateTangentArrays {
+ public:
+  StateTangentArrays(int points, int width, int rated);
+  explicit StateTangentArrays(const StatefulPointLaw& law)
+      : StateTangentArrays(law.size(), law.width(), law.rated()) {}
+
+  using Rows =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  struct OfPoint {
+    Rows fd, fv, fx, gd, gv, gx;
+  };
+  OfPoint of(int point) const;
+  /// Where a law writes them.
+  StateTangents write();
+
+ private:
+  int width_, rated_;
+  std::vector<double> fd_, fv_, fx_, gd_, gv_, gx_;
 };
 
 /// The law as one with states; null for a law without.

@@ -24,6 +24,22 @@ constexpr int mostLooks = 200;
 constexpr double touching = 1e-9;
 /// A vector of this length, beside those before, has no direction of its own.
 constexpr double negligibleResidual = 1e-12;
+/// Newton's method for a rate ends when it changes by less than this part of it, after at most so
+/// many iterations.
+constexpr double rateTolerance = 1e-9;
+constexpr int mostRateIterations = 100;
+
+/// The largest root of r^3 = g r^2 + k r + c, none of them negative: by Newton's method from above,
+/// where it falls steadily.
+double largestRoot(double g, double k, double c) {
+  double r = g + std::sqrt(k) + std::cbrt(c);
+  for (int i = 0; r > 0.0 && i < mostRateIterations; ++i) {
+    const double step = (((r - g) * r - k) * r - c) / ((3.0 * r - 2.0 * g) * r - k);
+    r -= step;
+    if (!(step > rateTolerance * r)) break;
+  }
+  return r;
+}
 
 }  // namespace
 
@@ -45,7 +61,11 @@ LargestRate::Rates LargestRate::operator()(const State& state, double end) {
     y.setZero();
     subtractPoints(&Tangents::position, x, y);
   });
-  return {0.5 * g + std::sqrt(0.25 * g * g + k), std::sqrt(contact)};
+  const double c = norm([this](const Vector& x, Vector& y) {
+    y.setZero();
+    subtractPoints(&Tangents::state, x, y);
+  });
+  return {largestRoot(g, k, c) + ofStates_, std::sqrt(contact)};
 }
 
 /// The value of each law where it is largest in size.
@@ -65,10 +85,12 @@ std::vector<double> LargestRate::largestLaws(double begin, double end) const {
 void LargestRate::evaluatePoints(const State& state) {
   model_.bindStates(state.x.data());
   tangents_.clear();
+  ofStates_ = 0;
   for (auto& batch : model_.points()) {
     const int w = batch.width();
     const std::size_t entries = at(batch.points() * w) * at(w);
-    tangents_.push_back({std::vector<double>(entries, 0.0), std::vector<double>(entries, 0.0)});
+    const std::vector<double> none(entries, 0.0);
+    tangents_.push_back({none, none, none});
     batch.gatherAll(state.q.data(), state.v.data());
     const Vector start = Eigen::Map<const Vector>(batch.d(), batch.points() * w);
     Vector d = start;
@@ -112,6 +134,16 @@ void LargestRate::evaluate(PointBatch& batch, int point, double t, const Vector&
   velocity_.resize(w, w);
   batch.evaluateOne(t, point, d.data() + point * w, batch.v() + point * w, force_.data(),
                     position_.data(), velocity_.data());
+  state_.setZero(w, w);
+  if (batch.states() != nullptr && batch.states()->rated() > 0) addStates(*batch.states(), point);
+}
+
+/// What states do to the tangents of the last evaluation.
+void LargestRate::addStates(const PointStates& states, int point) {
+  const auto tangents = states.tangentsOf(point);
+  position_ += tangents.fx * tangents.gv;
+  state_ = tangents.fx * tangents.gd;
+  ofStates_ = std::max(ofStates_, Matrix(tangents.gx).norm());
 }
 
 /// Friction grows with the force, which a wall met on the way does not tell: of df/dv the part
@@ -131,6 +163,7 @@ void LargestRate::takeLarger(int point, Tangents& tangents) const {
   };
   take(position_, tangents.position);
   take(velocity_, tangents.velocity);
+  take(state_, tangents.state);
 }
 
 /// y -= R' J R x

@@ -8,6 +8,12 @@
 /// Norms rather than eigenvalues: they hold for unsymmetric matrices too (torque, gyroscopic and
 /// Coriolis terms, friction), and laws of time take part with their largest size. Points of a wall
 /// take part as if they touched it; sqrt(k) of their stiffness alone is the rate of an impact.
+///
+/// States x' = g(d, v, x) of points, on which their forces f depend, add df/dx dg/dv to K and
+///
+///     |lambda|^3 <= g |lambda|^2 + k |lambda| + c,   c = |M^-1 df/dx dg/dd|_M,
+///
+/// as if they did not act on themselves; the largest |dg/dx| is added to that |lambda|.
 #pragma once
 
 #include <vector>
@@ -33,11 +39,13 @@ class LargestRate {
   /// Tangents of all points of a batch, width x width each, row-major.
   struct Tangents {
     std::vector<double> position, velocity;
+    std::vector<double> state;  ///< df/dx dg/dd
   };
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   void evaluatePoints(const State& state);
   bool goToWall(const PointBatch& batch, int point, int coordinate, double way, Vector& d);
   void evaluate(PointBatch& batch, int point, double t, const Vector& d);
+  void addStates(const PointStates& states, int point);
   void keepNormalDamping();
   void takeLarger(int point, Tangents& tangents) const;
   void subtractPoints(std::vector<double> Tangents::*which, const Vector& x, Vector& y) const;
@@ -50,7 +58,8 @@ class LargestRate {
   std::vector<Tangents> tangents_;  ///< per batch
   Vector gap_;                      ///< clearances of a batch
   Vector force_;                    ///< of one point, with its tangents
-  Square position_, velocity_;
+  Square position_, velocity_, state_;
+  double ofStates_ = 0;  ///< largest |dg/dx| [1/s]
 };
 
 }  // namespace tooljoint::transient

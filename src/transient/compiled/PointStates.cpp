@@ -11,8 +11,7 @@
 namespace tooljoint::transient {
 namespace {
 
-using Rows =
-    Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+using Rows = model::StateTangentArrays::Rows;
 
 }  // namespace
 
@@ -22,15 +21,13 @@ PointStates::PointStates(const model::StatefulPointLaw& law)
       width_(law.width()),
       states_(law.states()),
       rated_(law.rated()),
+      tangents_(law),
       factorised_(rated_) {
   x_.assign(at(points_ * states_), 0.0);
   still_ = x_;
   base_ = still_.data();
   g_.assign(at(points_ * rated_), 0.0);
   f_.assign(at(points_ * width_), 0.0);
-  for (auto* array : {&fd_, &fv_}) array->assign(at(points_ * width_ * width_), 0.0);
-  for (auto* array : {&fx_, &gd_, &gv_}) array->assign(at(points_ * width_ * rated_), 0.0);
-  gx_.assign(at(points_ * rated_ * rated_), 0.0);
   one_.assign(1, 0);
   jacobian_.setZero(rated_, rated_);
   right_.setZero(rated_, width_);
@@ -52,13 +49,9 @@ void PointStates::bindKnown(const double* x, double factor) {
   known_ = true;
 }
 
-model::StateTangents PointStates::tangents() {
-  return {fd_.data(), fv_.data(), fx_.data(), gd_.data(), gv_.data(), gx_.data()};
-}
-
 /// I - factor dg/dx
 void PointStates::setJacobian(int point, double factor) {
-  jacobian_ = -factor * Rows(&gx_[at(point * rated_ * rated_)], rated_, rated_);
+  jacobian_ = -factor * tangentsOf(point).gx;
   jacobian_.diagonal().array() += 1.0;
   factorised_.compute(jacobian_);
 }
@@ -70,7 +63,7 @@ bool PointStates::solve(double t, int point, const double* d, const double* v) {
   double* x = &x_[at(point * states_)];
   const double* base = base_ + point * states_;
   for (int iteration = 0; iteration < Tuned::mostPointIterations; ++iteration) {
-    law_->forcesWithTangents(t, one_, d, v, x_.data(), f_.data(), g_.data(), tangents());
+    law_->forcesWithTangents(t, one_, d, v, x_.data(), f_.data(), g_.data(), tangents_.write());
     setJacobian(point, factor_);
     double size = 0, update = 0;
     for (int i = 0; i < rated_; ++i)
@@ -101,25 +94,25 @@ void PointStates::evaluate(double t, const std::vector<int>& points, const doubl
 void PointStates::evaluateWithTangent(double t, const std::vector<int>& points, const double* d,
                                       const double* v, double* f, double* dfdd, double* dfdv) {
   evaluate(t, points, d, v, f);
-  law_->forcesWithTangents(t, points, d, v, x_.data(), f_.data(), g_.data(), tangents());
+  law_->forcesWithTangents(t, points, d, v, x_.data(), f_.data(), g_.data(), tangents_.write());
   const bool follows = factor_ != 0.0 && rated_ > 0;
   const int entries = width_ * width_;
   for (int p : points) {
-    std::copy_n(&fd_[at(p * entries)], entries, dfdd + p * entries);
-    std::copy_n(&fv_[at(p * entries)], entries, dfdv + p * entries);
+    const auto own = tangentsOf(p);
+    std::copy_n(own.fd.data(), entries, dfdd + p * entries);
+    std::copy_n(own.fv.data(), entries, dfdv + p * entries);
     if (!follows) continue;
     setJacobian(p, factor_);
-    const Rows fx(&fx_[at(p * width_ * rated_)], width_, rated_);
-    const auto add = [&](const std::vector<double>& by, double* tangent) {
-      right_ = factor_ * Rows(&by[at(p * width_ * rated_)], rated_, width_);
+    const auto add = [&](const Rows& by, double* tangent) {
+      right_ = factor_ * by;
       slope_ = factorised_.solve(right_);
       for (int i = 0; i < width_; ++i)
         for (int j = 0; j < width_; ++j)
           for (int k = 0; k < rated_; ++k)
-            tangent[p * entries + i * width_ + j] += fx(i, k) * slope_(k, j);
+            tangent[p * entries + i * width_ + j] += own.fx(i, k) * slope_(k, j);
     };
-    add(gd_, dfdd);
-    add(gv_, dfdv);
+    add(own.gd, dfdd);
+    add(own.gv, dfdv);
   }
 }
 
@@ -132,8 +125,7 @@ void PointStates::forceOf(double factor, const double* r, double* rows) {
   for (int p = 0; p < points_ && rated_ > 0; ++p) {
     setJacobian(p, factor);
     step_ = factorised_.solve(Eigen::Map<const Vector>(r + p * rated_, rated_));
-    Eigen::Map<Vector>(rows + p * width_, width_).noalias() =
-        Rows(&fx_[at(p * width_ * rated_)], width_, rated_) * step_;
+    Eigen::Map<Vector>(rows + p * width_, width_).noalias() = tangentsOf(p).fx * step_;
   }
 }
 
@@ -142,12 +134,12 @@ void PointStates::follow(double factor, const double* d, const double* v, double
     setJacobian(p, factor);
     Eigen::Map<Vector> mine(r + p * rated_, rated_);
     defect_ = mine;
-    const auto add = [&](const std::vector<double>& by, const double* rows) {
-      defect_.noalias() += factor * (Rows(&by[at(p * width_ * rated_)], rated_, width_) *
-                                     Eigen::Map<const Vector>(rows + p * width_, width_));
+    const auto own = tangentsOf(p);
+    const auto add = [&](const Rows& by, const double* rows) {
+      defect_.noalias() += factor * (by * Eigen::Map<const Vector>(rows + p * width_, width_));
     };
-    add(gd_, d);
-    add(gv_, v);
+    add(own.gd, d);
+    add(own.gv, v);
     mine = factorised_.solve(defect_);
   }
 }

@@ -64,9 +64,11 @@ class PointStates {
   }
   bool isRated(int state) const { return state % states_ < rated_; }
 
+  /// Those of the last evaluation with tangents.
+  model::StateTangentArrays::OfPoint tangentsOf(int point) const { return tangents_.of(point); }
+
  private:
   bool solve(double t, int point, const double* d, const double* v);
-  model::StateTangents tangents();
   void setJacobian(int point, double factor);
 
   const model::StatefulPointLaw* law_;
@@ -75,7 +77,8 @@ class PointStates {
   double factor_ = 0;
   bool known_ = true;  ///< x is base_
   const double* rate_ = nullptr;
-  std::vector<double> x_, g_, f_, fd_, fv_, fx_, gd_, gv_, gx_, still_;
+  std::vector<double> x_, g_, f_, still_;
+  model::StateTangentArrays tangents_;
   std::vector<int> one_;
   Matrix jacobian_, slope_, right_;
   Vector defect_, step_;

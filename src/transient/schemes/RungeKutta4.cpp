@@ -21,8 +21,8 @@ deck::ListSpec rungeKutta4Parameters() {
       .real("Safety", "", 0.9, deck::Range{0.0, 1.0, true, false},
             "Fraction of the limit taken as the step when Step is not given: of stability, 2.78 / "
             "lambda, where lambda bounds the rates of the model with gyroscopic, Coriolis and skew "
-            "terms at their largest and all contact closed, and of impacts, 0.5 over the rate of "
-            "the stiffest contact.");
+            "terms at their largest, states of point laws and all contact closed, and of impacts, "
+            "0.5 over the rate of the stiffest contact.");
 }
 
 class RungeKutta4 final : public FixedStepIntegrator {

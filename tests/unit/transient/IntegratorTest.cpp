@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
+#include "StatefulModels.hpp"
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "tests/support/ErrorText.hpp"
@@ -369,6 +370,19 @@ TEST(Integrators, theDefaultStepOfRungeKuttaKnowsSkewStiffness) {
   EXPECT_LE(report.counters.maxStep, 0.9 * 2.78 / bound);
   EXPECT_GT(report.counters.maxStep, 0.8 * 2.78 / bound);
   EXPECT_LT(std::abs(report.energy.residual()), 0.02);
+}
+
+/// A dashpot that relaxes in 10 us behind its spring: its state bounds the step, not the frequency
+/// of 20 1/s of the mass.
+TEST(Integrators, theDefaultStepOfRungeKuttaKnowsRatesOfStates) {
+  MaxwellMass mass;
+  mass.c = 1e-5 * mass.k;
+  Keep samples;
+  const auto report = integrate(mass.model(), options("RK4", 1.0, 0, 0.1), samples);
+  const double relaxation = mass.k / mass.c;
+  EXPECT_LE(report.counters.maxStep, 0.9 * 2.78 / relaxation);
+  EXPECT_GT(report.counters.maxStep, 0.8 * 2.78 / relaxation);
+  EXPECT_LT(largestError(samples, mass), 1e-9);
 }
 
 TEST(Integrators, explicitOnesRefuseADofWithoutMass) {
