@@ -44,6 +44,20 @@ def tip_motion(model, **parameters):
 
 
 class Motions(unittest.TestCase):
+    def test_a_start_outside_the_basis_is_warned_of(self):
+        def warned(start, **parameters):
+            left, right, _, _ = beams.halves(tj)
+            right.model.set_start(np.zeros(len(right)), start(right))
+            tj.synthesise([left, right], modes=4, **parameters)
+            return [sentence for sentence in tj.warnings() if "does not represent the initial state" in sentence]
+
+        def one_node(part):
+            return np.eye(len(part))[part.model.position(20, "v")]
+
+        self.assertIn("Start State Vectors", "".join(warned(one_node)))
+        self.assertEqual(warned(one_node, start_state_vectors=True), [])
+        self.assertEqual(warned(lambda part: np.zeros(len(part))), [])
+
     def test_python_law_is_the_law_in_cpp_and_that_of_scipy(self):
         parameters = dict(stiffness=LINEAR, damping=DAMPING)
         cpp = synthesis(tj.law("Spring", cubic_stiffness=CUBIC, **parameters), push)

@@ -35,15 +35,6 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
                       parts.size(), modes, reducedDofs, fullDofs, wall);
 }
 
-double startMisfit(const std::vector<reduction::ReducedSubstructure>& parts) {
-  double energy = 0.0, misfit = 0.0;
-  for (const auto& part : parts) {
-    energy += part.report.startEnergy;
-    misfit += part.report.startMisfit;
-  }
-  return energy > 0.0 ? misfit / energy : 0.0;
-}
-
 std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced) {
   const double ratio = reduced.total() / full.total();
   const std::string text = fmt::sprintf(

@@ -17,9 +17,6 @@ namespace tooljoint::cases {
 
 std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts,
                               int fullDofs, int reducedDofs, double wall);
-/// Energy of what the bases do not represent of the start of the motion over the energy of the
-/// start; 0 for a start at rest.
-double startMisfit(const std::vector<reduction::ReducedSubstructure>& parts);
 /// Predicted work of a step of both models, and which is faster.
 std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced);
 /// Assembly, joined dofs, and what the interface reduction kept of them.

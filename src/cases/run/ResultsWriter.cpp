@@ -6,6 +6,7 @@
 #include "cases/run/Report.hpp"
 #include "common/Text.hpp"
 #include "io/Csv.hpp"
+#include "reduction/project/StartMisfit.hpp"
 
 namespace tooljoint::cases {
 
@@ -52,7 +53,7 @@ namespace {
 
 void summariseParts(const std::vector<reduction::ReducedSubstructure>& parts,
                     const std::string& basis, int reducedDofs, double wall, io::Summary& summary) {
-  summary.set("reduction.start_misfit", startMisfit(parts));
+  summary.set("reduction.start_misfit", reduction::startMisfit(parts));
   summary.set("reduction.basis", basis);
   for (const auto& part : parts)
     summary.append("reduction.substructures", io::SummaryRow()

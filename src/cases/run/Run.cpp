@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/Run.hpp"
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "common/Version.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/Stopwatch.hpp"
+#include "reduction/project/StartMisfit.hpp"
 
 namespace tooljoint::cases {
 
@@ -42,19 +42,6 @@ class TeeSink : public transient::SampleSink {
   transient::SampleSink& first_;
   transient::SampleSink& second_;
 };
-
-/// Energy of the start that the bases may lose without a warning.
-constexpr double startLoss = 0.01;
-
-void warnOfStart(const std::vector<reduction::ReducedSubstructure>& parts) {
-  const double loss = startMisfit(parts);
-  if (loss > startLoss)
-    log::warn("The basis does not represent the initial state: the misfit has " +
-              formatNumber(std::round(1e3 * loss) / 10.0) +
-              " % of its kinetic and strain energy, so the initial state of the reduced motion "
-              "differs from that of the full motion. Set Reduction/Start State Vectors, keep more "
-              "modes, or retain the dofs that move.");
-}
 
 /// One run of one case into one folder.
 class Run {
@@ -112,7 +99,7 @@ class Run {
     for (const auto& remark : reduced_.coupled().remarks) log::warn(remark);
     if (!outcome.frequencies.empty())
       log::info(estimate::frequencyTable(outcome.frequencies, parts));
-    if (case_.moves()) warnOfStart(reduced_.parts());
+    if (case_.moves()) reduction::warnOfStart(reduced_.parts());
     auto& summary = files_.summary();
     summarise(reduced_, case_.reduction().get<std::string>("Basis"), wall, summary);
     if (case_.moves()) {

@@ -140,7 +140,11 @@ class DmigReader {
       double value = 0.0;
       if (!fortranNumber(fields[at + 2].text, true, value))
         failAt(fields[at + 2], "a finite real number with a decimal point, such as 1.5D+3");
-      if (!fields[at + 3].text.empty()) failAt(fields[at + 3], "a blank field: the matrix is real");
+      double imaginary = 0.0;
+      const auto& second = fields[at + 3];
+      if (!second.text.empty() &&
+          (!fortranNumber(second.text, true, imaginary) || imaginary != 0.0))
+        failAt(second, "a blank field or 0.0: the matrix is real");
       add(matrix, row, column, {value, fields[at].line, row < column, false});
     }
   }

@@ -76,7 +76,7 @@ std::string describe(const Findings& found, double span) {
   if (found.neighbour)
     text << ", and a disturbance of 0.1 % changes that by " << percent(found.neighbour->size);
   if (found.isUnknown())
-    text << "; contact rests on walls too stiff for the step, and steps of " << found.shorterStep
+    text << "; points rest on walls, or laws, too stiff for the step, and steps of " << found.shorterStep
          << " s "
          << (found.shorter ? "do not resolve it either" : "led to no motion to compare with");
   return text.str();

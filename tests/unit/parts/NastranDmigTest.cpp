@@ -90,7 +90,7 @@ TEST(NastranDmig, SmallFieldAndFreeFormat) {
   EXPECT_EQ(stiffness(PunchFile(withMass(symmetricHeader + small)).read()), expected);
   const std::string free =
       "dmig,KAAX,0,6,2\n"
-      "DMIG,KAAX,7,1,,7,1,6.E4,,+\n"
+      "DMIG,KAAX,7,1,,7,1,6.E4,0.0,+\n"
       "+,12,1,4.1D8\n"
       "DMIG*,KAAX,12,1,,*\n"
       "*,12,1,7.\n";
@@ -172,7 +172,7 @@ TEST(NastranDmig, NamesFaultsByLineAndField) {
   stiff("DMIG,KAAX,0,6,2\nDMIG,KAAX,7,1,,7,1,12\n")
       .expect("part.pch:7: field 8 is \"12\", expected a finite real number with a decimal point");
   stiff("DMIG,KAAX,0,6,2\nDMIG,KAAX,7,1,,7,1,1.0,2.0\n")
-      .expect("field 9 is \"2.0\", expected a blank field: the matrix is real");
+      .expect("field 9 is \"2.0\", expected a blank field or 0.0: the matrix is real");
   stiff("DMIG,KAAX,7,1,,7,1,1.0\n").expect("\"KAAX\", which has no header");
   stiff("DMIG,KAAX,0,6,2\nDMIG,KAAX,0,6,2\n")
       .expect("part.pch:7 is a second header of the matrix \"KAAX\"; the first is in line 6");
