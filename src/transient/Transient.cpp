@@ -20,10 +20,12 @@
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/Progress.hpp"
+#include "model/DofNames.hpp"
 #include "transient/ModelIdentity.hpp"
 #include "transient/Sampler.hpp"
 #include "transient/accuracy/LawResolution.hpp"
 #include "transient/ranks/MotionShare.hpp"
+#include "transient/verdict/EnergyVerdict.hpp"
 #include "transient/verdict/StepError.hpp"
 #include "transient/verdict/StepVerdict.hpp"
 
@@ -32,12 +34,6 @@ namespace {
 
 /// A displacement, rotation or modal coordinate beyond this is a run that has blown up.
 constexpr double blowUp = 1e6;
-/// Samples in a row with an energy balance that is wrong after which a run is refused, and of one
-/// that is open but makes no energy, the part of all samples they must be at least: at the start
-/// little energy has been exchanged.
-constexpr int sustained = 10;
-constexpr double sustainedPart = 0.1;
-
 /// Part of the integral of a law of time that fixed steps may miss without a warning.
 constexpr double unresolved = 0.01;
 
@@ -89,7 +85,8 @@ class Run {
         share_(shareOf(model, options, *integrator_)),
         model_(share_ ? CompiledModel(*share_) : CompiledModel(model)),
         sampler_(model_, options, sink, hooks.resume != nullptr ? hooks.resume->samples : 0,
-                 share_.get()) {
+                 share_.get()),
+        energy_(options_) {
     state_.resize(model_.size(), model_.stateSize());
     next_.resize(model_.size(), model_.stateSize());
   }
@@ -188,7 +185,8 @@ class Run {
   }
 
   /// Ranks with a memory of their own.
-  std::size_t shares() const { return share_ ? static_cast<std::size_t>(model_.cut().ranks()) : 0; }
+  std::size_t shares() const {
+    return share_ ? static_cast<std::size_t>(model_.cut().ranks()) : 0; }
 
   /// Of a motion that was divided otherwise: what the integrator and the points remember belongs to
   /// the ranks that wrote it, so the motion begins anew at the state.
@@ -207,7 +205,7 @@ class Run {
 
   void resume(const Checkpoint& point) {
     setState(point.state);
-    runawaySamples_ = point.runawaySamples;
+    energy_.wrongSamples = point.runawaySamples;
     const double* first = point.memory.data();
     const double* end = first + point.memory.size();
     if (share_) {
@@ -291,7 +289,7 @@ class Run {
     point.counters = integrator_->counters();
     point.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     point.samples = sampler_.count();
-    point.runawaySamples = runawaySamples_;
+    point.runawaySamples = energy_.wrongSamples;
     model_.save(point.memory);
     for (const auto& batch : model_.points()) batch.save(point.memory);
     integrator_->save(point.memory);
@@ -324,8 +322,10 @@ class Run {
       if (options_.ledger) ledger_.book(model_, next_);
       const long before = sampler_.count();
       sampler_.step(state_, next_);
-      if (options_.ledger && sampler_.count() > before && ledger_.isDue()) watchEnergy();
+      const bool refused = options_.ledger && sampler_.count() > before && ledger_.isDue() &&
+                           energy_.refuses(ledger_.look(model_, next_));
       std::swap(state_, next_);
+      if (refused) energy_.refuse(ledger_.account(model_, state_), state_.t, integrator_->advice());
       if (state_.t < options_.end && checkpointIntervals(state_.t) > intervals) {
         intervals = checkpointIntervals(state_.t);
         integrator_->forgetHistory();
@@ -335,7 +335,8 @@ class Run {
     }
     throwFailures();
     if (bar) bar->finish();
-    if (options_.ledger) judgeEnergy();
+    if (options_.ledger)
+      energy_.judge(ledger_.account(model_, state_), state_.t, integrator_->advice());
     judgeSteps();
     warnOfLaws();
     return false;
@@ -376,31 +377,6 @@ class Run {
         std::floor((t - options_.start) / options_.checkpointInterval * (1 + 1e-12) + 1e-9));
   }
 
-  /// More energy made than given, or a balance that is open by more than the deck may accept.
-  bool isWrong(const EnergyAccount& account) const {
-    return account.runaway() || std::abs(account.residual()) > options_.energyResidualLimit;
-  }
-
-  /// A start far from equilibrium may overshoot and is damped again, so that an open balance counts
-  /// only when it persists.
-  void watchEnergy() {
-    const auto& account = ledger_.look(model_, next_);
-    runawaySamples_ = isWrong(account) ? runawaySamples_ + 1 : 0;
-    if (runawaySamples_ < sustained) return;
-    const double all = (options_.end - options_.start) / options_.sampling;
-    if (!account.runaway() && runawaySamples_ < sustainedPart * all) return;
-    std::swap(state_, next_);
-    throw ConvergenceError(describeBalance(ledger_.account(model_, state_)));
-  }
-
-  /// At the end of the motion.
-  void judgeEnergy() {
-    const auto account = ledger_.account(model_, state_);
-    if (isWrong(account)) throw ConvergenceError(describeBalance(account));
-    if (std::abs(account.residual()) > options_.energyResidualWarning)
-      log::warn(describeBalance(account));
-  }
-
   /// Laws of time that change faster than steps of one length follow.
   void warnOfLaws() const {
     const Counters& c = integrator_->counters();
@@ -413,21 +389,6 @@ class Run {
                   formatNumber(std::round(1e3 * missed) / 10.0) + " % of its integral over time. " +
                   integrator_->advice() + ".");
     }
-  }
-
-  std::string describeBalance(const EnergyAccount& account) const {
-    const double made = -account.numerical();
-    std::ostringstream text;
-    text << "Energy " << (made > 0 ? "grew by " : "of ") << std::abs(made) << " J "
-         << (made > 0 ? "without work being done" : "was lost by the integration")
-         << " until t = " << state_.t << " s (" << 100.0 * std::abs(account.residual())
-         << " % of the energy exchanged, " << account.supplied << " J supplied): "
-         << (made > 0 ? "the integration is unstable" : "the steps are too large for the motion")
-         << ". "
-         << (made > 0 ? integrator_->advice()
-                      : "Reduce Transient/Step, or the tolerance of the integrator")
-         << ".";
-    return text.str();
   }
 
   /// \param rate simulated time over wall time
@@ -450,11 +411,11 @@ class Run {
   CompiledModel model_;
   Sampler sampler_;
   EnergyLedger ledger_;
+  EnergyVerdict energy_;
   std::optional<StepError> stepError_;  ///< of equal steps
   std::optional<double> judged_;        ///< what it comes to at the end
   State state_, next_;
   long evaluationsBefore_ = 0;
-  int runawaySamples_ = 0;
   std::string identity_;
   std::exception_ptr failure_;  ///< of a checkpoint on this rank
 };
@@ -466,7 +427,7 @@ void refuseForcesWithMass(const model::SecondOrderModel& model) {
     if (model.dofs[i].force != 0 && mass[static_cast<Eigen::Index>(i)] != 0.0)
       throw ModelError(
           "The motion of the model is unbounded: " +
-          model::describe(model.dofs[i], model.componentNames) +
+          model::dofName(model, static_cast<Eigen::Index>(i)) +
           " has the mass of the residual flexibility of the dual Craig-Bampton basis, which gives "
           "a negative eigenvalue. Such a model serves for frequencies only. For motion set "
           "\"Residual Mass\" of \"Dual Craig-Bampton\" to false, or choose \"Rubin\".");
@@ -475,11 +436,9 @@ void refuseForcesWithMass(const model::SecondOrderModel& model) {
 void refuseLoadsOnNothing(const model::SecondOrderModel& model) {
   const auto found = model.loadsOnNothing();
   if (found.empty()) return;
-  throw ModelError(
-      "A load acts on " +
-      model::describe(model.dofs[static_cast<std::size_t>(found.front())], model.componentNames) +
-      ", which has neither mass, damping nor stiffness: nothing determines its "
-      "motion. Give it one of these, fix it, or remove the load.");
+  throw ModelError("A load acts on " + model::dofName(model, found.front()) +
+                   ", which has neither mass, damping nor stiffness: nothing determines its "
+                   "motion. Give it one of these, fix it, or remove the load.");
 }
 
 }  // namespace

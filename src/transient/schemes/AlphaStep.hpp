@@ -10,6 +10,8 @@
 
 #include "transient/Integrator.hpp"
 #include "transient/compiled/MassFactor.hpp"
+#include "transient/schemes/AlphaCoefficients.hpp"
+#include "transient/schemes/ImpactAccelerations.hpp"
 #include "transient/schemes/ImplicitStep.hpp"
 
 namespace tooljoint::transient {
@@ -63,33 +65,22 @@ class AlphaStep {
   void restore(const double*& memory);
 
  private:
-  void setPhaseCorrection();
   void bind(const Vector& a);
   StepScheme scheme(double h) const;
   void predict(const State& from, State& to, double h);
   void bindStates(const State& from, double h);
   void completeStates(const State& from, State& to);
-  /// M^-1 R'f of the impacts of a step, times the scheme's factor: zero but in a few blocks.
-  struct Impacts {
-    Vector a;
-    std::vector<int> blocks;
-  };
   void complete(const State& from, State& to, double h);
-  void findImpacts();
-  void listBlocks(Impacts& impacts) const;
-  void clear(Impacts& impacts) const;
-  /// y += factor a where a is not zero.
-  void addImpacts(double factor, const Impacts& impacts, Vector& y) const;
+  void restoreHistory(const double*& history);
 
   Parameters parameters_;
-  double alphaM_, alphaF_, beta_, gamma_;
-  double filter_ = 0, phase_ = 0;  ///< s, k of the phase correction
+  AlphaCoefficients alpha_;
   CompiledModel* model_ = nullptr;
   ImplicitStep equation_;
   std::shared_ptr<MassFactor> mass_;
-  Vector A_, nextA_;               ///< algorithmic acceleration at t_n, t_{n+1}
-  Vector X_, nextX_, base_;        ///< the same for states of point laws; x_{n+1} without x'_{n+1}
-  Impacts impacts_, lastImpacts_;  ///< of the step under way and of the one before
+  Vector A_, nextA_;         ///< algorithmic acceleration at t_n, t_{n+1}
+  Vector X_, nextX_, base_;  ///< the same for states of point laws; x_{n+1} without x'_{n+1}
+  ImpactAccelerations impacts_, lastImpacts_;  ///< of the step under way and of the one before
   Vector error_;
   mutable Vector work_;
 };

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/verdict/EnergyVerdict.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "common/Error.hpp"
+#include "common/report/Log.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+/// Wrong samples in a row after which a run is refused, and of a balance that is open but makes no
+/// energy, the part of all samples they must be at least: at the start little energy has been
+/// exchanged.
+constexpr int sustained = 10;
+constexpr double sustainedPart = 0.1;
+
+std::string describe(const EnergyAccount& account, double t, const std::string& advice) {
+  const double made = -account.numerical();
+  std::ostringstream text;
+  text << "Energy " << (made > 0 ? "grew by " : "of ") << std::abs(made) << " J "
+       << (made > 0 ? "without work being done" : "was lost by the integration")
+       << " until t = " << t << " s (" << 100.0 * std::abs(account.residual())
+       << " % of the energy exchanged, " << account.supplied << " J supplied): "
+       << (made > 0 ? "the integration is unstable" : "the steps are too large for the motion")
+       << ". " << (made > 0 ? advice : "Reduce Transient/Step, or the tolerance of the integrator")
+       << ".";
+  return text.str();
+}
+
+}  // namespace
+
+bool EnergyVerdict::isWrong(const EnergyAccount& account) const {
+  return account.runaway() || std::abs(account.residual()) > options_.energyResidualLimit;
+}
+
+bool EnergyVerdict::refuses(const EnergyAccount& account) {
+  wrongSamples = isWrong(account) ? wrongSamples + 1 : 0;
+  if (wrongSamples < sustained) return false;
+  const double all = (options_.end - options_.start) / options_.sampling;
+  return account.runaway() || wrongSamples >= sustainedPart * all;
+}
+
+void EnergyVerdict::judge(const EnergyAccount& account, double t, const std::string& advice) const {
+  if (isWrong(account)) refuse(account, t, advice);
+  if (std::abs(account.residual()) > options_.energyResidualWarning)
+    log::warn(describe(account, t, advice));
+}
+
+void EnergyVerdict::refuse(const EnergyAccount& account, double t,
+                           const std::string& advice) const {
+  throw ConvergenceError(describe(account, t, advice));
+}
+
+}  // namespace tooljoint::transient
