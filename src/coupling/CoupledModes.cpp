@@ -7,6 +7,7 @@
 #include "common/report/StageTimes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
+#include "model/DofNames.hpp"
 #include "model/laws/Friction.hpp"
 #include "reduction/part/Partition.hpp"
 
@@ -42,9 +43,7 @@ linalg::EigenPairs lowestModes(const model::SecondOrderModel& model, int count) 
   const Sparse K = undampedStiffness(model);
   const Sparse M = reduction::symmetricPart(model.mass);
   linalg::EigenOptions options;
-  options.name = [&](int i) {
-    return model::describe(model.dofs[static_cast<std::size_t>(i)], model.componentNames);
-  };
+  options.name = model::namer(model);
   return linalg::hasSingularMass(M)
              ? linalg::semidefiniteModes(K, M, count < model.size() ? count : -1, options)
              : linalg::lowestModes(K, M, count, options);

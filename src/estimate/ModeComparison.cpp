@@ -146,7 +146,7 @@ ComplexMatrix recover(const model::SecondOrderModel& full,
   }
   for (std::size_t i = 0; i < found.size(); ++i)
     if (!found[i])
-      throw ModelError("The " + model::describe(full.dofs[i], full.componentNames) +
+      throw ModelError("The " + model::dofName(full, static_cast<Eigen::Index>(i)) +
                        " is not in any part. Full and coupled modes cannot be compared.");
   return out;
 }

@@ -7,6 +7,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
+#include "model/DofNames.hpp"
 
 namespace tooljoint::parts {
 
@@ -36,9 +37,7 @@ class Equilibrium : public model::NonlinearProblem {
       size = model_.pointForce(time_, model_.initialDisplacement, still_).cwiseAbs().maxCoeff();
     return Vector::Constant(model_.size(), size > 0.0 ? 1.0 / size : 1.0);
   }
-  std::string unknownName(int i) const override {
-    return model::describe(model_.dofs[static_cast<std::size_t>(i)], model_.componentNames);
-  }
+  std::string unknownName(int i) const override { return model::dofName(model_, i); }
 
  private:
   const model::SecondOrderModel& model_;

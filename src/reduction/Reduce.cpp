@@ -162,11 +162,10 @@ void refuseLostLoads(const model::Substructure& part) {
   const auto interior = part.interior();
   for (int i : loaded)
     if (std::binary_search(interior.begin(), interior.end(), i))
-      throw ModelError(
-          "Part \"" + part.name + "\": a load acts on " +
-          model::describe(part.model.dofs[static_cast<std::size_t>(i)], part.model.componentNames) +
-          ", an interior dof with neither mass nor stiffness, which no basis holds. "
-          "Retain or fix the dof, give it mass or stiffness, or remove the load.");
+      throw ModelError("Part \"" + part.name + "\": a load acts on " +
+                       model::dofName(part.model, i) +
+                       ", an interior dof with neither mass nor stiffness, which no basis holds. "
+                       "Retain or fix the dof, give it mass or stiffness, or remove the load.");
 }
 
 /// checkPart for the first of identical parts; of the others what may differ from it.

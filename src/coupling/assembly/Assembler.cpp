@@ -191,7 +191,8 @@ class Coupler {
       for (std::size_t k = 1; k < joint.places.size(); ++k)
         rows_.push_back({"joint of parts \"" + alignedParts_[at(joint.places.front().part)].name +
                              "\" and \"" + alignedParts_[at(joint.places[k].part)].name + "\" in " +
-                             model::describe(joint.label, labelled_.model.componentNames),
+                             model::describe(joint.label, labelled_.model.componentNames,
+                                             labelled_.model.nodeName),
                          {{column(joint.places[k]), 1.0}, {column(joint.places.front()), -1.0}},
                          0.0});
   }

@@ -49,7 +49,7 @@ class Labeller {
   int parts() const { return static_cast<int>(alignedParts_.size()); }
   int size() const { return static_cast<int>(out_.model.dofs.size()); }
   std::string describe(const DofLabel& label) const {
-    return model::describe(label, out_.model.componentNames);
+    return model::describe(label, out_.model.componentNames, out_.model.nodeName);
   }
   bool released(int p, int i) const { return rules_.released.count({p, i}) > 0; }
 
