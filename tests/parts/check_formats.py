@@ -8,6 +8,7 @@ fails leaves nothing behind.
 """
 import csv
 import pathlib
+import shutil
 import sys
 
 import h5py
@@ -93,7 +94,7 @@ def abaqus(K, M, labels, _):
 def harwell_boeing(K, M, labels, _):
     """Equations in another order than the labels."""
     folder = pathlib.Path("ansys")
-    folder.mkdir()
+    folder.mkdir(exist_ok=True)
     order = np.random.default_rng(5).permutation(len(K))
     names = "UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"
     for name, A in (("K", K), ("M", M)):
@@ -202,6 +203,7 @@ def failing_export(K, M, labels, positions):
     pathlib.Path("failing.xml").write_text((text[:at] + text[at:].replace("</ParameterList></ParameterList></ParameterList>", "</ParameterList>" + second + "</ParameterList></ParameterList>", 1)),
                                            encoding="utf-8")
     folder = pathlib.Path("failing")
+    shutil.rmtree(folder, ignore_errors=True)  # of an earlier run of this test
     folder.mkdir()
     (folder / "plate.dat").write_text("of an earlier export", encoding="utf-8")
     done = tooljoint("export", "failing.xml", "--format", "extptfm", "--output", "failing")
