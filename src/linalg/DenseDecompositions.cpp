@@ -4,7 +4,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Teuchos_LAPACK.hpp>
+#include <algorithm>
+#include <limits>
 
 namespace tooljoint::linalg {
 
@@ -20,13 +22,13 @@ SymmetricPairs pairsOf(const Solver& solver) {
   return pairs;
 }
 
-template <class Solver>
-SingularValues partsOf(const Solver& svd) {
-  SingularValues parts;
-  parts.values = svd.singularValues();
-  if (svd.computeU()) parts.U = svd.matrixU();
-  if (svd.computeV()) parts.V = svd.matrixV();
-  return parts;
+/// Columns of U or of V.
+Eigen::Index columnsOf(SingularVectors which, Eigen::Index full, Eigen::Index thin) {
+  return which == SingularVectors::Full ? full : which == SingularVectors::Thin ? thin : 0;
+}
+
+char jobOf(SingularVectors which) {
+  return which == SingularVectors::Full ? 'A' : which == SingularVectors::Thin ? 'S' : 'N';
 }
 
 }  // namespace
@@ -43,16 +45,36 @@ Vector symmetricValues(const Matrix& A) {
   return Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-SingularValues jacobiSvd(const Matrix& A, unsigned int parts) {
-  return partsOf(Eigen::JacobiSVD<Matrix>(A, parts));
+SingularValues singularValues(Matrix A, SingularVectors left, SingularVectors right) {
+  const Eigen::Index m = A.rows(), n = A.cols(), k = std::min(m, n);
+  SingularValues parts;
+  parts.U.setIdentity(m, columnsOf(left, m, k));
+  Matrix Vt = Matrix::Identity(columnsOf(right, n, k), n);
+  parts.values.setConstant(k, std::numeric_limits<double>::quiet_NaN());
+  if (k > 0 && A.allFinite()) {
+    const auto asInt = [](Eigen::Index i) { return std::max(1, static_cast<int>(i)); };
+    Vector found(k), work(1);
+    int info = 0;
+    const auto call = [&](int size) {
+      Teuchos::LAPACK<int, double>().GESVD(
+          jobOf(left), jobOf(right), asInt(m), asInt(n), A.data(), asInt(m), found.data(),
+          parts.U.data(), asInt(m), Vt.data(), asInt(Vt.rows()), work.data(), size, nullptr, &info);
+    };
+    call(-1);  // how much work it needs
+    work.resize(static_cast<Eigen::Index>(work[0]));
+    call(static_cast<int>(work.size()));
+    if (info == 0) parts.values = found;
+  }
+  parts.V = Vt.transpose();
+  return parts;
 }
 
-SingularValues divideAndConquerSvd(const Matrix& A, unsigned int parts) {
-  return partsOf(Eigen::BDCSVD<Matrix>(A, parts));
-}
-
+/// Those of [Re A, -Im A; Im A, Re A], each of which is there twice.
 Vector singularValues(const Eigen::MatrixXcd& A) {
-  return Eigen::JacobiSVD<Eigen::MatrixXcd>(A).singularValues();
+  Matrix both(2 * A.rows(), 2 * A.cols());
+  both << A.real(), -A.imag(), A.imag(), A.real();
+  const Vector twice = singularValues(both).values;
+  return twice(Eigen::seq(0, Eigen::last, 2));
 }
 
 DenseLu::DenseLu(const Matrix& A) : lu_(A) {}

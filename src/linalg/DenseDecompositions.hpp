@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Eigen's decompositions of dense matrices behind plain functions: each of them costs a source
-/// that instantiates it seconds of compile time.
+/// Decompositions of dense matrices behind plain functions: each of Eigen's costs a source that
+/// instantiates it seconds of compile time.
 #pragma once
 
 #include <Eigen/LU>
@@ -26,12 +26,13 @@ Vector symmetricValues(const Matrix& A);
 /// A = U diag(values) V', values decreasing.
 struct SingularValues {
   Vector values;
-  Matrix U, V;  ///< empty where they were not asked for
+  Matrix U, V;  ///< as many columns as were asked for
 };
-/// By Jacobi rotations. \param parts Eigen::ComputeThinU, ComputeFullU, ComputeThinV, ComputeFullV
-SingularValues jacobiSvd(const Matrix& A, unsigned int parts = 0);
-/// By divide and conquer, for large matrices.
-SingularValues divideAndConquerSvd(const Matrix& A, unsigned int parts);
+/// Thin: min(rows, columns) vectors; Full: a whole orthogonal matrix.
+enum class SingularVectors { None, Thin, Full };
+/// By LAPACK (GESVD). The values are NaN where A holds one, or the iteration does not converge.
+SingularValues singularValues(Matrix A, SingularVectors left = SingularVectors::None,
+                              SingularVectors right = SingularVectors::None);
 /// Decreasing.
 Vector singularValues(const Eigen::MatrixXcd& A);
 

@@ -189,7 +189,7 @@ void keepIndependentZeros(const ShiftedInverse& inverse, std::vector<Complex>& v
   }
   Matrix all(columns.front().size(), sizeOf(columns));
   for (int j = 0; j < all.cols(); ++j) all.col(j) = columns[at(j)];
-  const auto svd = jacobiSvd(all, Eigen::ComputeThinU);
+  const auto svd = singularValues(all, SingularVectors::Thin);
   constexpr double dependent = 1e-3;  // chains part by the root of rounding
   const auto large = (svd.values.array() > dependent * svd.values[0]).count();
   const Eigen::Index kept = std::max<Eigen::Index>(large, (all.cols() + 1) / 2);

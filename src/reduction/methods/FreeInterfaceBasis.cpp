@@ -40,7 +40,8 @@ Matrix toModeAmplitudes(const PartView& part, FreeInterfaceBasis& free) {
   const Matrix AD = amplitudes.rightCols(ritz);
   basis.orthonormal = false;
   if (ritz == 0) return amplitudes;
-  const auto svd = linalg::divideAndConquerSvd(AD, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  const auto svd =
+      linalg::singularValues(AD, linalg::SingularVectors::Thin, linalg::SingularVectors::Full);
   Eigen::Index rank = 0;
   while (rank < svd.values.size() && svd.values[rank] >= leastShare) ++rank;
   Matrix changed = vectors, p = Matrix::Zero(modes, boundary + ritz);

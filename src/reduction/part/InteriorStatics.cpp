@@ -83,7 +83,8 @@ void InteriorStatics::findMechanisms(const InteriorVectors& modes) {
     Matrix combined = all(p.interior, Eigen::all);
     if (!p.boundary.empty()) {
       const Matrix moved = boundaryMass.asDiagonal() * all(p.boundary, Eigen::all);
-      const auto svd = linalg::jacobiSvd(moved, Eigen::ComputeFullV);
+      const auto svd = linalg::singularValues(moved, linalg::SingularVectors::None,
+                                              linalg::SingularVectors::Full);
       Eigen::Index rank = 0;
       while (rank < svd.values.size() && svd.values[rank] > notMoved) ++rank;
       combined = (combined * svd.V.rightCols(all.cols() - rank)).eval();

@@ -188,7 +188,7 @@ class DrivenBlock {
       const Vector& factor = factors[at(j)];
       R.col(j).head(factor.size() - old) = factor.tail(factor.size() - old);
     }
-    const auto svd = linalg::jacobiSvd(R, Eigen::ComputeThinU);
+    const auto svd = linalg::singularValues(R, linalg::SingularVectors::Thin);
     directions_ = grown.basis().rightCols(fresh) * svd.U;
     sizes_ = svd.values;
   }

@@ -215,7 +215,7 @@ double LargestRate::norm(const Product& times) const {
       x -= V.leftCols(k + 1) * h;
     }
   }
-  return linalg::jacobiSvd(H).values[0];
+  return linalg::singularValues(H).values[0];
 }
 
 }  // namespace tooljoint::transient

@@ -176,7 +176,8 @@ std::vector<std::size_t> seen(const Model& model) {
 void requireDetermined(const Model& model, const std::vector<std::size_t>& which, Matrix J,
                        const std::string& file) {
   for (Eigen::Index j = 0; j < J.cols(); ++j) J.col(j).normalize();
-  const auto svd = linalg::jacobiSvd(J, Eigen::ComputeThinV);
+  const auto svd =
+      linalg::singularValues(J, linalg::SingularVectors::None, linalg::SingularVectors::Thin);
   if (svd.values.minCoeff() > dependent) return;
   const Vector mixed = svd.V.rightCols<1>();
   std::vector<std::string> names;
