@@ -9,6 +9,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "model/laws/PointLawRegistry.hpp"
 #include "parts/PartsParameters.hpp"
@@ -133,6 +134,20 @@ void checkAdvance(const Scene& scene, Faults& faults) {
                                    " cuts forward only. Turn the string in the positive sense.");
 }
 
+/// A law's Radius beside that of the hole at the bit.
+void checkBitRadius(const Scene& scene, Faults& faults) {
+  const std::string& name = scene.bit->name;
+  const auto& bit = scene.list().sublist("Bit");
+  if (!bit.isSublist(name) || !bit.sublist(name).isParameter("Radius")) return;
+  const double radius = bit.sublist(name).get<double>("Radius");
+  const double hole = scene.well.boreRadius(scene.string.nodes.back().s);
+  if (radius > hole * (1 + 1e-9))  // as wide as the hole, in other units
+    faults.add("Bit/" + name + "/Radius", "is " + deck::printed(radius, "mm", 4) +
+                                              ", but the hole at the bit has a radius of " +
+                                              deck::printed(hole, "mm", 4) +
+                                              ". Give the radius of a bit that fits into it.");
+}
+
 /// What a law at the bit asks of the loads and supports.
 void checkBit(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
@@ -153,6 +168,7 @@ void checkBit(const Scene& scene, Faults& faults) {
     faults.add("Bit/Law", "is " + name + ", but the Supports hold " + componentNames()[at(dof)] +
                               " of the bit, on which it acts. Release it.");
   if (law.givesWeight()) checkAdvance(scene, faults);
+  checkBitRadius(scene, faults);
 }
 
 /// What an autodriller asks of the others.
