@@ -32,9 +32,6 @@ class RungeKutta4 final : public FixedStepIntegrator {
   bool isExplicit() const override { return true; }
   bool carriesPointStates() const override { return true; }
   bool dividesAmongRanks() const override { return true; }
-  /// The limit of stability is far below what accuracy needs: steps are not measured.
-  bool judgesSteps() const override { return true; }
-  double equalStep() const override { return 0; }
   int ledgerStride() const override { return 4; }
   std::string advice() const override {
     return "Reduce Transient/Step, or use the integrator \"Generalized-alpha\"";

@@ -156,7 +156,8 @@ class Restart : public ::testing::TestWithParam<std::string> {
 TEST_P(Restart, takesTheSameSteps) {
   expectSameWherever(eventful(), options());
   const auto whole = run(eventful(), options());
-  EXPECT_EQ(whole.report.stepError > 0.0, GetParam() == "Generalized-alpha");
+  const bool isMeasured = GetParam() == "Generalized-alpha" || GetParam() == "RK4";
+  EXPECT_EQ(whole.report.stepError > 0.0, isMeasured);
 }
 TEST_P(Restart, takesTheSameStepsOnceTheLawsStandStill) { expectSameWherever(spinUp(), options()); }
 TEST_P(Restart, takesTheSameStepsAmongImpacts) {
