@@ -89,7 +89,7 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
   model_->remember(snapshot);
   const long steps = std::lround((window_.end - window_.begin) / window_.step);
   const long between = std::max(1L, steps / disturbances);
-  double apart = 0, moved = 0, size = 0, speed = 0, otherSpeed = 0;
+  double apart = 0, moved = 0, size = 0, speed = 0, otherSpeed = 0, v = 0, otherV = 0;
   long unresolved = 0;
   bool whole = false;
   try {
@@ -111,6 +111,8 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
       apart += square(run.state.q, second.state.q);
       moved += square(second.state.q, start_.q);
       size += norm_.square(second.state.q);
+      v += square(run.state.v, second.state.v);
+      otherV += norm_.square(second.state.v);
       if (2 * k > steps) {
         speed += square(run.state.q, before);
         otherSpeed += square(second.state.q, otherBefore);
@@ -127,6 +129,7 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
   found.unresolved = static_cast<double>(unresolved) > oftenUnresolved * static_cast<double>(steps);
   if (std::max(moved, apart) <= rounding * rounding * size) return found;
   found.size = moved > 0 ? std::sqrt(apart / moved) : std::numeric_limits<double>::infinity();
+  if (otherV > 0) found.velocities = std::sqrt(v / otherV);
   const double inT = static_cast<double>(steps * steps) * std::max(speed, otherSpeed);
   if (inT <= rest * rest * moved) return found;
   found.speeds =

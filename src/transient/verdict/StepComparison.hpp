@@ -4,9 +4,11 @@
 /// more, side by side, in the steps of the run and otherwise:
 ///
 ///     D^2 = sum |q - q'|^2 / sum |q' - q(0)|^2        over the steps of the run in T
+///     V^2 = sum |v - v'|^2 / sum |v'|^2
 ///     r^2 = sum |q_k - q_k-1|^2 / sum |q'_k - q'_k-1|^2     over those in the second half of T
 ///
-/// |.| is the norm over the translations of the nodes, q' the displacement of the other motion.
+/// |.| is the norm over the translations of the nodes, q' and v' are displacement and velocity of
+/// the other motion.
 /// The other steps are halves without numerical damping, or shorter where halves do not resolve
 /// contact that rests on a wall (NumericalDamping.hpp). Beside halves D is the vibration error less
 /// that of the halves: half of it where the steps are of first order, most of it else. Of the other
@@ -32,6 +34,7 @@ class StepComparison {
   struct Difference {
     double size = 0;          ///< D; 0 where nothing moves
     double speeds = 1;        ///< r
+    double velocities = 0;    ///< V; 0 where nothing moves
     bool unresolved = false;  ///< contact rests on walls too stiff for the shorter steps, too
   };
 

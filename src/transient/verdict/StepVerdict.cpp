@@ -24,6 +24,10 @@ constexpr double chaoticShare = 0.25;
 /// Times `Step Error Limit` by which speeds may be larger or smaller: by half at its default.
 constexpr double speedTolerance = 2.5;
 
+/// Times `Step Error Warning` by which velocities may differ: vibration that is too fast for the
+/// step has little of the displacement.
+constexpr double velocityTolerance = 4;
+
 /// A part of 1 in per cent, with two digits.
 std::string percent(double part) {
   std::ostringstream text;
@@ -54,7 +58,8 @@ struct Findings {
   double reported() const { return shorter ? shorter->size : error; }
   bool isRight(double warning) const {
     return shorter && !isUnknown() && shorter->size <= warning &&
-           std::abs(shorter->speeds - 1) <= warning;
+           std::abs(shorter->speeds - 1) <= warning &&
+           shorter->velocities <= velocityTolerance * warning;
   }
   /// Contact that neither the steps nor what they are compared with resolve.
   bool isUnknown() const { return rests && shorterStep > 0 && (!shorter || shorter->unresolved); }
@@ -71,13 +76,14 @@ std::string describe(const Findings& found, double span) {
   text << "step error " << percent(found.error);
   if (found.shorter)
     text << std::setprecision(2) << "; in its first " << span << " s the motion differs by "
-         << percent(found.shorter->size) << " from that in steps of " << found.shorterStep
+         << percent(found.shorter->size) << ", and its velocities by "
+         << percent(found.shorter->velocities) << ", from that in steps of " << found.shorterStep
          << " s without numerical damping, at " << found.shorter->speeds << " of its speed";
   if (found.neighbour)
     text << ", and a disturbance of 0.1 % changes that by " << percent(found.neighbour->size);
   if (found.isUnknown())
-    text << "; points rest on walls, or laws, too stiff for the step, and steps of " << found.shorterStep
-         << " s "
+    text << "; points rest on walls, or laws, too stiff for the step, and steps of "
+         << found.shorterStep << " s "
          << (found.shorter ? "do not resolve it either" : "led to no motion to compare with");
   return text.str();
 }

@@ -48,14 +48,17 @@ struct Compared {
 /// atan(wh/4) in two halves, and keeps its length:
 ///
 ///     D^2 = sum (cos ka - cos kb)^2 / sum (cos kb - 1)^2
+///     V^2 = sum (sin ka - sin kb)^2 / sum sin^2 kb
 TEST(StepComparison, isThePhaseThatStepsLoseMoreThanHalves) {
   for (const double wh : {0.1, 0.3, 0.6}) {
     const double a = 2 * std::atan(wh / 2), b = 4 * std::atan(wh / 4);
-    double apart = 0, moved = 0, speed = 0, other = 0;
+    double apart = 0, moved = 0, speed = 0, other = 0, v = 0, otherV = 0;
     const int steps = static_cast<int>(std::floor(span * w / wh + 1e-6));
     for (int k = 1; k <= steps; ++k) {
       apart += std::pow(std::cos(k * a) - std::cos(k * b), 2);
       moved += std::pow(std::cos(k * b) - 1, 2);
+      v += std::pow(std::sin(k * a) - std::sin(k * b), 2);
+      otherV += std::pow(std::sin(k * b), 2);
       if (2 * k <= steps) continue;
       speed += std::pow(std::cos(k * a) - std::cos((k - 1) * a), 2);
       other += std::pow(std::cos(k * b) - std::cos((k - 1) * b), 2);
@@ -65,8 +68,25 @@ TEST(StepComparison, isThePhaseThatStepsLoseMoreThanHalves) {
     const auto found = run.comparison.withShorter();
     ASSERT_TRUE(found) << wh;
     EXPECT_NEAR(found->size, std::sqrt(apart / moved), 1e-3 * std::sqrt(apart / moved)) << wh;
+    EXPECT_NEAR(found->velocities, std::sqrt(v / otherV), 1e-3 * std::sqrt(v / otherV)) << wh;
     EXPECT_NEAR(found->speeds, std::sqrt(speed / other), 1e-3) << wh;
   }
+}
+
+/// Beside a slow mass one that is too fast for the step, with a fiftieth of its displacement and
+/// as much velocity.
+TEST(StepComparison, warnsOfVelocitiesThatStepsDoNotResolve) {
+  Matrix K = Matrix::Zero(2, 2);
+  K.diagonal() << w * w, 2500 * w * w;
+  auto model = denseModel(Matrix::Identity(2, 2), Matrix(), K);
+  model.initialDisplacement << 0.3, 0.006;
+  auto o = options("Generalized-alpha", span, 0.06 / w, 0.06 / w);
+  Keep samples;
+  log::clearWarnings();
+  const auto report = integrate(model, o, samples);
+  EXPECT_LT(report.stepError, o.stepErrorWarning);
+  ASSERT_EQ(log::warnings().size(), 1u);
+  EXPECT_NE(log::warnings().front().find("and its velocities by"), std::string::npos);
 }
 
 /// Halves have no numerical damping: what the scheme takes of the amplitude shows in the speeds.
