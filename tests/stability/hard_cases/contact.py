@@ -25,28 +25,42 @@ def gauge(clearance):
 
 
 @case(1, "No clearance at a gauge", "clearance 0, 1e-12, 1e-9 m; wall 1e6, 1e8 N/m; three integrators, full and reduced",
-      "no NaN; the motion is that on a linear support k_c (no friction)", "the linear support")
+      "no NaN; the motion is that on a linear support k_c (no friction), within 0.1 %, or what the same steps miss there and the gap changes",
+      "the linear support, ARKODE at 1e-9")
 def no_clearance(program, short):
     clearances = (0.0,) if short else (0.0, 1e-12, 1e-9)
-    for stiffness in (1e6,) if short else (1e6, 1e8):
-        ways = [("generalized-alpha 1 ms", alpha(1e-3))]
-        if not short:
+    for stiffness, step in ((1e6, 1e-3),) if short else ((1e6, 1e-3), (1e8, 1e-3), (1e8, 2e-6)):
+        ways = [(f"generalized-alpha {1e3 * step:g} ms", alpha(step))]
+        if not short and (stiffness, step) != (1e8, 1e-3):
             ways += [("RK4", rk4()), ("ARKODE 1e-6", arkode(1e-6))]
-        for label, way in ways:
-            for model, more in (("full", {}), ("reduced", reduced(12))):
-                settings = {**times(0.4, 0.005), **way, **more, "Damping/Mass Coefficient": 1.0}
-                spring = {f"Coupling/Springs/wall {c}/{key}": value for c in "uv" for key, value in
-                          (("First", str(MIDDLE)), ("Component", c), ("Stiffness", stiffness))}
-                easy = program.run("c1_easy", COLUMN, {**gauge(0.01), **settings, **spring}, ("Contact",))
+        for model, more in (("full", {}), ("reduced", reduced(12))):
+            common = {**times(0.4, 0.005), **more, "Damping/Mass Coefficient": 1.0}
+            spring = {f"Coupling/Springs/wall {c}/{key}": value for c in "uv" for key, value in
+                      (("First", str(MIDDLE)), ("Component", c), ("Stiffness", stiffness))}
+
+            def on_support(folder, way):
+                return program.run(folder, COLUMN, {**gauge(0.01), **common, **way, **spring}, ("Contact",))
+
+            def middle(run):
+                return run.nodes(U)[:, MIDDLE - 1]
+
+            def in_gauge(folder, clearance, way):
+                return program.run(folder, COLUMN, {**gauge(clearance), **common, **way, **regularised(1e11), "Contact/Stiffness": stiffness})
+            tight = arkode(1e-9)
+            truth = middle(on_support("c1_truth", tight))
+            changed = {gap: relative_error(middle(in_gauge("c1_gap", gap, tight)), truth) for gap in clearances}
+            for label, way in ways:
+                easy = on_support("c1_easy", way)
+                missed = relative_error(middle(easy), truth) if easy.done else 0.0
                 for clearance in clearances:
-                    run = program.run("c1", COLUMN, {**gauge(clearance), **settings, **regularised(1e11), "Contact/Stiffness": stiffness})
+                    run = in_gauge("c1", clearance, way)
 
                     def measure():
-                        truth = easy.nodes(U)[:, MIDDLE - 1]
-                        found = run.nodes(U)[:, MIDDLE - 1]
+                        found = middle(run)
                         return float(np.abs(truth).max()), float(np.abs(found).max()), relative_error(found, truth)
+                    # a step of 1 ms is too long for a wall of 1e8 N/m, as it is for the support
                     yield judged(run, f"{label}, {model}, {stiffness:.0e} N/m", f"clearance {clearance:g} m",
-                                 measure, 1e-3, required=True, easy=easy)
+                                 measure, max(1e-3, 1.1 * (missed + changed[clearance])), required=easy.done and (stiffness, step) != (1e8, 1e-3), easy=easy)
 
 
 def regularised(value):
@@ -184,7 +198,10 @@ def striking_strings(program, short):
         for damping in ("none",) if short else ("none", "scaled"):
             wall = {"Contact/Law": "Clamped", "Contact/Stiffness": stiffness, **times(end, 0.0025),
                     "Contact/Damping": 0.0 if damping == "none" else 1e4 * math.sqrt(stiffness / 1e7)}
-            truths = [program.run(f"c8_truth{i}", STRESS, {**wall, **rk4_adaptive(tolerance)}, FULL) for i, tolerance in enumerate((1e-2, 3e-3))]
+            # of the same model: what the basis misses is no matter of the wall
+            truths = {model: [program.run(f"c8_truth_{model}{i}", STRESS, {**wall, **rk4_adaptive(tolerance)}, without)
+                              for i, tolerance in enumerate((1e-2, 3e-3))]
+                      for model, without in (("full", FULL), ("reduced", ())) if not (short and model == "reduced")}
             ways = [(1e-3, 0.2, "full", FULL)]
             if not short:
                 ways = [(step, radius, "full", FULL) for step in (5e-4, 1e-3, 2.5e-3) for radius in (0.2, 0.8)] + [(1e-3, 0.8, "reduced", ())]
@@ -192,7 +209,7 @@ def striking_strings(program, short):
                 run = program.run("c8", STRESS, {**wall, **alpha(step, radius)}, without)
                 for name, measure in (("rms lateral speed [m/s]", lateral_speed), ("impulse per second [N]", impulse_rate)):
                     def compare():
-                        true = [measure(one, begin) for one in truths]
+                        true = [measure(one, begin) for one in truths[model]]
                         scatter = abs(true[1] - true[0]) / true[0]
                         found = measure(run, begin)
                         return true[0], found, max(0.0, abs(found - true[0]) / true[0] - scatter)

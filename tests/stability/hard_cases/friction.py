@@ -48,18 +48,20 @@ def strong_friction(program, short):
         if truth is None:
             yield judged(reference, f"friction {static}/{dynamic}", "RK4 adaptive", None, 0.0, required=True)
             continue
-        ways = [("generalized-alpha 1 ms, full", alpha(1e-3), FULL)]
+        # over 2.5 s steps of 1 ms miss a fifth of the motion before that is chaotic, and are refused
+        ways = [("generalized-alpha 1 ms, full", alpha(1e-3), FULL, short)]
         if not short:
-            ways += [("generalized-alpha 0.25 ms, full", alpha(2.5e-4), FULL), ("generalized-alpha 1 ms, reduced", alpha(1e-3), ())]
-            ways += [("ARKODE 1e-3, full", arkode(1e-3), FULL)] if static == 0.5 else []
+            ways += [(f"generalized-alpha {1e3 * step:g} ms, {model}", alpha(step), without, step < 5e-4)
+                     for model, without in (("full", FULL), ("reduced", ())) for step in (1e-3, 5e-4, 2.5e-4) if (model, step) != ("full", 1e-3)]
+            ways += [(f"ARKODE {tolerance:g}, full", arkode(tolerance), FULL, tolerance < 1e-3) for tolerance in (1e-3, 1e-4)]
         true, true_error = mean_and_error(truth)
         series = {"truth RK4 adaptive": [(q, x) for q, x in zip(QUANTILES, true)]}
-        for label, way, without in ways:
+        for label, way, without, required in ways:
             run, found = ensemble(program, "c4", {**mu, **way}, without, runs, begin, end)
             easy = easy or run
             variant = f"friction {static}/{dynamic}, {label}"
             if found is None:
-                yield judged(run, variant, f"{runs} runs", None, 0.0, required=True)
+                yield judged(run, variant, f"{runs} runs", None, 0.0, required=required)
                 continue
             mean, error = mean_and_error(found)
             series[label] = [(q, x) for q, x in zip(QUANTILES, mean)]
@@ -68,7 +70,7 @@ def strong_friction(program, short):
                 scale = spread if i < 5 else true[5]
                 apart = max(0.0, abs(mean[i] - true[i]) - math.hypot(error[i], true_error[i])) / scale
                 yield judged(run, variant, name, lambda: (f"{true[i]:.3g} +- {true_error[i]:.2g}", f"{mean[i]:.3g} +- {error[i]:.2g}", apart),
-                             0.05, required=True, easy=easy)
+                             0.05, required=required, easy=easy)
             yield statement(variant, "share of backward whirl", f"{true[6]:.2f}", f"{mean[6]:.2f}",
                             short or (mean[6] > 0.5 and abs(mean[6] - true[6]) < 0.1))
             yield statement(variant, "deepest in the wall [m]", "< 5 mm", f"{found[:, 7].max():.2g}", found[:, 7].max() < 5e-3)
