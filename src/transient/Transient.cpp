@@ -185,8 +185,7 @@ class Run {
   }
 
   /// Ranks with a memory of their own.
-  std::size_t shares() const {
-    return share_ ? static_cast<std::size_t>(model_.cut().ranks()) : 0; }
+  std::size_t shares() const { return share_ ? static_cast<std::size_t>(model_.cut().ranks()) : 0; }
 
   /// Of a motion that was divided otherwise: what the integrator and the points remember belongs to
   /// the ranks that wrote it, so the motion begins anew at the state.

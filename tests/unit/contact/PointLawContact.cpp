@@ -155,7 +155,8 @@ TEST(PointLawContact, PushesAtRestAsTheLawInItsInitialState) {
   const auto rest = pointLawContact("Stop", own)->atRest(points);
   const double r = clearance + 0.002;
   const double uv[] = {0.6 * r, 0.8 * r};
-  double f[3], tangent[6], normal = 0;
+  constexpr int n = StaticContact::kForces;
+  double f[n], tangent[2 * n], normal = 0;
   rest->evaluate({}, uv, f, tangent);
   rest->normalForce({}, uv, &normal);
   EXPECT_NEAR(normal, 2000.0, 1e-6);
@@ -164,12 +165,12 @@ TEST(PointLawContact, PushesAtRestAsTheLawInItsInitialState) {
   EXPECT_EQ(f[2], 0.0);
   constexpr double h = 1e-8;
   for (int i = 0; i < 2; ++i) {
-    double plus[3], minus[3], at[] = {uv[0], uv[1]};
+    double plus[n], minus[n], at[] = {uv[0], uv[1]};
     at[i] += h;
     rest->evaluate({}, at, plus, nullptr);
     at[i] -= 2 * h;
     rest->evaluate({}, at, minus, nullptr);
-    for (int row = 0; row < 3; ++row)
+    for (int row = 0; row < n; ++row)
       EXPECT_NEAR((plus[row] - minus[row]) / (2 * h), tangent[2 * row + i], 10.0);
   }
 }
