@@ -90,18 +90,31 @@ bool ImpactResolution::matters(double change) const {
          4 * Tuned::mostLost * std::max(Tuned::quiet * Tuned::quiet, square() / norm_.mass());
 }
 
-bool ImpactResolution::resolves(const MetWall& wall, double change, double h) const {
-  const double wh = wall.frequency() * h, damping = wall.damping(0.5 * change * h) * h;
-  if ((wh <= Tuned::resolved && damping <= Tuned::mostLost) || !matters(change * change))
-    return true;
-  if (matters(reboundLoss(wh, radius_) * change * change)) return false;
-  return scatter(wh, damping) * change * change / wall.mobility() <=
-         4 * Tuned::mostMisplaced * square();
+/// Whether the wall turns the point within few steps, so that an impact in them is none.
+bool ImpactResolution::isFast(const MetWall& wall, double change, double h) const {
+  return (wall.frequency() * h > Tuned::resolved ||
+          wall.damping(0.5 * change * h) * h > Tuned::mostLost) &&
+         matters(change * change);
 }
 
-/// Halvings that the points of this rank ask for, beside the motion of square().
-int ImpactResolution::halvingsOfPoints(const State& from, const State& to, double h) {
-  int most = 0;
+bool ImpactResolution::losesMuch(const MetWall& wall, double change, double h) const {
+  return isFast(wall, change, h) &&
+         matters(reboundLoss(wall.frequency() * h, radius_) * change * change);
+}
+
+/// scatter dv^2 / W.
+double ImpactResolution::misplaced(const MetWall& wall, double change, double h) const {
+  if (!isFast(wall, change, h)) return 0;
+  return scatter(wall.frequency() * h, wall.damping(0.5 * change * h) * h) * change * change /
+         wall.mobility();
+}
+
+double ImpactResolution::mostMisplaced() const { return 4 * Tuned::mostMisplaced * square(); }
+
+/// Calls visit(dv) for each point of this rank whose wall, met_, may turn it in the step.
+template <class Visit>
+void ImpactResolution::visitTurned(const State& from, const State& to, double h,
+                                   const Visit& visit) {
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     PointBatch& batch = model_->points()[at(b)];
     const int w = batch.width();
@@ -119,23 +132,42 @@ int ImpactResolution::halvingsOfPoints(const State& from, const State& to, doubl
           std::max({std::min(h * met_.mobility() * std::abs(met_.push() - met_.along(last)),
                              2 * std::abs(end - begin)),
                     2 * std::abs(begin), 2 * std::abs(end)});
-      if (resolves(met_, reversal, h)) continue;
-      met_.findOnset(h * (change + speed));
-      int count = 0;
-      while (!resolves(met_, reversal, std::ldexp(h, -count))) ++count;
-      most = std::max(most, count);
+      visit(reversal, change + speed);
     }
   }
-  return most;
+}
+
+bool ImpactResolution::isCoarse(const State& from, const State& to, double h) {
+  double lossy = 0, sum = 0;
+  visitTurned(from, to, h, [&](double reversal, double) {
+    if (losesMuch(met_, reversal, h)) lossy = 1;
+    sum += misplaced(met_, reversal, h);
+  });
+  model_->cut().reduce(&lossy, 1, &sum, 1);
+  return lossy > 0 || sum > mostMisplaced();
 }
 
 /// What is resolved beside the mean motion of the run is so beside more; v'M v of the step costs a
 /// product.
 int ImpactResolution::halvings(const State& from, const State& to, double h) {
   current_ = 0;
-  if (!model_->cut().any(halvingsOfPoints(from, to, h) > 0)) return 0;
+  if (!isCoarse(from, to, h)) return 0;
   current_ = model_->massForm(to.v.data());
-  const int most = static_cast<int>(model_->cut().largest(halvingsOfPoints(from, to, h)));
+  double lossy = 0;
+  sums_.fill(0);
+  visitTurned(from, to, h, [&](double reversal, double speed) {
+    if (!isFast(met_, reversal, h)) return;
+    met_.findOnset(h * speed);
+    for (int n = 0; n <= Tuned::mostHalvings; ++n) {
+      const double shorter = std::ldexp(h, -n);
+      if (!isFast(met_, reversal, shorter)) break;
+      if (losesMuch(met_, reversal, shorter)) lossy = std::max(lossy, n + 1.0);
+      sums_[at(n)] += misplaced(met_, reversal, shorter);
+    }
+  });
+  model_->cut().reduce(&lossy, 1, sums_.data(), static_cast<int>(sums_.size()));
+  int most = static_cast<int>(lossy);
+  while (most <= Tuned::mostHalvings && sums_[at(most)] > mostMisplaced()) ++most;
   if (most > 0) {
     recovering_ = true;
     calm_ = 0;
@@ -147,7 +179,7 @@ int ImpactResolution::halvings(const State& from, const State& to, double h) {
 /// length h may follow: half a period of its vibration, since it also rests where it is pressed in
 /// furthest; infinite where it moves, 0 where none is closed that h does not resolve.
 double ImpactResolution::calmNeeded(const State& to, double h) {
-  double needed = 0;
+  double needed = 0, sum = 0;
   current_ = model_->massForm(to.v.data());
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     PointBatch& batch = model_->points()[at(b)];
@@ -160,12 +192,14 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
       met_.face(batch, p, mobility(b, p), to.t);
       met_.measure(fastest, h);
       if (met_.frequency() * h <= Tuned::resolved) continue;
-      needed = std::max(needed, resolves(met_, 2 * met_.along(to.v), h)
-                                    ? constants::pi / met_.frequency()
-                                    : unbounded);
+      const double reversal = 2 * std::abs(met_.along(to.v));
+      needed = std::max(
+          needed, losesMuch(met_, reversal, h) ? unbounded : constants::pi / met_.frequency());
+      sum += misplaced(met_, reversal, h);
     }
   }
-  return model_->cut().largest(needed);
+  model_->cut().reduce(&needed, 1, &sum, 1);
+  return sum > mostMisplaced() ? unbounded : needed;
 }
 
 int ImpactResolution::nextLevel(const State& to, double h, const StepGrid& grid) {

@@ -8,16 +8,18 @@
 ///
 /// A rebound in steps of length h loses the part reboundLoss() of its energy, and misplaces up to
 /// the part `scatter`, depending on where in a step the wall is met. With a full reversal of the
-/// speed v, dv = 2 v, this is loss dv^2 / (8 W) of energy. A step resolves it where
+/// speed v, dv = 2 v, this is loss dv^2 / (8 W) of energy. A step resolves its impacts where
 ///
-///     loss(w h) dv^2 / 4 <= a <v^2>   and   scatter(w h) dv^2 / (8 W) <= b <v'M v / 2>
+///     loss(w h) dv^2 / 4 <= a <v^2>   and   sum scatter(w h) dv^2 / (8 W) <= b <v'M v / 2>
 ///
-/// with means over the run so far, or those of the step where they are larger: what is lost is
-/// small beside what a point of the string has, and what is misplaced beside what the whole has.
+/// with means over the run so far, or those of the step where they are larger: what one loses is
+/// small beside what a point of the string has, and what all misplace beside what the whole has.
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "transient/Tuned.hpp"
 #include "transient/accuracy/StepControl.hpp"
 #include "transient/accuracy/StepGrid.hpp"
 #include "transient/compiled/CompiledModel.hpp"
@@ -62,11 +64,16 @@ class ImpactResolution {
   };
   const double* mobility(int batch, int point) const;
   Bound bound(int batch, int point, double t, double h, const double* before);
-  bool resolves(const MetWall& wall, double change, double h) const;
+  bool isFast(const MetWall& wall, double change, double h) const;
+  bool losesMuch(const MetWall& wall, double change, double h) const;
+  double misplaced(const MetWall& wall, double change, double h) const;
   double calmNeeded(const State& to, double h);
   double square() const;
+  double mostMisplaced() const;
   bool matters(double change) const;
-  int halvingsOfPoints(const State& from, const State& to, double h);
+  template <class Visit>
+  void visitTurned(const State& from, const State& to, double h, const Visit& visit);
+  bool isCoarse(const State& from, const State& to, double h);
 
   CompiledModel* model_ = nullptr;
   double radius_ = 1;
@@ -79,6 +86,8 @@ class ImpactResolution {
   bool recovering_ = false;        ///< steps are short because of an impact
   double calm_ = 0;                ///< time for which closed contact has been without motion [s]
   MetWall met_;
+  std::array<double, Tuned::mostHalvings + 1>
+      sums_{};  ///< misplaced() after halvings, of all points
 };
 
 }  // namespace tooljoint::transient

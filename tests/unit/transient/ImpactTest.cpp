@@ -16,11 +16,12 @@ namespace ImpactTest {
 
 constexpr double mass = 3, gravity = 9.81, drop = 0.02;
 
-/// A mass that falls from `drop` and some more on a floor.
-model::SecondOrderModel fallingMass(double k, double c, double more) {
-  auto model = denseModel(Matrix::Constant(1, 1, mass), Matrix(), Matrix::Zero(1, 1));
-  model.loads.push_back({"weight", Vector::Constant(1, -mass * gravity), 0});
-  model.initialDisplacement[0] = drop + more;
+/// Masses, one or many, that fall from `drop` and some more on a floor.
+model::SecondOrderModel fallingMass(double k, double c, double more, int count = 1) {
+  auto model =
+      denseModel(mass * Matrix::Identity(count, count), Matrix(), Matrix::Zero(count, count));
+  model.loads.push_back({"weight", Vector::Constant(count, -mass * gravity), 0});
+  model.initialDisplacement.setConstant(drop + more);
   addFloor(model, k, c, 7e11);
   return model;
 }
@@ -47,6 +48,16 @@ TEST_P(Rebound, IsThatOfAnElasticWall) {
       const double more = phase * 0.2 * h * std::sqrt(2 * gravity * drop);
       EXPECT_NEAR(apex(fallingMass(k, 0, more), o), 1.0, 0.02) << k << " " << phase;
     }
+}
+
+/// Each has a fortieth of the energy that they misplace together.
+TEST_P(Rebound, OfManyMassesAtOnceIsThatOfOne) {
+  const auto [h, radius] = GetParam();
+  for (double k : {1e7, 1e9, 1e11}) {
+    auto o = options("Generalized-alpha", 0.08, h, 0.08);
+    o.own.set("Spectral Radius", radius);
+    EXPECT_NEAR(apex(fallingMass(k, 0, 0, 40), o), 1.0, 0.02) << k;
+  }
 }
 
 /// k and c for which half of the velocity comes back: e = 0.5 of a spring and a dashpot that push
