@@ -440,6 +440,8 @@ MotionEstimate MotionEstimator::result() const {
     estimate.error = std::sqrt(m.sums.errors / m.sums.motions);
     estimate.largest =
         std::sqrt(m.sums.worst * static_cast<double>(m.sums.samples) / m.sums.motions);
+  } else if (m.sums.errors > 0) {
+    estimate.error = estimate.largest = 1;  // the basis holds nothing of what moves
   }
   estimate.byPart =
       Eigen::Map<const Vector>(m.energies.data(), static_cast<Eigen::Index>(m.energies.size()));

@@ -36,6 +36,8 @@ namespace {
 constexpr double blowUp = 1e6;
 /// Part of the integral of a law of time that fixed steps may miss without a warning.
 constexpr double unresolved = 0.01;
+/// And without a refusal: as much as an error of the motion that none passes.
+constexpr double lostLaw = 0.5;
 
 double cpuSeconds() {
   timespec time{};
@@ -337,7 +339,7 @@ class Run {
     if (options_.ledger)
       energy_.judge(ledger_.account(model_, state_), state_.t, integrator_->advice());
     judgeSteps();
-    warnOfLaws();
+    judgeLaws();
     return false;
   }
 
@@ -377,16 +379,19 @@ class Run {
   }
 
   /// Laws of time that change faster than steps of one length follow.
-  void warnOfLaws() const {
+  void judgeLaws() const {
     const Counters& c = integrator_->counters();
     if (c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
     for (const auto& law : model_.source().laws) {
       const double missed = missedPart(law, options_.start, state_.t, c.maxStep);
-      if (missed > unresolved)
-        log::warn("The time step (" + formatNumber(c.maxStep) + " s) is too large for the law \"" +
-                  law.name + "\". The steps do not resolve " +
-                  formatNumber(std::round(1e3 * missed) / 10.0) + " % of its integral over time. " +
-                  integrator_->advice() + ".");
+      if (missed <= unresolved) continue;
+      const std::string text = "The time step (" + formatNumber(c.maxStep) +
+                               " s) is too large for the law \"" + law.name +
+                               "\". The steps do not resolve " +
+                               formatNumber(std::round(1e3 * missed) / 10.0) +
+                               " % of its integral over time. " + integrator_->advice() + ".";
+      if (missed > lostLaw && options_.stepErrorLimit < 1) throw ConvergenceError(text);
+      log::warn(text);
     }
   }
 

@@ -203,7 +203,7 @@ def moving_front(program, short):
     for slip in (1e-4,) if short else (1e-4, 2e-5):
         for elements in (3,) if short else (3, 6, 12):
             size = 12.0 / elements
-            settings = {**times(end, 0.005), **alpha(1e-3), "Well/Vertical/Length": 240.0, "Drillstring/Assembly": "{20*pipe}", "Well/Bore Radius": OUTER + 5e-5, "Contact/Stiffness": 1e8,
+            settings = {**times(end, 0.005), **alpha(1e-3 if elements < 12 else 2.5e-4), "Well/Vertical/Length": 240.0, "Drillstring/Assembly": "{20*pipe}", "Well/Bore Radius": OUTER + 5e-5, "Contact/Stiffness": 1e8,
                         "Drillstring/Components/pipe/Elements": elements, "Contact/Friction/Regularisation Velocity": slip,
                         "Contact/Friction/Dynamic": mu, "Contact/Friction/Static": mu, "Static/Friction": "None", "Contact/Damping": 1e5,
                         "Rotary Speed/Law": "Ramp", "Rotary Speed/Ramp/Final Speed": speed, "Rotary Speed/Ramp/Duration": ramp,

@@ -171,7 +171,7 @@ def repeated(program, short):
 
 
 @case(19, "No modes, all modes, empty and single parts", "modes 0 and all; a part without interior; a part of one node; frame of five parts and stress_170m",
-      "no modes are Guyan's condensation; all modes and parts without interior equal the full model to 1e-9; a single node passes through", "the full model")
+      "no modes are Guyan's condensation; all modes and parts without interior equal the full model to 1e-9 (1e-4 with friction, whose iteration ends at 1e-5); a single node passes through", "the full model")
 def extremes(program, short):
     settings = {**times(0.2, 0.005), **alpha(1e-3)}
     scenes = [("frame", FRAME, ("Reduction",), {})]
@@ -181,14 +181,14 @@ def extremes(program, short):
         full = program.run("c19_full", deck, {**settings, **more}, without)
         clear = ("Reduction/Mode Selection",)
         every = program.run("c19", deck, {**settings, **more, "Reduction/Mode Selection/All Modes": True}, clear)
-        yield judged(every, name, "all modes", lambda: ("0", "vibration error", difference(every, full)), 1e-9 if name == "frame" else 1e-6,
+        yield judged(every, name, "all modes", lambda: ("0", "vibration error", difference(every, full)), 1e-9 if name == "frame" else 1e-4,
                      required=True, easy=full)
         none = program.run("c19_none", deck, {**settings, **more, "Reduction/Mode Selection/Modes": 0}, clear)
         guyan = program.run("c19_guyan", deck, {**settings, **more, "Reduction/Mode Selection/Modes": 0, "Reduction/Basis": "Guyan"}, clear)
         yield judged(none, name, "no modes, against Guyan", lambda: ("0", "difference", difference(none, guyan)), 1e-9 if name == "frame" else 1e-6, required=True, easy=full)
         if name != "frame":
             whole = program.run("c19_whole", deck, {**settings, **more, "Substructures/Retained Nodes": "All"})
-            yield judged(whole, name, "parts without interior", lambda: ("0", "vibration error", difference(whole, full)), 1e-6, required=True, easy=full)
+            yield judged(whole, name, "parts without interior", lambda: ("0", "vibration error", difference(whole, full)), 1e-4, required=True, easy=full)
     K, M = planar_beam(4, 1.0, 100.0, 1.0)
     beam = program.part("c19_beam", ["v", "theta_z"], M, K, sets={"root": [1], "tip": [5]})
     node = program.part("c19_node", ["v", "theta_z"], np.diag([2.0, 0.1]), np.zeros((2, 2)), sets={"here": [1]})
