@@ -48,7 +48,8 @@ struct NodeState {
   std::vector<double> gap;  ///< radial clearance left at each node [m]; <= 0 in contact; +inf where
                             ///< nothing can touch
   std::vector<char> candidate;  ///< laterally free nodes with a contact point
-  std::vector<int> loadedDofs;  ///< 6 node + component of dofs that point loads act on, increasing
+  std::vector<int> loadedDofs;  ///< 6 node + component of dofs that point loads, and the torque at
+                                ///< the ends, act on, increasing
 };
 
 /// Description of the list `Substructures`.

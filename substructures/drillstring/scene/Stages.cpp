@@ -383,6 +383,23 @@ model::SecondOrderModel fullModel(const StaticStage& stage) { return assemble(st
 
 namespace {
 
+/// Rotations of the ends in bending. A torque T about the axis of the well bends an end that leans:
+/// E I u'' = -T v', E I v'' = T u' (Greenhill). Interior modes have no moment there, and converge
+/// slowly without these dofs.
+void insertTwistedEnds(const Scene& scene, const StaticStage& stage, std::set<int>& dofs) {
+  constexpr double rounding = 1e-9;  // of the moment that bends the element by one radian
+  const auto& elements = scene.string.elements;
+  const int last = scene.string.nodeCount() - 1;
+  for (const auto& [node, element] : {std::pair{0, 0}, std::pair{last, last - 1}}) {
+    const double bending = elements[static_cast<std::size_t>(element)].formulation->stiffness()(
+        nodal::thetaX, nodal::thetaX);
+    if (std::abs(stage.state.torque[element]) <= rounding * bending) continue;
+    for (const int component : {nodal::thetaX, nodal::thetaY})
+      if (const int dof = kNodeDofs * node + component; !scene.held[static_cast<std::size_t>(dof)])
+        dofs.insert(dof);
+  }
+}
+
 NodeState nodeState(const Scene& scene, const StaticStage& stage) {
   NodeState nodes;
   const auto count = static_cast<std::size_t>(scene.string.nodeCount());
@@ -403,6 +420,7 @@ NodeState nodeState(const Scene& scene, const StaticStage& stage) {
           !scene.held[static_cast<std::size_t>(dof)])
         loaded.insert(dof);
   if (scene.topDrive.constantHookLoad) loaded.insert(nodal::w);
+  insertTwistedEnds(scene, stage, loaded);
   nodes.loadedDofs.assign(loaded.begin(), loaded.end());
   return nodes;
 }

@@ -331,6 +331,8 @@ def first_touch(program, short):
         ways += [("RK4", rk4()), ("ARKODE 1e-5", arkode(1e-5))]
     for model, more in (("full", {}), ("reduced", reduced(12))):
         settings = {**shaken, **more}
+        # the default step of RK4 in a reduced model is one more where a wall is in reach
+        ways = [(label, rk4(2e-4) if (label, model) == ("RK4", "reduced") else way) for label, way in ways]
         free = {label: program.run(f"c29_free_{i}", COLUMN, {**settings, **way}, ("Contact",)) for i, (label, way) in enumerate(ways)}
         easy = free[ways[0][0]]
         reach = float(np.hypot(easy.nodes(U), easy.nodes(V)).max())
