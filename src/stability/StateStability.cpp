@@ -50,6 +50,8 @@ constexpr double basisAccuracy = 1e-4;
 constexpr double floatingShift = -1.0;
 /// Growth, and frequencies, below this part of |s| are within the accuracy of s.
 constexpr double noGrowth = 1e-7;
+/// Stiffness between components below this part of the rows leaves each a system of its own.
+constexpr double alone = 0.1;
 /// Skew stiffness below this part of the rows is rounding.
 constexpr double skewRounding = 1e-12;
 /// Smallest part of the largest displacement that counts as a deflection of its own.
@@ -57,19 +59,38 @@ constexpr double deflection = 0.05;
 
 bool isGrowth(Complex s) { return s.real() > std::max(slowestGrowth, noGrowth * std::abs(s)); }
 
+/// The largest entry of each row in size.
+Vector largestOfRows(const Sparse& K) {
+  Vector rows = Vector::Zero(K.rows());
+  for (int i = 0; i < K.outerSize(); ++i)
+    for (Sparse::InnerIterator it(K, i); it; ++it)
+      rows[i] = std::max(rows[i], std::abs(it.value()));
+  return rows;
+}
+
 /// K has a skew part, or friction acts at the points: a motion can grow without negative pivots.
 bool canFlutter(const model::SecondOrderModel& model, const estimate::Linearised& tangent,
                 double t) {
   if (Sparse(tangent.damping - model.dampingAt(t)).squaredNorm() > 0.0) return true;
   const Sparse transposed = tangent.stiffness.transpose(), skew = tangent.stiffness - transposed;
-  Vector rows = Vector::Zero(skew.rows());
-  for (int i = 0; i < tangent.stiffness.outerSize(); ++i)
-    for (Sparse::InnerIterator it(tangent.stiffness, i); it; ++it)
-      rows[i] = std::max(rows[i], std::abs(it.value()));
+  const Vector rows = largestOfRows(tangent.stiffness);
   for (int i = 0; i < skew.outerSize(); ++i)
     for (Sparse::InnerIterator it(skew, i); it; ++it)
       if (std::abs(it.value()) > skewRounding * std::sqrt(rows[i] * rows[it.col()])) return true;
   return false;
+}
+
+/// Whether these dofs are nearly a system of their own, as twist and stretch of a string are. The
+/// deflections of one that bends are none without its rotations.
+bool standAlone(const model::SecondOrderModel& model, const Sparse& K, const Vector& rows,
+                const std::vector<int>& dofs) {
+  const int component = model.dofs[at(dofs.front())].component;
+  for (const int i : dofs)
+    for (Sparse::InnerIterator it(K, i); it; ++it)
+      if (model.dofs[at(static_cast<int>(it.col()))].component != component &&
+          std::abs(it.value()) > alone * std::sqrt(rows[i] * rows[it.col()]))
+        return false;
+  return true;
 }
 
 /// The lowest modes of each component alone (all other dofs held) on which a point law pushes the
@@ -87,9 +108,10 @@ std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model
     components[dof.component].push_back(i);
     if (pointDamping.coeff(i, i) < 0.0) driven[dof.component] = true;
   }
+  const Vector rows = largestOfRows(symmetric);
   std::vector<Matrix> all;
   for (const auto& [component, dofs] : components) {
-    if (!driven[component]) continue;
+    if (!driven[component] || !standAlone(model, symmetric, rows, dofs)) continue;
     linalg::EigenOptions options;
     options.tolerance = basisAccuracy;
     options.shift = floatingShift;

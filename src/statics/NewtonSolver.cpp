@@ -31,6 +31,8 @@ constexpr double linearTolerance = 1e-10;  ///< of the preconditioned linear res
 /// GMRES steps behind a factor of the very Jacobian: rounding is left to iterate on, and what a few
 /// steps do not gain, many do not either.
 constexpr int linearIterations = 8;
+/// Scaled residual up to which a solution may end where rounding keeps it above its tolerance.
+constexpr double mostRounding = 1e-6;
 
 /// Belos behind Thyra with our parameters and the deck's over them.
 Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(
@@ -105,13 +107,30 @@ double scaledResidual(const Vector& r, const Vector& scale, int* worst) {
   return largest;
 }
 
+/// What rounding may leave of the scaled residual: some roundings, of the unknowns and on the way,
+/// 4 epsilon max_i scale_i sum_j |J_ij x_j|.
+double roundingOf(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x) {
+  Sparse jacobian;
+  problem.jacobian(x, jacobian);
+  const Vector sums = jacobian.cwiseAbs() * x.cwiseAbs();
+  return 4.0 * std::numeric_limits<double>::epsilon() * scale.cwiseProduct(sums).maxCoeff();
+}
+
+/// Whether the last iterations have not halved the residual.
+bool stagnates(const std::vector<double>& history) {
+  constexpr std::size_t iterations = 3;
+  return history.size() > iterations &&
+         history.back() > 0.5 * history[history.size() - 1 - iterations];
+}
+
 /// One NOX solve with all that has to live as long as it.
 class Newton {
  public:
   Newton(const model::NonlinearProblem& problem, const Vector& start, const Vector& residual,
          const NewtonOptions& options, const Teuchos::ParameterList* nox,
          const Teuchos::ParameterList* belos, NewtonMemory& memory)
-      : options_(options),
+      : problem_(problem),
+        options_(options),
         model_(Teuchos::rcp(new ThyraProblem(problem, start, residual, memory))),
         smallStep_(Teuchos::rcp(new SmallStep(options, record_))) {
     using namespace NOX::StatusTest;
@@ -147,8 +166,9 @@ class Newton {
       const int before = solver_->getNumIterations();
       status = solver_->step();
       if (solver_->getNumIterations() > before) report.history.push_back(residual());
+      if (status == NOX::StatusTest::Unconverged && isAtRounding(report)) break;
     }
-    report.converged = status == NOX::StatusTest::Converged;
+    report.converged = status == NOX::StatusTest::Converged || report.rounding > 0;
   }
 
   Vector solution() const { return vectorOf(solver_->getSolutionGroup().getX()); }
@@ -166,6 +186,16 @@ class Newton {
   }
 
  private:
+  /// What more iterations would not reduce, and rounding explains, is solved.
+  bool isAtRounding(NewtonReport& report) const {
+    if (!stagnates(report.history)) return false;
+    const double rounding =
+        std::min(mostRounding, roundingOf(problem_, problem_.residualScale(), solution()));
+    if (!(report.history.back() <= rounding)) return false;
+    report.rounding = rounding;
+    return true;
+  }
+
   double residual() const {
     const NOX::Abstract::Group& group = solver_->getSolutionGroup();
     if (!group.isF()) const_cast<NOX::Abstract::Group&>(group).computeF();
@@ -173,21 +203,13 @@ class Newton {
     return F.allFinite() ? F.cwiseAbs().maxCoeff() : std::numeric_limits<double>::quiet_NaN();
   }
 
+  const model::NonlinearProblem& problem_;
   const NewtonOptions& options_;
   SearchRecord record_;
   Teuchos::RCP<ThyraProblem> model_;
   Teuchos::RCP<SmallStep> smallStep_;
   Teuchos::RCP<NOX::Solver::Generic> solver_;
 };
-
-/// What rounding may leave of the scaled residual: some roundings, of the unknowns and on the way,
-/// 4 epsilon max_i scale_i sum_j |J_ij x_j|.
-double roundingOf(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x) {
-  Sparse jacobian;
-  problem.jacobian(x, jacobian);
-  const Vector sums = jacobian.cwiseAbs() * x.cwiseAbs();
-  return 4.0 * std::numeric_limits<double>::epsilon() * scale.cwiseProduct(sums).maxCoeff();
-}
 
 std::string explain(const NewtonReport& report, const NewtonOptions& options,
                     const SearchRecord& record, const std::string& worst) {
@@ -271,13 +293,14 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
   report.residual = scaledResidual(newton.model().residual(x), scale, &worst);
   if (!stopped.empty()) report.converged = false;
   // The last word is ours: recomputed, not NOX's.
-  if (!(report.residual <= options.tolerance)) report.converged = false;
+  if (!(report.residual <= std::max(options.tolerance, report.rounding))) report.converged = false;
   if (!stopped.empty())
     report.message =
         "stopped after " + std::to_string(report.iterations) + " iterations: " + stopped;
   else if (report.converged)
     report.message = "converged in " + std::to_string(report.iterations) +
-                     " iterations to a scaled residual of " + scientific(report.residual) + ".";
+                     " iterations to a scaled residual of " + scientific(report.residual) +
+                     (report.residual > options.tolerance ? ", which rounding leaves." : ".");
   else
     report.message = explain(report, options, newton.record(), problem.unknownName(worst)) +
                      explainRounding(problem, scale, x, options);

@@ -39,8 +39,10 @@ NewtonOptions::LineSearch lineSearch(model::LineSearch asked);
 struct NewtonReport {
   bool converged = false;
   int iterations = 0;
-  double residual = 0;          ///< max_i |scale_i r_i| at the returned x
-  double update = 0;            ///< |dx| / |x| of the last full Newton step
+  double residual = 0;  ///< max_i |scale_i r_i| at the returned x
+  double rounding =
+      0;              ///< what rounding may leave of it, where it ends above its tolerance for that
+  double update = 0;  ///< |dx| / |x| of the last full Newton step
   std::vector<double> history;  ///< max_i |scale_i r_i| at the start and after each iteration
   std::string message;          ///< one sentence: converged in ..., or why not
   int factorisations = 0;

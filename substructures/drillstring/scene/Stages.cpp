@@ -16,6 +16,7 @@
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
 #include "deck/PrintedUnits.hpp"
+#include "linalg/Scientific.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/part/Partition.hpp"
 #include "substructures/beam/NodalDofs.hpp"
@@ -353,10 +354,21 @@ void judgeBit(const Scene& scene) {
   }
 }
 
+void judgeRounding(const Scene& scene, const StaticStage& stage) {
+  const double residual = stage.state.report.residual;
+  if (residual > scene.statics.tolerance)
+    log::warn("The residual of the static state ends at " + linalg::scientific(residual) +
+              " of the largest load, where " + linalg::scientific(scene.statics.tolerance) +
+              " is asked for: double precision leaves as much where elements are short beside what "
+              "the string stretches. Take longer elements, or set Static/Reference to "
+              "\"Hanging\".");
+}
+
 }  // namespace
 
 void judgeStatic(const Scene& scene, const StaticStage& stage) {
   judgeBit(scene);
+  judgeRounding(scene, stage);
   judgeTorqueBalance(scene, stage);
   judgeStretch(scene, stage);
   judgeStability(scene, stage);

@@ -199,9 +199,9 @@ def striking_strings(program, short):
             wall = {"Contact/Law": "Clamped", "Contact/Stiffness": stiffness, **times(end, 0.0025),
                     "Contact/Damping": 0.0 if damping == "none" else 1e4 * math.sqrt(stiffness / 1e7)}
             # of the same model: what the basis misses is no matter of the wall
-            truths = {model: [program.run(f"c8_truth_{model}{i}", STRESS, {**wall, **rk4_adaptive(tolerance)}, without)
-                              for i, tolerance in enumerate((1e-2, 3e-3))]
-                      for model, without in (("full", FULL), ("reduced", ())) if not (short and model == "reduced")}
+            tight = {"full": [(rk4_adaptive(tolerance), FULL) for tolerance in (1e-2, 3e-3)], "reduced": [(alpha(step), ()) for step in (1e-4, 5e-5)]}
+            truths = {model: [program.run(f"c8_truth_{model}{i}", STRESS, {**wall, **way}, without) for i, (way, without) in enumerate(runs)]
+                      for model, runs in tight.items() if not (short and model == "reduced")}
             ways = [(1e-3, 0.2, "full", FULL)]
             if not short:
                 ways = [(step, radius, "full", FULL) for step in (5e-4, 1e-3, 2.5e-3) for radius in (0.2, 0.8)] + [(1e-3, 0.8, "reduced", ())]

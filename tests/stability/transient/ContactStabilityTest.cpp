@@ -216,12 +216,16 @@ TEST(ContactStability, allContactsGainedAndLostAtOnce) {
   EXPECT_LT(highest, -0.01);  // and at the top
 }
 
+/// Whose steps converge, and are not judged: a law that is as lossy as the damping of another makes
+/// it is too fast for them.
 TEST(ContactStability, everyLaw) {
   for (const auto& law : contact::LawRegistry::instance().names()) {
     Bores data;
     data.law = law;
     Keep samples;
-    EXPECT_EQ(run(data, samples).counters.unconvergedSteps, 0) << law;
+    auto o = options("Generalized-alpha", 0.5, 1e-3, 0.005);
+    acceptCoarseSteps(o);
+    EXPECT_EQ(integrate(rotors(data), o, samples).counters.unconvergedSteps, 0) << law;
     expectInside(samples, 0.02);
   }
 }

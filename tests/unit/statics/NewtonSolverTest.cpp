@@ -141,6 +141,24 @@ TEST(NewtonSolver, AToleranceBelowRoundingIsToldSo) {
   EXPECT_TRUE(solve(stiff, x, attainable).converged);
 }
 
+/// Less than a millionth, at which iterations end because no more digits are there.
+TEST(NewtonSolver, StopsWhereRoundingKeepsTheResidual) {
+  DenseProblem stiff(
+      1, [](const Vector& x) -> Vector { return Vector::Constant(1, 1e8 * (x[0] * x[0] - 2.0)); },
+      [](const Vector& x) -> Matrix { return Matrix::Constant(1, 1, 2e8 * x[0]); });
+  Vector x = Vector::Ones(1);
+  NewtonOptions options;
+  options.tolerance = 1e-12;
+  options.maxIterations = 100;
+  const NewtonReport report = solve(stiff, x, options);
+  EXPECT_TRUE(report.converged) << report.message;
+  EXPECT_LT(report.iterations, 15);
+  EXPECT_GT(report.residual, options.tolerance);
+  EXPECT_LE(report.residual, report.rounding);
+  EXPECT_NEAR(x[0], std::sqrt(2.0), 1e-15);
+  EXPECT_NE(report.message.find("which rounding leaves"), std::string::npos) << report.message;
+}
+
 TEST(NewtonSolver, RowsOfVeryDifferentSizeAreMeasuredByTheScaleOfTheProblem) {
   const auto weighted = [](double a, double b) {
     DenseProblem plain = rosenbrock();
