@@ -321,7 +321,7 @@ def all_at_once(program, short):
 
 @case(29, "Nothing touches, then one touch", "12 m of pipe shaken in a bore that it never reaches, or reaches at one node; clearance 1e-3 to "
       "1e-1 of the bore", "free: the numbers of the run without a wall to 1e-9 (ARKODE 1e-4); touching: those of ARKODE within 5 %, and of the law that acts "
-      "at every gap", "no wall")
+      "at every gap within 0.5 %", "no wall")
 def first_touch(program, short):
     end = 0.5
     shaken = {"Loads/Weight On Bit": 0.0, "Loads/Forces/push/Node": MIDDLE, "Loads/Forces/push/Component": "u",
@@ -354,4 +354,4 @@ def first_touch(program, short):
             every = program.run("c29_every", COLUMN, {**undamped, "Contact/Law": "Nguyen"})
             same = program.run("c29_same", COLUMN, undamped)
             yield judged(every, f"{ways[0][0]}, {model}", f"clearance {share:g} of it, the law that acts at every gap",
-                         lambda: ("0", "vibration error", program.vibration_error(every, same, end)), 1e-3, required=True)
+                         lambda: ("0", "vibration error", program.vibration_error(every, same, end)), 5e-3, required=True)
