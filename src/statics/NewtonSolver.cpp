@@ -118,7 +118,7 @@ double roundingOf(const model::NonlinearProblem& problem, const Vector& scale, c
 
 /// Whether the last iterations have not halved the residual.
 bool stagnates(const std::vector<double>& history) {
-  constexpr std::size_t iterations = 3;
+  constexpr std::size_t iterations = 6;
   return history.size() > iterations &&
          history.back() > 0.5 * history[history.size() - 1 - iterations];
 }
@@ -166,7 +166,7 @@ class Newton {
       const int before = solver_->getNumIterations();
       status = solver_->step();
       if (solver_->getNumIterations() > before) report.history.push_back(residual());
-      if (status == NOX::StatusTest::Unconverged && isAtRounding(report)) break;
+      if (status != NOX::StatusTest::Converged && isAtRounding(report, status)) break;
     }
     report.converged = status == NOX::StatusTest::Converged || report.rounding > 0;
   }
@@ -187,8 +187,8 @@ class Newton {
 
  private:
   /// What more iterations would not reduce, and rounding explains, is solved.
-  bool isAtRounding(NewtonReport& report) const {
-    if (!stagnates(report.history)) return false;
+  bool isAtRounding(NewtonReport& report, NOX::StatusTest::StatusType status) const {
+    if (status != NOX::StatusTest::Failed && !stagnates(report.history)) return false;
     const double rounding =
         std::min(mostRounding, roundingOf(problem_, problem_.residualScale(), solution()));
     if (!(report.history.back() <= rounding)) return false;

@@ -355,8 +355,9 @@ void judgeBit(const Scene& scene) {
 }
 
 void judgeRounding(const Scene& scene, const StaticStage& stage) {
+  constexpr double worthAWarning = 10;  // of what was asked for
   const double residual = stage.state.report.residual;
-  if (residual > scene.statics.tolerance)
+  if (residual > worthAWarning * scene.statics.tolerance)
     log::warn("The residual of the static state ends at " + linalg::scientific(residual) +
               " of the largest load, where " + linalg::scientific(scene.statics.tolerance) +
               " is asked for: double precision leaves as much where elements are short beside what "
