@@ -37,6 +37,7 @@ def cell(text):
 
 
 def shortened(text):
+    text = re.sub(r"(?<![\w/])/\S*/(?=\w+\.(?:xml|json))", "", text)  # the folder of a file
     return text if len(text) <= LONGEST_NOTE else text[:LONGEST_NOTE - 3].rsplit(" ", 1)[0] + " ..."
 
 
