@@ -383,14 +383,14 @@ class Run {
     const Counters& c = integrator_->counters();
     if (c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
     for (const auto& law : model_.source().laws) {
-      const double missed = missedPart(law, options_.start, state_.t, c.maxStep);
+      const auto [missed, lost] = missedParts(law, options_.start, state_.t, c.maxStep);
       if (missed <= unresolved) continue;
       const std::string text = "The time step (" + formatNumber(c.maxStep) +
                                " s) is too large for the law \"" + law.name +
                                "\". The steps do not resolve " +
                                formatNumber(std::round(1e3 * missed) / 10.0) +
                                " % of its integral over time. " + integrator_->advice() + ".";
-      if (missed > lostLaw && options_.stepErrorLimit < 1) throw ConvergenceError(text);
+      if (lost > lostLaw && options_.stepErrorLimit < 1) throw ConvergenceError(text);
       log::warn(text);
     }
   }

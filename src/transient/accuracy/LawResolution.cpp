@@ -15,20 +15,22 @@ constexpr int looksInStep = 8;
 
 }  // namespace
 
-double missedPart(const model::ScalarLaw& law, double start, double end, double h) {
+LawParts missedParts(const model::ScalarLaw& law, double start, double end, double h) {
   const auto steps = static_cast<long>(std::floor((end - start) / h * (1 + 1e-12)));
   const long stride = std::max(1L, steps / lawSteps);
-  double missed = 0.0, sum = 0.0;
+  double sum = 0.0;
+  LawParts parts;
   for (long i = 0; i < steps; i += i < lawSteps ? 1 : stride) {
     const double t = start + static_cast<double>(i) * h;
     const double whole = 0.5 * (law.value(t) + law.value(t + h));
     double fine = whole;
     for (int k = 1; k < looksInStep; ++k) fine += law.value(t + h * k / looksInStep);
     fine /= looksInStep;
-    missed += std::abs(whole - fine);
+    parts.missed += std::abs(whole - fine);
+    if (std::abs(whole) < std::abs(fine)) parts.lost += std::abs(whole - fine);
     sum += std::abs(fine);
   }
-  return sum > 0.0 ? missed / sum : 0.0;
+  return sum > 0.0 ? LawParts{parts.missed / sum, parts.lost / sum} : LawParts{};
 }
 
 }  // namespace tooljoint::transient

@@ -7,8 +7,12 @@
 
 namespace tooljoint::transient {
 
-/// How much of a law the steps miss: the sum of |T_h - T_{h/8}| over that of |T_{h/8}|, with T the
-/// trapezoidal sums of the law over a step and over its eighths.
-double missedPart(const model::ScalarLaw& law, double start, double end, double h);
+/// Parts of the sum of |T_{h/8}|, with T the trapezoidal sums of a law over a step and over its
+/// eighths.
+struct LawParts {
+  double missed = 0;  ///< sum of |T_h - T_{h/8}|
+  double lost = 0;    ///< of it where |T_h| is the smaller: the steps do not see the law
+};
+LawParts missedParts(const model::ScalarLaw& law, double start, double end, double h);
 
 }  // namespace tooljoint::transient

@@ -282,6 +282,17 @@ TEST(Transient, aPulseBetweenTheHalvesOfAStepIsRefused) {
   }));
 }
 
+/// A load that is let go at the start has its value there alone: its integral is none, and no part
+/// of it is lost.
+TEST(Transient, aLoadThatIsLetGoIsNotRefused) {
+  auto model = oscillator(1.0, 1.0, 4.0, 0.0, 0.0);
+  const int law = model.lawIndex({"let go", [](double t) { return t > 0 ? 0.0 : 1.0; }});
+  model.loads.push_back({"pull", Vector::Ones(1), law});
+  model.initialDisplacement[0] = 0.25;
+  Keep samples;
+  EXPECT_NO_THROW(integrate(model, options("Generalized-alpha", 1.0, 1e-2, 0.1), samples));
+}
+
 /// q_{n+1} = q_n + h v_n; neither judges its steps nor takes one again.
 class Drift final : public Integrator {
  public:
