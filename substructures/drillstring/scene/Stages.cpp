@@ -190,9 +190,10 @@ constexpr FreeMotion freeMotions[] = {{nodal::w, "slides along the well"},
                                       {nodal::thetaZ, "turns about its axis"}};
 
 /// A string whose w (or theta_z) no support holds is singular in a straight well only: where it
-/// curves, walls and bending resist sliding, but by far too little for the weight. Said when that
-/// string has no static equilibrium: exit code of a model that floats, not of a solver that failed.
-void explainFailure(const Scene& scene, const ConvergenceError& error) {
+/// curves, walls and bending resist sliding, but by far too little for the weight. Said of `found`
+/// where that string has no static equilibrium, or one far away: exit code of a model that floats,
+/// not of a solver that failed.
+void explainFreeMotion(const Scene& scene, const std::string& found) {
   const auto free = freeDirections(scene);
   if (free.empty()) return;
   const auto motion =
@@ -203,7 +204,7 @@ void explainFailure(const Scene& scene, const ConvergenceError& error) {
                    std::to_string(scene.string.nodeCount()) + " nodes, so the string " +
                    motion->does + ", and walls and bending cannot hold it. Hold " + dof +
                    " of node 1 or of the bit in the Supports list." + notByCoupling(scene) + " (" +
-                   error.what() + ")");
+                   found + ")");
 }
 
 /// Unstable states that "Perturb" leaves before it gives up.
@@ -271,7 +272,7 @@ StaticStage findEquilibrium(const Scene& scene) {
     const Stage solving("static equilibrium");
     stage.state = equilibrium::solveStatic(input, scene.statics, solver);
   } catch (const ConvergenceError& error) {
-    explainFailure(scene, error);
+    explainFreeMotion(scene, error.what());
     throw;
   }
   finish();
@@ -334,13 +335,16 @@ void judgeStretch(const Scene& scene, const StaticStage& stage) {
   }
   if (turn <= worthAWarning) return;
   const deck::PrintedUnit length("m");
-  log::warn(
+  const std::string found =
       "Loads move the string by " + formatNumber(std::round(10 * std::abs(length(shift))) / 10) +
       " " + length.name() + " along the well at " + formatNumber(std::round(length(depth))) + " " +
       length.name() + ", where the well turns by " +
-      formatNumber(std::round(10 * turn / constants::degree) / 10) +
-      " deg over that length. The model assumes small displacements about the meshed nodes, so "
-      "side forces and friction are too large there. Set Static/Reference to \"Hanging\".");
+      formatNumber(std::round(10 * turn / constants::degree) / 10) + " deg over that length.";
+  const auto free = freeDirections(scene);
+  if (std::count(free.begin(), free.end(), nodal::w) > 0) explainFreeMotion(scene, found);
+  log::warn(found +
+            " The model assumes small displacements about the meshed nodes, so side forces and "
+            "friction are too large there. Set Static/Reference to \"Hanging\".");
 }
 
 namespace {
