@@ -89,7 +89,10 @@ def long_runs(program, short):
             if run.done:
                 residual = run.motion["energy_residual"]
                 yield statement(f"at rest, {label}, {model}", f"{last:g} s: energy residual", "0", f"{residual:.2g}", abs(residual) < 1e-3)
-    shaken = {"Loads/Unbalance/collar/Moment": 2.0, "Damping/Mass Coefficient": 0.5}
+    # 25 kg m keep the string rubbing irregularly against this damping; with 2 kg m it settles on a periodic motion, of
+    # which three thirds are the same whatever a scheme loses. An irregular motion scatters by chance: quantiles of
+    # thirds of 18 s by up to 0.1 of the range, of 180 s by up to 0.05; the bounds are twice and more of that.
+    shaken, end = {"Loads/Unbalance/collar/Moment": 25.0, "Damping/Mass Coefficient": 0.5}, 60.0 if short else 600.0
     for model, more, without in models({**shaken, **alpha(1e-3), **times(end, 0.02)})[:1 if short else 2]:
         run = program.run("c28_shaken", LIVELY, more, without)
 
@@ -98,6 +101,6 @@ def long_runs(program, short):
             edges = np.linspace(0.1 * end, end, 4)
             thirds = [np.percentile(speeds[(clock >= a) & (clock <= b)], (5, 25, 50, 75, 95)) for a, b in zip(edges, edges[1:])]
             return "the same", "largest change of a quantile over the range", float(np.ptp(thirds, axis=0).max() / (thirds[0][4] - thirds[0][0]))
-        yield judged(run, f"shaken, {model}", f"{end:g} s: quantiles of the bit speed in three thirds", stationary, 0.3 if short else 0.05, required=True)
+        yield judged(run, f"shaken, {model}", f"{end:g} s: quantiles of the bit speed in three thirds", stationary, 0.3 if short else 0.1, required=True)
         if run.done:
             yield statement(f"shaken, {model}", f"{end:g} s: energy residual", "below 5 %", f"{run.motion['energy_residual']:.2g}", abs(run.motion["energy_residual"]) < 0.05)
