@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -12,9 +13,10 @@ namespace tooljoint::beam {
 
 /// Isotropic elastic material.
 struct Material {
-  double density = 7850.0;       ///< rho [kg/m3]
-  double youngModulus = 2.1e11;  ///< E [Pa]
-  double poissonRatio = 0.3;     ///< nu
+  double density = 7850.0;                             ///< rho [kg/m3]
+  double youngModulus = 2.1e11;                        ///< E [Pa]
+  double poissonRatio = 0.3;                           ///< nu
+  std::optional<double> yieldStrength = std::nullopt;  ///< [Pa]
 
   /// G = E / (2 (1 + nu)) [Pa].
   double shearModulus() const { return youngModulus / (2.0 * (1.0 + poissonRatio)); }

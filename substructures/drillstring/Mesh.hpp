@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "substructures/drillstring/Components.hpp"
 #include "substructures/drillstring/DrillString.hpp"
+#include "substructures/drillstring/assembly/Components.hpp"
 #include "substructures/well/Well.hpp"
 
 namespace tooljoint::drillstring {

@@ -57,7 +57,8 @@ deck::ListSpec torqueDragParameters() {
   list.real("Rate Of Penetration", "m/s", 0.005, deck::Range::positive(),
             "Axial speed of drilling.");
   list.real("Yield Strength", "Pa", deck::Optional{}, deck::Range::positive(),
-            "Yield strength of the string, e.g. 931 MPa for S-135; without it no margin to yield.");
+            "Yield strength of components whose material gives none, e.g. 931 MPa for S-135; "
+            "without any no margin to yield.");
   list.real("Pump Pressure", "Pa", deck::Optional{}, deck::Range::nonNegative(),
             "Pressure of the mud inside the string over that in the annulus, at the surface: part "
             "of the margin to yield. Without it what the friction of Mud/Flow Rate takes down the "

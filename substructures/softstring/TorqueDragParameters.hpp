@@ -27,7 +27,7 @@ struct TorqueDragSettings {
   double reamingSpeed = 0.0;            ///< [m/s]
   double penetrationRate = 0.0;         ///< of drilling [m/s]
   std::optional<double> rotarySpeed;    ///< [rad/s]; none: that of the deck
-  std::optional<double> yieldStrength;  ///< [Pa]; none: no margin to yield
+  std::optional<double> yieldStrength;  ///< [Pa] of materials that give none
   std::optional<double> pumpPressure;   ///< [Pa]; none: what the flow needs
   StiffDepths stiff = StiffDepths::Deepest;
   std::optional<std::string> measured;  ///< table of measurements to fit friction to

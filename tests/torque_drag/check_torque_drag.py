@@ -127,6 +127,27 @@ def pressure():
     expect("a pump pressure takes of the margin in every operation", all(pumped[name] < still[name] for name in still), (still, pumped))
 
 
+def grades():
+    """A hanging string of two grades from the table of drill pipe: its margin to yield is the least of strength over stress of both, by hand."""
+    table = run("grades", "Well/Trajectory=Vertical", "Well/Vertical/Length=1300", "Supports/Bit=none", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None",
+                "Torque and Drag/Operations={Trip out}", f"Drillstring/Pipe Table={SOURCES / 'xml/components/api_drill_pipe.csv'}",
+                "Drillstring/Assembly={7*5 in 19.50 S-135 NC50 stand, 36*5 in 19.50 E-75 NC50 stand}")
+    inch, psi = 0.0254, 4.4482216152605 / 0.0254**2
+    def area(outer, inner):
+        return math.pi / 4 * (outer**2 - inner**2) * inch**2
+    body = area(5, 4.276)
+
+    def joint(inner):  # weight of 9.45 m
+        return 7850 * 9.81 * (17 * inch * area(6.625, inner) + 0.3 * area(5.125, inner) + (9.15 - 17 * inch) * body)
+    weak, strong = 75000 * psi * body, 135000 * psi * body
+    below = 108 * joint(3.75)
+    whole = below + 21 * joint(2.75)
+    near("the hook carries both grades", float(table[0]["hook_load"]), whole, 1e-6)
+    near("the weaker pipe yields first", float(table[0]["yield_margin"]), weak / (below - 9.81 * 7850 * (10 * inch * area(6.625, 3.75) + 0.15 * area(5.125, 3.75))), 1e-3)
+    expect("and that is below the margin of the stronger one at the surface", float(table[0]["yield_margin"]) < strong / whole)
+    near("where it begins", float(table[0]["yield_margin_depth"]), 21 * 9.45 + 10 * inch + 0.15, 1e-3)
+
+
 def beside():
     """The stiff string of a build and hold well beside the soft one, at a depth where it is cut and for a string of that length."""
     whole = {row["operation"]: row for row in run("beside", "Torque and Drag/Depths={950}", "Torque and Drag/Yield Strength=931 MPa")}
@@ -298,6 +319,7 @@ def files():
 
 straight()
 pressure()
+grades()
 stiff("build_hold_1400m", 0.01, 0.03)
 stiff("extended_reach_5000m", 0.01, 0.05)
 # A vertical string hardly touches: what torque the bit does not ask for is small.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/commands/Commands.hpp"
 #include "deck/Manual.hpp"
-#include "substructures/drillstring/Components.hpp"
+#include "substructures/drillstring/assembly/Components.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 
 namespace tooljoint::app {

@@ -7,7 +7,7 @@
 #include "app/commands/Templates.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "substructures/drillstring/Components.hpp"
+#include "substructures/drillstring/assembly/Components.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 
 namespace tooljoint::app {

@@ -6,7 +6,7 @@
 
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/ContactNodes.hpp"
-#include "substructures/drillstring/DrillstringReader.hpp"
+#include "substructures/drillstring/assembly/DrillstringReader.hpp"
 
 namespace tooljoint::drillstring {
 namespace {

@@ -15,6 +15,12 @@
 
 namespace tooljoint::drillstring {
 
+/// The least of a ratio of allowed to present load, and where it stands.
+struct Margin {
+  double factor = 0.0;  ///< infinite where nothing loads the string
+  double depth = 0.0;   ///< measured depth [m]
+};
+
 /// Loads of the stiff string in one operation. Forces and torques as those of softstring::Loads.
 struct StiffLoads {
   std::string failure;                          ///< why there is no equilibrium; empty: there is
@@ -27,6 +33,7 @@ struct StiffLoads {
   std::vector<double> contactForce;             ///< of each node [N]
   std::vector<double> tension, torque, moment;  ///< of each element, at its middle [N, N m]
   std::vector<double> vonMises;                 ///< of each element, by torqueDrag() [Pa]
+  Margin yield;                                 ///< at the middle of an element, by torqueDrag()
 
   bool found() const { return failure.empty(); }
   template <class Archive>

@@ -37,6 +37,14 @@ void keepLeast(Margin& margin, double factor, double depth) {
   if (factor < margin.factor) margin = {factor, depth};
 }
 
+/// The margin to yield of a section under a stress [Pa], where its strength is known.
+void keepLeastYield(Margin& margin, const beam::Section& section,
+                    const softstring::TorqueDragSettings& settings, double stress, double depth) {
+  const auto& own = section.material().yieldStrength;
+  const auto& strength = own ? own : settings.yieldStrength;
+  if (strength && stress > 0.0) keepLeast(margin, *strength / stress, depth);
+}
+
 /// Pieces over which a pipe carries the weight of its tool joints [m]: a stand of three pipes.
 constexpr double longestStand = 30.0;
 
@@ -210,8 +218,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
     profile.helical.push_back(limits.helical);
     profile.vonMises.push_back(beam::vonMises(stretch.section, loads.tension[i], loads.torque[i],
                                               point.curvature.norm(), pressure.at(s)));
-    if (settings.yieldStrength && profile.vonMises.back() > 0.0)
-      keepLeast(row.yield, *settings.yieldStrength / profile.vonMises.back(), s);
+    keepLeastYield(row.yield, stretch.section, settings, profile.vonMises.back(), s);
     if (loads.tension[i] < 0.0) {
       keepLeast(row.sinusoidal, limits.sinusoidal / -loads.tension[i], s);
       keepLeast(row.helical, limits.helical / -loads.tension[i], s);
@@ -227,19 +234,23 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
 
 namespace {
 
-/// Stresses of the elements of the stiff string, whose lower end is that of the soft one.
+/// Stresses of the elements of the stiff string, whose lower end is that of the soft one, and their
+/// margin to yield.
 void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& settings, double bit,
                  StiffLoads& loads) {
   const softstring::PressureDifference pressure(model.string, model.hole, bit,
                                                 settings.pumpPressure);
   const std::size_t count = loads.tension.size(), above = model.string.size() - count;
   loads.vonMises.clear();
+  loads.yield = {infinite, 0.0};
   for (std::size_t e = 0; e < count; ++e) {
     const auto& section = model.string[above + e].section;
+    const double middle = 0.5 * (loads.depth[e] + loads.depth[e + 1]);
     loads.vonMises.push_back(
         beam::vonMises(section, loads.tension[e], loads.torque[e],
                        loads.moment[e] / (section.youngModulus() * section.inertiaX()),
-                       pressure.at(std::min(bit, 0.5 * (loads.depth[e] + loads.depth[e + 1])))));
+                       pressure.at(std::min(bit, middle))));
+    keepLeastYield(loads.yield, section, settings, loads.vonMises.back(), middle);
   }
 }
 

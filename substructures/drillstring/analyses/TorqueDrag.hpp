@@ -18,12 +18,6 @@
 
 namespace tooljoint::drillstring {
 
-/// The least of a ratio of allowed to present load, and where it stands.
-struct Margin {
-  double factor = 0.0;  ///< infinite where nothing loads the string
-  double depth = 0.0;   ///< measured depth [m]
-};
-
 /// One operation at one depth of the bit.
 struct TorqueDragRow {
   double bit = 0.0;  ///< [m]

@@ -65,7 +65,7 @@ void printStiff(const Scene& scene, const TorqueDragProfile& profile,
       "{:<18}{:>13}{:>9}{:>15}{:>9}{:>9}{:>14}{:>8}", row.operation, text(hookLoad, "kN", 1),
       beside(hookLoad, row.hookLoad), text(stiff.surfaceTorque, "kN m", 2),
       beside(stiff.surfaceTorque, row.surfaceTorque), text(stiff.twist / constants::twoPi, 2),
-      text(largestContact(stiff).factor, "kN", 2), text(stiffYield(stiff, settings).factor, 2)));
+      text(largestContact(stiff).factor, "kN", 2), text(stiff.yield.factor, 2)));
   if (stiff.torqueDefect > worthAWarning && prestressRemark(scene).empty())
     log::warn(
         fmt::format("{} with the bit at {}: the torque of the stiff string is out of balance by "

@@ -103,8 +103,8 @@ std::vector<Column> stiffColumns(const Profiles& profiles, const Settings& setti
       [](const StiffLoads& one) { return largestContact(one).depth; });
   addMargin(columns, profiles, "stiff_yield_margin",
             "Stiff string: yield strength over von Mises stress, least",
-            [&](const TorqueDragProfile& one) {
-              return hasStiff(one) ? stiffYield(*one.stiff, settings) : Margin{nothing, 0.0};
+            [](const TorqueDragProfile& one) {
+              return hasStiff(one) ? one.stiff->yield : Margin{nothing, 0.0};
             });
   return columns;
 }
@@ -216,16 +216,6 @@ void writeProfile(const TorqueDragProfile& profile, io::ResultsFile& file) {
 Margin largestContact(const StiffLoads& stiff) {
   const auto largest = std::max_element(stiff.contactForce.begin(), stiff.contactForce.end());
   return {*largest, stiff.depth[static_cast<std::size_t>(largest - stiff.contactForce.begin())]};
-}
-
-/// Least margin to yield of the stiff string, at the middle of an element; infinite without a yield
-/// strength.
-Margin stiffYield(const StiffLoads& stiff, const softstring::TorqueDragSettings& settings) {
-  const auto most = std::max_element(stiff.vonMises.begin(), stiff.vonMises.end());
-  const auto e = static_cast<std::size_t>(most - stiff.vonMises.begin());
-  if (!settings.yieldStrength || !(*most > 0.0))
-    return {std::numeric_limits<double>::infinity(), 0.0};
-  return {*settings.yieldStrength / *most, 0.5 * (stiff.depth[e] + stiff.depth[e + 1])};
 }
 
 double deepestBit(const Profiles& profiles) {

@@ -14,10 +14,6 @@ namespace tooljoint::drillstring {
 
 /// The largest contact force of the stiff string [N] and where it acts.
 Margin largestContact(const StiffLoads& stiff);
-/// Least margin to yield of the stiff string, at the middle of an element; infinite without a yield
-/// strength.
-Margin stiffYield(const StiffLoads& stiff, const softstring::TorqueDragSettings& settings);
-
 /// Depth of the deepest bit [m].
 double deepestBit(const std::vector<TorqueDragProfile>& profiles);
 

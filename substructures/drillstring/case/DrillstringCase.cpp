@@ -153,6 +153,7 @@ std::string DrillstringCase::files() const {
       text += "\n" + io::readText(deck().resolve(list.get<std::string>(name)));
   };
   file(list().sublist("Drillstring"), "Library");
+  file(list().sublist("Drillstring"), "Pipe Table");
   const auto& well = list().sublist("Well");
   if (well.isSublist("Survey")) file(well.sublist("Survey"), "File");
   return text;

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "deck/Deck.hpp"
-#include "substructures/drillstring/DrillstringReader.hpp"
 #include "substructures/drillstring/Supports.hpp"
+#include "substructures/drillstring/assembly/DrillstringReader.hpp"
 #include "substructures/well/Well.hpp"
 
 namespace tooljoint::drillstring::testing {

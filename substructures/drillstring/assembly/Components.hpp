@@ -79,6 +79,10 @@ deck::ListSpec libraryParameters();
 /// sentence when it is not of the form "name", "count*name" or "fill*name".
 AssemblyEntry parseEntry(const std::string& text);
 
+/// Adds a component to the library. Returns what is wrong with its name (characters that an
+/// assembly gives a meaning, defined before), "" where nothing is; it is then not added.
+std::string addComponent(Component component, ComponentLibrary& library);
+
 /// Adds the components of a list to the library. Faults (radii, missing parameters, a name defined
 /// before ...) go to `faults`, one rendered line each; the component is then left out.
 void readComponents(const Teuchos::ParameterList& list, const SegmentDefaults& standard,

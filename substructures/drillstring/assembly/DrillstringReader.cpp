@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/DrillstringReader.hpp"
+#include "substructures/drillstring/assembly/DrillstringReader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "substructures/drillstring/Mesh.hpp"
+#include "substructures/drillstring/assembly/PipeTable.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -26,6 +27,7 @@ beam::Material readMaterial(const Teuchos::ParameterList& list) {
   material.density = own.get<double>("Density");
   material.youngModulus = own.get<double>("Young Modulus");
   material.poissonRatio = own.get<double>("Poisson Ratio");
+  if (own.isParameter("Yield Strength")) material.yieldStrength = own.get<double>("Yield Strength");
   return material;
 }
 
@@ -82,6 +84,10 @@ deck::ListSpec drillstringParameters() {
   const beam::Material steel;
   deck::ListSpec spec(here, "What the string is made of.");
   spec.text("Library", deck::Optional{}, "Component library, an XML file relative to the deck.")
+      .text("Pipe Table", deck::Optional{},
+            "Table of drill pipe, a CSV file relative to the deck: a row is a component of that "
+            "name, as \"5 in 19.50 S-135 NC50\", with a stand of three, \"5 in 19.50 S-135 NC50 "
+            "stand\".")
       .list(deck::ListSpec("Components",
                            "Components defined in the deck itself, beside those of the Library.")
                 .namedLists(componentParameters()))
@@ -98,7 +104,10 @@ deck::ListSpec drillstringParameters() {
                 .real("Young Modulus", "Pa", steel.youngModulus, Range::positive(),
                       "Young's modulus E.")
                 .real("Poisson Ratio", "", steel.poissonRatio, Range{-1.0, 0.5, true, false},
-                      "Ratio of lateral contraction to stretch (Poisson)."));
+                      "Ratio of lateral contraction to stretch (Poisson).")
+                .real("Yield Strength", "Pa", deck::Optional{}, Range::positive(),
+                      "Stress at which it yields, e.g. 931 MPa for S-135. Without it no margin to "
+                      "yield."));
   spec.real("Tool Face", "rad", 0.0, Range::any(),
             "Side that bends, eccentric gauges and pads of direction 0 point to: from the high "
             "side of the hole at the bit (from north in a vertical hole), clockwise looking down "
@@ -121,6 +130,15 @@ StringSettings readDrillstring(const deck::Deck& deck) {
     readComponents(
         library.list(), settings.defaults,
         [&](const std::string& path) { return library.where(path); }, settings.library, faults);
+  }
+  if (list.isParameter("Pipe Table")) {
+    try {
+      readPipeTable(deck.resolve(list.get<std::string>("Pipe Table")), settings.defaults,
+                    settings.library, faults);
+    } catch (const FileError& fault) {
+      throw DeckError(
+          deck.error(here + "/Pipe Table", std::string("names a file, but ") + fault.what()));
+    }
   }
   if (list.isSublist("Components"))
     readComponents(

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "deck/Deck.hpp"
-#include "substructures/drillstring/Components.hpp"
 #include "substructures/drillstring/DrillString.hpp"
+#include "substructures/drillstring/assembly/Components.hpp"
 #include "substructures/well/Well.hpp"
 
 namespace tooljoint::drillstring {

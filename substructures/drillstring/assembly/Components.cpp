@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/Components.hpp"
+#include "substructures/drillstring/assembly/Components.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <array>
@@ -29,7 +29,9 @@ deck::ListSpec materialSpec() {
       .real("Density", "kg/m3", Optional{}, Range::positive(), "Density.")
       .real("Young Modulus", "Pa", Optional{}, Range::positive(), "Young's modulus E.")
       .real("Poisson Ratio", "", Optional{}, Range{-1.0, 0.5, true, false},
-            "Ratio of lateral contraction to stretch (Poisson).");
+            "Ratio of lateral contraction to stretch (Poisson).")
+      .real("Yield Strength", "Pa", Optional{}, Range::positive(),
+            "Stress at which it yields: that of the margins to yield.");
 }
 
 /// The parameters of a segment; a component of one segment gives them itself.
@@ -83,12 +85,20 @@ beam::Material readMaterial(const ParameterList& list, const beam::Material& sta
   material.density = valueOr(own, "Density", standard.density);
   material.youngModulus = valueOr(own, "Young Modulus", standard.youngModulus);
   material.poissonRatio = valueOr(own, "Poisson Ratio", standard.poissonRatio);
+  if (own.isParameter("Yield Strength")) material.yieldStrength = own.get<double>("Yield Strength");
   return material;
 }
 
 /// What a list gives, and the standard for the rest.
 SegmentDefaults readDefaults(const ParameterList& list, const SegmentDefaults& standard) {
   return {readMaterial(list, standard.material), beam::readElement(list, standard.element)};
+}
+
+/// What is wrong with the name of a component in an assembly; "" where nothing is.
+std::string nameFault(const std::string& name) {
+  if (name.empty()) return "The component has no name.";
+  if (name.find_first_of("*,/{}") == std::string::npos) return "";
+  return "The name of a component must not hold any of the characters * , / { }.";
 }
 
 /// Reads one component; the first fault ends it.
@@ -101,8 +111,7 @@ class ComponentReader {
     Component component;
     component.name = name;
     component.where = where_(name);
-    if (name.find_first_of("*,/{}") != std::string::npos)
-      fail(name, "The name of a component must not hold any of the characters * , / { }.");
+    if (const auto fault = nameFault(name); !fault.empty()) fail(name, fault);
     const bool own = hasSegment(list);
     const bool segments = list.isSublist("Segments");
     const bool parts = list.isParameter("Parts");
@@ -314,6 +323,15 @@ deck::ListSpec libraryParameters() {
       .namedLists(componentParameters());
 }
 
+std::string addComponent(Component component, ComponentLibrary& library) {
+  std::string fault = nameFault(component.name);
+  if (!fault.empty()) return fault;
+  const std::string name = component.name;
+  const auto [place, added] = library.emplace(name, std::move(component));
+  if (added) return "";
+  return "The component is defined before (" + place->second.where + "); rename one of them.";
+}
+
 void readComponents(const ParameterList& list, const SegmentDefaults& standard, const Where& where,
                     ComponentLibrary& library, std::vector<std::string>& faults) {
   const ComponentReader reader(standard, where);
@@ -321,14 +339,8 @@ void readComponents(const ParameterList& list, const SegmentDefaults& standard, 
     const std::string& name = list.name(it);
     if (!list.isSublist(name)) continue;
     try {
-      Component component = reader.read(name, list.sublist(name));
-      const auto before = library.find(name);
-      if (before != library.end()) {
-        faults.push_back(where(name) + ": The component is defined before (" +
-                         before->second.where + "); rename one of them.");
-        continue;
-      }
-      library.emplace(name, std::move(component));
+      const auto problem = addComponent(reader.read(name, list.sublist(name)), library);
+      if (!problem.empty()) faults.push_back(where(name) + ": " + problem);
     } catch (const DeckError& error) {
       faults.emplace_back(error.what());
     }
