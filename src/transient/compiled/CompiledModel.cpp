@@ -377,7 +377,7 @@ double CompiledModel::stateDistance(const Vector& a, const Vector& b) const {
 void CompiledModel::addPointForces(double t, const double* q, const double* v, double* y) {
   for (auto& batch : points_) {
     batch.evaluate(t, q, v);
-    batch.addForce(1.0, y);
+    batch.addForce(y);
   }
 }
 

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 
 #include "common/Index.hpp"
-#include "transient/compiled/PointWidth.hpp"
 
 namespace tooljoint::transient {
 PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern,
@@ -17,68 +15,20 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
       law_(set.law),
       entities_(set.entities),
       points_(set.law->size()),
-      width_(set.law->width()) {
+      width_(set.law->width()),
+      rows_(set, pattern) {
   if (const auto* law = model::stateful(*law_)) states_ = std::make_unique<PointStates>(*law);
   const int rows = points_ * width_;
-  const auto& position = pattern.partition().position;
   offset_.assign(set.offset.data(), set.offset.data() + rows);
-  rowBegin_.push_back(0);
-  single_ = true;
-  for (int r = 0; r < rows; ++r) {
-    for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
-      if (it.value() == 0.0) continue;
-      column_.push_back(position[at(static_cast<int>(it.col()))]);
-      value_.push_back(it.value());
-      single_ = single_ && it.value() == 1.0;
-    }
-    rowBegin_.push_back(static_cast<int>(column_.size()));
-    single_ = single_ && rowBegin_[at(r + 1)] - rowBegin_[at(r)] <= 1;
-  }
-  findBlocks(pattern);
-  if (single_) {
-    index_.assign(at(rows), -1);
-    for (int r = 0; r < rows; ++r)
-      if (rowBegin_[at(r + 1)] > rowBegin_[at(r)]) index_[at(r)] = column_[at(rowBegin_[at(r)])];
-    entryAddress_.assign(at(rows) * at(width_), noEntry);
-    for (int p = 0; p < points_; ++p)
-      for (int i = 0; i < width_; ++i)
-        for (int j = 0; j < width_; ++j) {
-          const int row = index_[at(p * width_ + i)];
-          const int column = index_[at(p * width_ + j)];
-          if (row >= 0 && column >= 0)
-            entryAddress_[at((p * width_ + i) * width_ + j)] = pattern.address(row, column);
-        }
-  } else {
-    touchBegin_.push_back(0);
-    pairBegin_.push_back(0);
-    for (int p = 0; p < points_; ++p) {
-      std::map<int, std::size_t> blocks;
-      for (int i = rowBegin_[at(p * width_)]; i < rowBegin_[at((p + 1) * width_)]; ++i)
-        blocks[pattern.blockOf(column_[at(i)])] = 0;
-      for (auto& [block, begin] : blocks) {
-        begin = touchRows_.size();
-        touches_.push_back({pattern.start(block), pattern.width(block), begin});
-        touchRows_.resize(begin + at(width_ * pattern.width(block)), 0.0);
-        for (const auto& [other, ignored] : blocks)
-          pairOffset_.push_back(pattern.offset(pattern.find(block, other)));
-      }
-      for (int c = 0; c < width_; ++c)
-        for (int i = rowBegin_[at(p * width_ + c)]; i < rowBegin_[at(p * width_ + c + 1)]; ++i) {
-          const int block = pattern.blockOf(column_[at(i)]);
-          touchRows_[blocks[block] + at((column_[at(i)] - pattern.start(block)) * width_ + c)] =
-              value_[at(i)];
-        }
-      touchBegin_.push_back(static_cast<int>(touches_.size()));
-      pairBegin_.push_back(static_cast<int>(pairOffset_.size()));
-    }
-  }
   if (own != nullptr) {
     all_ = *own;
   } else {
     all_.resize(at(points_));
     std::iota(all_.begin(), all_.end(), 0);
   }
-  watch_ = ContactBroadPhase(all_, width_, law_->reach(), rowBegin_, column_, value_, pattern);
+  const PointRowEntries entries = PointRows::entries(set, pattern);
+  watch_ = ContactBroadPhase(all_, width_, law_->reach(), entries.begin, entries.column,
+                             entries.value, pattern);
   small_.assign(at(width_), 0.0);
   own_.assign(at(2 * width_), 0.0);
   active_.reserve(at(points_));
@@ -96,68 +46,21 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   one_.assign(1, 0);
 }
 
-void PointBatch::findBlocks(const linalg::BlockPattern& pattern) {
-  blockBegin_.push_back(0);
-  for (int p = 0; p < points_; ++p) {
-    const auto begin = static_cast<std::ptrdiff_t>(block_.size());
-    for (int i = rowBegin_[at(p * width_)]; i < rowBegin_[at((p + 1) * width_)]; ++i)
-      block_.push_back(pattern.blockOf(column_[at(i)]));
-    std::sort(block_.begin() + begin, block_.end());
-    block_.erase(std::unique(block_.begin() + begin, block_.end()), block_.end());
-    blockBegin_.push_back(static_cast<int>(block_.size()));
-  }
-  pointBegin_.assign(at(pattern.blocks() + 1), 0);
-  for (int b : block_) ++pointBegin_[at(b + 1)];
-  std::partial_sum(pointBegin_.begin(), pointBegin_.end(), pointBegin_.begin());
-  point_.resize(block_.size());
-  std::vector<int> next(pointBegin_.begin(), pointBegin_.end() - 1);
-  for (int p = 0; p < points_; ++p)
-    for (int i = blockBegin_[at(p)]; i < blockBegin_[at(p + 1)]; ++i)
-      point_[at(next[at(block_[at(i)])]++)] = p;
-}
-
-double PointBatch::rowTimes(int row, const double* x) const {
-  double sum = 0;
-  for (int i = rowBegin_[at(row)]; i < rowBegin_[at(row + 1)]; ++i)
-    sum += value_[at(i)] * x[column_[at(i)]];
-  return sum;
-}
-
 void PointBatch::gatherAll(const double* q, const double* v) {
-  const int rows = points_ * width_;
-  if (single_) {
-    for (int r = 0; r < rows; ++r) {
-      const int i = index_[at(r)];
-      d_[at(r)] = i < 0 ? offset_[at(r)] : offset_[at(r)] + q[i];
-    }
-    if (v != nullptr)
-      for (int r = 0; r < rows; ++r) v_[at(r)] = index_[at(r)] < 0 ? 0.0 : v[index_[at(r)]];
-  } else {
-    for (int r = 0; r < rows; ++r) d_[at(r)] = offset_[at(r)] + rowTimes(r, q);
-    if (v != nullptr)
-      for (int r = 0; r < rows; ++r) v_[at(r)] = rowTimes(r, v);
-  }
+  for (int r = 0; r < points_ * width_; ++r) d_[at(r)] = offset_[at(r)] + rows_.times(r, q);
+  if (v == nullptr) return;
+  for (int r = 0; r < points_ * width_; ++r) v_[at(r)] = rows_.times(r, v);
 }
 
 void PointBatch::gatherPositions(const std::vector<int>& points, const double* q) {
+  rows_.gather(points, q, d_.data());
   for (int p : points)
-    for (int r = p * width_; r < (p + 1) * width_; ++r)
-      d_[at(r)] = offset_[at(r)] +
-                  (single_ ? (index_[at(r)] < 0 ? 0.0 : q[index_[at(r)]]) : rowTimes(r, q));
+    for (int r = p * width_; r < (p + 1) * width_; ++r) d_[at(r)] += offset_[at(r)];
 }
 
 void PointBatch::gatherThese(const std::vector<int>& points, const double* q, const double* v) {
-  for (int p : points)
-    for (int r = p * width_; r < (p + 1) * width_; ++r) {
-      if (single_) {
-        const int i = index_[at(r)];
-        d_[at(r)] = i < 0 ? offset_[at(r)] : offset_[at(r)] + q[i];
-        v_[at(r)] = i < 0 ? 0.0 : v[i];
-      } else {
-        d_[at(r)] = offset_[at(r)] + rowTimes(r, q);
-        v_[at(r)] = rowTimes(r, v);
-      }
-    }
+  gatherPositions(points, q);
+  rows_.gather(points, v, v_.data());
 }
 
 /// Clearances at q of the points that are awake; what slept is as if it had stood still.
@@ -272,8 +175,8 @@ void PointBatch::scalePoint(int p, bool tangent) {
 void PointBatch::addScaledForce(double* y, std::vector<int>& blocks) const {
   for (int p : active_) {
     if (scale_[at(p)] == 1.0) continue;
-    for (int r = p * width_; r < (p + 1) * width_; ++r) addRow(r, f_[at(r)], y);
-    appendBlocks(p, blocks);
+    for (int r = p * width_; r < (p + 1) * width_; ++r) rows_.add(r, f_[at(r)], y);
+    rows_.appendBlocks(p, blocks);
   }
 }
 
@@ -281,42 +184,7 @@ void PointBatch::applyScale(const std::vector<int>& points, bool tangent) {
   for (int p : points) scalePoint(p, tangent);
 }
 
-void PointBatch::addForce(double factor, double* y) const {
-  for (int p : active_)
-    for (int r = p * width_; r < (p + 1) * width_; ++r) {
-      const double force = factor * f_[at(r)];
-      if (single_) {
-        if (index_[at(r)] >= 0) y[index_[at(r)]] += force;
-      } else {
-        for (int i = rowBegin_[at(r)]; i < rowBegin_[at(r + 1)]; ++i)
-          y[column_[at(i)]] += value_[at(i)] * force;
-      }
-    }
-}
-
-void PointBatch::gather(const std::vector<int>& points, const double* x, double* rows) const {
-  withWidth(width_, [&](auto width) {
-    const int w = width;
-    for (int p : points)
-      for (int r = p * w; r < (p + 1) * w; ++r)
-        rows[r] = single_ ? (index_[at(r)] < 0 ? 0.0 : x[index_[at(r)]]) : rowTimes(r, x);
-  });
-}
-
-void PointBatch::scatter(const std::vector<int>& points, const double* rows, double* y) const {
-  withWidth(width_, [&](auto width) {
-    const int w = width;
-    for (int p : points)
-      for (int r = p * w; r < (p + 1) * w; ++r) {
-        if (single_) {
-          if (index_[at(r)] >= 0) y[index_[at(r)]] += rows[r];
-        } else {
-          for (int i = rowBegin_[at(r)]; i < rowBegin_[at(r + 1)]; ++i)
-            y[column_[at(i)]] += value_[at(i)] * rows[r];
-        }
-      }
-  });
-}
+void PointBatch::addForce(double* y) const { rows_.scatter(active_, f_.data(), y); }
 
 void PointBatch::callLaw(double t, const std::vector<int>& points, bool tangent) {
   const double *d = d_.data(), *v = v_.data();
@@ -342,29 +210,7 @@ void PointBatch::evaluateHere(double t, int point, bool tangent) {
 }
 
 void PointBatch::markBlocks(std::vector<char>& blocks) const {
-  for (int b : block_) blocks[at(b)] = 1;
-}
-
-void PointBatch::appendBlocks(int point, std::vector<int>& blocks) const {
-  blocks.insert(blocks.end(), block_.begin() + blockBegin_[at(point)],
-                block_.begin() + blockBegin_[at(point + 1)]);
-}
-
-double PointBatch::rowTimesVector(int row, const double* x) const {
-  if (single_) return index_[at(row)] < 0 ? 0.0 : x[index_[at(row)]];
-  return rowTimes(row, x);
-}
-
-void PointBatch::addRow(int row, double factor, double* y) const {
-  for (int i = rowBegin_[at(row)]; i < rowBegin_[at(row + 1)]; ++i)
-    y[column_[at(i)]] += factor * value_[at(i)];
-}
-
-double PointBatch::rowWeight(int row, const double* weight) const {
-  double largest = 0;
-  for (int i = rowBegin_[at(row)]; i < rowBegin_[at(row + 1)]; ++i)
-    largest = std::max(largest, std::abs(value_[at(i)]) * weight[column_[at(i)]]);
-  return largest;
+  for (int b : rows_.blocks()) blocks[at(b)] = 1;
 }
 
 void PointBatch::evaluateOne(double t, int point, const double* d, const double* v, double* f,

@@ -17,12 +17,10 @@
 #include "linalg/blocks/BlockSparse.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "transient/compiled/ContactBroadPhase.hpp"
+#include "transient/compiled/PointRows.hpp"
 #include "transient/compiled/PointStates.hpp"
 
 namespace tooljoint::transient {
-
-/// Address of an entry that the matrix does not have.
-inline constexpr std::size_t noEntry = std::numeric_limits<std::size_t>::max();
 
 class PointBatch {
  public:
@@ -31,7 +29,7 @@ class PointBatch {
              const std::vector<int>* own = nullptr);
 
   int points() const { return points_; }
-  int width() const { return width_; }
+  int width() const { return rows_.width(); }
   const std::vector<int>& active() const { return active_; }
   long evaluations() const { return evaluations_; }
   const model::PointLaw& law() const { return *law_; }
@@ -53,8 +51,8 @@ class PointBatch {
   void evaluate(double t, const double* q, const double* v);
   /// Forces and tangents of the active points at (q, v); the tangents are kept until the next call.
   void evaluateWithTangent(double t, const double* q, const double* v);
-  /// y += factor R' f.
-  void addForce(double factor, double* y) const;
+  /// y += R' f.
+  void addForce(double* y) const;
 
   /// Multiply force and tangents of a point by this in all evaluations from now on (1 at first).
   void setScale(int point, double scale);
@@ -68,9 +66,13 @@ class PointBatch {
   // The same in rows (point * width() + coordinate), for iterations that never form q and v; of the
   // points given.
   /// rows = R x.
-  void gather(const std::vector<int>& points, const double* x, double* rows) const;
+  void gather(const std::vector<int>& points, const double* x, double* rows) const {
+    rows_.gather(points, x, rows);
+  }
   /// y += R' rows.
-  void scatter(const std::vector<int>& points, const double* rows, double* y) const;
+  void scatter(const std::vector<int>& points, const double* rows, double* y) const {
+    rows_.scatter(points, rows, y);
+  }
   /// d() at q.
   void gatherPositions(const std::vector<int>& points, const double* q);
   /// Where the next evaluateHere() evaluates, offsets included.
@@ -85,19 +87,21 @@ class PointBatch {
   /// P of the last freezeTangent(); zero for points that are not in it.
   const double* frozen() const { return P_.data(); }
   /// R_p Z R_p' of a point for a matrix on the pattern, row-major.
-  void project(int point, const double* values, double* block) const;
+  void project(int point, const double* values, double* block) const {
+    rows_.project(point, values, block);
+  }
   /// Blocks of the pattern the rows of any point touch.
   void markBlocks(std::vector<char>& blocks) const;
   /// Append those of one point.
-  void appendBlocks(int point, std::vector<int>& blocks) const;
+  void appendBlocks(int point, std::vector<int>& blocks) const {
+    rows_.appendBlocks(point, blocks);
+  }
   /// act(p) for the active points whose rows touch a block.
   template <class Act>
   void forActiveIn(int block, const Act& act) const {
-    const auto b = static_cast<std::size_t>(block);
-    for (int i = pointBegin_[b]; i < pointBegin_[b + 1]; ++i) {
-      const int p = point_[static_cast<std::size_t>(i)];
+    rows_.forPointsIn(block, [&](int p) {
       if (isActive_[static_cast<std::size_t>(p)]) act(p);
-    }
+    });
   }
 
   /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the two calls below.
@@ -120,10 +124,10 @@ class PointBatch {
   /// Row of P R x with the frozen P; 0 for a point that is not in it.
   double frozenTimes(int row, const double* x) const;
   /// R_row x and y += factor R_row'.
-  double rowTimesVector(int row, const double* x) const;
-  void addRow(int row, double factor, double* y) const;
+  double rowTimesVector(int row, const double* x) const { return rows_.times(row, x); }
+  void addRow(int row, double factor, double* y) const { rows_.add(row, factor, y); }
   /// Largest |R_row,i| weight_i.
-  double rowWeight(int row, const double* weight) const;
+  double rowWeight(int row, const double* weight) const { return rows_.weight(row, weight); }
   /// The law at one point for width() coordinates d, v, which the batch then holds; tangents
   /// row-major, both null if not wanted.
   void evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd,
@@ -156,13 +160,10 @@ class PointBatch {
 
  private:
   void gatherThese(const std::vector<int>& points, const double* q, const double* v);
-  void findBlocks(const linalg::BlockPattern& pattern);
   void listActive();
   void measure(const double* q, std::vector<double>& gap);
-  void subtract(const std::vector<double>& frozen, double* values) const;
   void applyScale(const std::vector<int>& points, bool tangent);
   void scalePoint(int point, bool tangent);
-  double rowTimes(int row, const double* x) const;
   /// The law at d_, v_ of these points.
   void callLaw(double t, const std::vector<int>& points, bool tangent);
   model::PointLaw::Power callPower(double t, const std::vector<int>& points) const;
@@ -173,30 +174,8 @@ class PointBatch {
   std::vector<std::int64_t> entities_;
   int points_ = 0;
   int width_ = 0;
-  bool single_ = false;        ///< every row has at most one entry, and it is 1
-  std::vector<int> index_;     ///< single: position per row, -1 for none
-  std::vector<int> rowBegin_;  ///< otherwise: rows as CSR in positions
-  std::vector<int> column_;
-  std::vector<double> value_;
+  PointRows rows_;
   std::vector<double> offset_;
-
-  std::vector<int> blockBegin_, block_;  ///< per point: the blocks its rows touch
-  std::vector<int> pointBegin_, point_;  ///< per block: the points whose rows touch it
-
-  // Per point, for tangents: the blocks its rows touch and the rows restricted to them (width x
-  // block, column-major).
-  struct Touch {
-    int start;
-    int width;
-    std::size_t rows;  ///< into touchRows_
-  };
-  std::vector<int> touchBegin_;
-  std::vector<Touch> touches_;
-  std::vector<double> touchRows_;
-  std::vector<int> pairBegin_;           ///< per point into pairOffset_
-  std::vector<std::size_t> pairOffset_;  ///< block offsets for all pairs of touches (general rows)
-  std::vector<std::size_t>
-      entryAddress_;  ///< single: address per point of (row, column), width x width; npos for none
 
   std::vector<int> active_;
   std::vector<char> isActive_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tangents of a PointBatch: frozen for a factor, added to matrices on the pattern, and what a
-// matrix is at a point.
+// Tangents of a PointBatch: frozen for a factor and added to matrices on the pattern.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
@@ -30,33 +29,6 @@ Square pushing(const Square& A, Eigen::SelfAdjointEigenSolver<Square>& parts) {
 }
 
 }  // namespace
-
-void PointBatch::project(int point, const double* values, double* block) const {
-  const int w = width_;
-  if (single_) {
-    for (int i = 0; i < w * w; ++i) {
-      const std::size_t address = entryAddress_[at(point * w * w + i)];
-      block[i] = address == noEntry ? 0.0 : values[address];
-    }
-    return;
-  }
-  std::fill(block, block + w * w, 0.0);
-  const int first = touchBegin_[at(point)];
-  const int count = touchBegin_[at(point + 1)] - first;
-  for (int a = 0; a < count; ++a)
-    for (int b = 0; b < count; ++b) {
-      const Touch& row = touches_[at(first + a)];
-      const Touch& column = touches_[at(first + b)];
-      const double* Z = values + pairOffset_[at(pairBegin_[at(point)] + a * count + b)];
-      for (int j = 0; j < column.width; ++j)
-        for (int i = 0; i < row.width; ++i)
-          for (int k = 0; k < w; ++k) {
-            const double left = touchRows_[row.rows + at(i * w + k)] * Z[j * row.width + i];
-            for (int l = 0; l < w; ++l)
-              block[k * w + l] += left * touchRows_[column.rows + at(j * w + l)];
-          }
-    }
-}
 
 void PointBatch::freezeTangent(double cd, double cv) {
   const int entries = width_ * width_;
@@ -94,69 +66,22 @@ void PointBatch::forgetTangent() {
   frozen_.clear();
 }
 
-void PointBatch::subtractTangent(double* values) const { subtract(P_, values); }
+void PointBatch::subtractTangent(double* values) const {
+  for (int p : frozen_) rows_.subtract(p, &P_[at(p * width_ * width_)], values);
+}
 
-void PointBatch::subtractPositionTangent(double* values) const { subtract(positionP_, values); }
-
-void PointBatch::subtract(const std::vector<double>& frozen, double* values) const {
-  const int entries = width_ * width_;
-  if (single_) {
-    for (int p : frozen_)
-      for (int i = p * entries; i < (p + 1) * entries; ++i)
-        if (entryAddress_[at(i)] != noEntry) values[entryAddress_[at(i)]] -= frozen[at(i)];
-    return;
-  }
-  for (int p : frozen_) {
-    const double* P = &frozen[at(p * entries)];
-    const int first = touchBegin_[at(p)];
-    const int count = touchBegin_[at(p + 1)] - first;
-    for (int b = 0; b < count; ++b) {
-      const Touch& column = touches_[at(first + b)];
-      for (int j = 0; j < column.width; ++j) {
-        // PR_j = P R(:, j);  A(:, j) -= R' PR_j
-        const double* Rj = &touchRows_[column.rows + at(j * width_)];
-        bool zero = true;
-        for (int c = 0; c < width_; ++c) zero = zero && Rj[c] == 0.0;
-        if (zero) continue;
-        double* PRj = small_.data();
-        for (int r = 0; r < width_; ++r) {
-          PRj[r] = 0;
-          for (int c = 0; c < width_; ++c) PRj[r] += P[r * width_ + c] * Rj[c];
-        }
-        for (int a = 0; a < count; ++a) {
-          const Touch& row = touches_[at(first + a)];
-          double* target =
-              values + pairOffset_[at(pairBegin_[at(p)] + a * count + b)] + at(j * row.width);
-          const double* R = &touchRows_[row.rows];
-          for (int i = 0; i < row.width; ++i) {
-            double sum = 0;
-            for (int r = 0; r < width_; ++r) sum += R[i * width_ + r] * PRj[r];
-            target[i] -= sum;
-          }
-        }
-      }
-    }
-  }
+void PointBatch::subtractPositionTangent(double* values) const {
+  for (int p : frozen_) rows_.subtract(p, &positionP_[at(p * width_ * width_)], values);
 }
 
 void PointBatch::addTangentTimes(const double* x, double* y) const {
-  const int entries = width_ * width_;
   for (int p : frozen_) {
     double* Rx = small_.data();
+    for (int k = 0; k < width_; ++k) Rx[k] = rows_.times(p * width_ + k, x);
     for (int c = 0; c < width_; ++c) {
-      const int r = p * width_ + c;
-      Rx[c] = single_ ? (index_[at(r)] < 0 ? 0.0 : x[index_[at(r)]]) : rowTimes(r, x);
-    }
-    for (int c = 0; c < width_; ++c) {
-      const int r = p * width_ + c;
       double force = 0;
-      for (int k = 0; k < width_; ++k) force += P_[at(p * entries + c * width_ + k)] * Rx[k];
-      if (single_) {
-        if (index_[at(r)] >= 0) y[index_[at(r)]] += force;
-      } else {
-        for (int i = rowBegin_[at(r)]; i < rowBegin_[at(r + 1)]; ++i)
-          y[column_[at(i)]] += value_[at(i)] * force;
-      }
+      for (int k = 0; k < width_; ++k) force += P_[at((p * width_ + c) * width_ + k)] * Rx[k];
+      rows_.add(p * width_ + c, force, y);
     }
   }
 }
@@ -171,7 +96,7 @@ double PointBatch::frozenTimes(int row, const double* x) const {
   if (std::find(frozen_.begin(), frozen_.end(), point) == frozen_.end()) return 0.0;
   double sum = 0;
   for (int k = 0; k < width_; ++k)
-    sum += P_[at(row * width_ + k)] * rowTimesVector(point * width_ + k, x);
+    sum += P_[at(row * width_ + k)] * rows_.times(point * width_ + k, x);
   return sum;
 }
 

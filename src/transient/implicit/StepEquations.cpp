@@ -71,7 +71,7 @@ double StepEquations::measure(const State& to) {
   forces_.setZero();
   for (auto& batch : model_->points()) {
     batch.evaluate(to.t, to.q.data(), to.v.data());
-    batch.addForce(1.0, forces_.data());
+    batch.addForce(forces_.data());
   }
   residual_ = linear_ - forces_;
   const Vector& weight = scale_.weight();
