@@ -321,7 +321,7 @@ def reduce(parts: Iterable[Part], reduction: DeckList) -> list[ReducedPart]:
 def register_basis(name: str, doc: str, parameters: list, keywords: dict, build: Any) -> None:
     """Register a basis written in Python."""
 
-def register_point_law(name: str, doc: str, parameters: list, keywords: dict, width: int, force: Any, tangent: Any, power: Any) -> None:
+def register_point_law(name: str, doc: str, parameters: list, keywords: dict, width: int, states: int, force: Any, tangent: Any, power: Any, start: Any) -> None:
     """Register a law written in Python."""
 
 def run(deck: DeckSource, output: str, restart: str, quiet: bool) -> str:

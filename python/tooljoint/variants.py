@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from . import _core
+from .errors import UsageError
 from .lists import checked, title
 
 _written = set()  # names of the variants written in Python
@@ -69,7 +70,8 @@ def basis(name: str) -> Callable[[Callable], Callable]:
     return register
 
 
-def point_law(name: str, *, width: int = 1, tangent: Callable | None = None, power: Callable | None = None) -> Callable[[Callable], Callable]:
+def point_law(name: str, *, width: int = 1, states: int = 0, tangent: Callable | None = None, power: Callable | None = None,
+              start: Callable | None = None) -> Callable[[Callable], Callable]:
     """Registers a function as a point law: force(t, d, v, **parameters) for positions d [m] and velocities v [m/s] of all points at once,
     arrays of (points,), or (points, width) where width > 1; it returns the forces [N] in the same shape. The first coordinate is a
     separation: a positive force pushes apart.
@@ -86,11 +88,30 @@ def point_law(name: str, *, width: int = 1, tangent: Callable | None = None, pow
     ...     return -stiffness * d - cubic * d**3
     >>> tj.law("Hardening", stiffness="2 kN/m").force(0.0, [0.1], [0.0]).tolist()
     [-200.0]
+
+    states: numbers x of each point that change with the motion, as the creep of a link: force(t, d, v, x, **parameters) then returns
+    (forces, rates dx/dt), x and the rates in arrays of (points,), or (points, states). The integrator keeps them beside d and v, and
+    checkpoints hold them. start(t, d, v, **parameters) gives their first values; without it they are 0. power(t, d, v, x, rates,
+    **parameters) is as above; without it nothing is stored, and all work of the forces is damping. Slopes are always differences.
+
+    >>> def relaxed(t, d, v, stiffness, damping):
+    ...     return d
+    >>> @tj.point_law("Creeping Link", states=1, start=relaxed)
+    ... def creeping(t, d, v, x, stiffness=tj.Parameter(unit="N/m"), damping=tj.Parameter(unit="N s/m")):
+    ...     '''A spring and a dashpot in series; x is the stretch of the dashpot.'''
+    ...     force = -stiffness * (d - x)
+    ...     return force, -force / damping
     """
+    if width < 1 or states < 0:
+        raise UsageError(f'The point law "{name}" has width {width} and {states} states: a point has at least 1 coordinate and 0 states.')
+    if states > 0 and tangent is not None:
+        raise UsageError(f'The point law "{name}" has states: its slopes are differences, leave tangent out.')
+    if states == 0 and start is not None:
+        raise UsageError(f'The point law "{name}" has no states to start: give states, or leave start out.')
 
     def register(force):
-        rows, names = _parameters(force, 3)
-        _core.register_point_law(name, _sentence(force), rows, names, width, force, tangent, power)
+        rows, names = _parameters(force, 4 if states > 0 else 3)
+        _core.register_point_law(name, _sentence(force), rows, names, width, states, force, tangent, power, start)
         _written.add(name)
         return force
 

@@ -44,20 +44,23 @@ class Blocks(unittest.TestCase):
         # A mass on a spring without damping swings from 0.1 m to -0.1 m; samples meet the turning point to 1e-4.
         self.assertAlmostEqual(float(run(BLOCKS[2])), -0.1, places=3)
 
+    def test_a_law_with_states(self):
+        self.assertAlmostEqual(float(run(BLOCKS[3])), 5e-3, delta=5e-6)
+
     def test_decks(self):
-        words, modes = run(BLOCKS[3]).splitlines()
+        words, modes = run(BLOCKS[4]).splitlines()
         self.assertEqual(words, "(21, 32, 6) m, rad 100")
         self.assertIn("<Modes: 3, ", modes)
         self.assertTrue(pathlib.Path("guyed.xml").is_file())
 
     def test_figures(self):
-        run(BLOCKS[4])
+        run(BLOCKS[5])
         text = pathlib.Path("torque.svg").read_text(encoding="utf-8")
         for word in ("torque [kN m]", "measured depth [m]", "120 rpm, WOB 40 kN"):
             self.assertIn(f">{word}<", text)
 
     def test_no_block_is_forgotten(self):
-        self.assertEqual(len(BLOCKS), 5)
+        self.assertEqual(len(BLOCKS), 6)
 
 
 if __name__ == "__main__":

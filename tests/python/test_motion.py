@@ -147,6 +147,66 @@ class Motions(unittest.TestCase):
         self.assertAlmostEqual(float(bounce.velocity[-1, 0]), 1.0, delta=1e-3)
         self.assertAlmostEqual(float(bounce.displacement[-1, 0]), -0.01 + (0.05 - back), delta=1e-4)
 
+    def test_a_law_with_states_is_that_in_cpp(self):
+        def relaxed(t, d, v, stiffness, damping):
+            return d
+
+        def energy(t, d, v, x, rates, stiffness, damping):
+            return [float(sum(stiffness * (d - x) ** 2 / 2)), float(sum(damping * rates**2))]
+
+        def creep(t, d, v, x, stiffness, damping):
+            force = -stiffness * (d - x)
+            return force, -force / damping
+
+        tj.point_law("Creep", states=1, start=relaxed, power=energy)(creep)
+        given = dict(stiffness=LINEAR, damping=0.1 * LINEAR * END)  # relaxes in a tenth of the motion
+        for integrator, step, same in (("Generalized-alpha", 1e-4, 1e-7), ("RK4", 2e-5, 1e-10)):
+            reports, tips = zip(*((motion.report["energy"], np.asarray(motion.at(25, "v"))) for motion in (
+                tj.integrate(synthesis(law, push), END, sampling_interval=SAMPLING, integrator=integrator, step=step) for law in (
+                    tj.law("Maxwell", **given), tj.law("Creep", **given)))))
+            with self.subTest(integrator):
+                self.assertLess(abs(tips[0] - tips[1]).max(), same * abs(tips[0]).max(), "the law in Python moves otherwise")
+                self.assertGreater(abs(tips[0] - tip_motion(synthesis(None, push), step=step, integrator=integrator)).max(),
+                                   0.01 * abs(tips[0]).max(), "the law does nothing")
+                for name in ("contact", "contact_damping", "residual"):
+                    self.assertAlmostEqual(reports[0][name], reports[1][name], delta=1e-6 * abs(reports[0]["loads"]), msg=name)
+
+        # Without `power` all that its forces take counts as damping.
+        tj.point_law("Creep Unsaid", states=1, start=relaxed)(creep)
+        unsaid = tj.integrate(synthesis(tj.law("Creep Unsaid", **given), push), END, sampling_interval=SAMPLING, step=1e-4).report["energy"]
+        said = tj.integrate(synthesis(tj.law("Creep", **given), push), END, sampling_interval=SAMPLING, step=1e-4).report["energy"]
+        self.assertLess(abs(unsaid["residual"]), 1e-3)
+        self.assertAlmostEqual(unsaid["contact_damping"], said["contact"] + said["contact_damping"], delta=1e-3 * abs(said["loads"]))
+
+    def test_a_law_with_two_states_of_a_point(self):
+        @tj.point_law("Two Creeps", states=2)
+        def both(t, d, v, x, first=LINEAR, second=2 * LINEAR, time=0.1):
+            stretch = d[:, None] - x
+            return -(stretch @ [first, second]), stretch / [time, 2 * time]
+
+        def motion(*laws):
+            mass = tj.part("mass", [[1.0]], [[0.0]])
+            for number, law in enumerate(laws):
+                mass.model.add_points(f"link {number}", law, [[1.0]])
+            mass.model.set_start([0.0], [1.0])
+            return np.asarray(tj.integrate(mass, 1.0, sampling_interval=0.01, step=1e-4).displacement)
+
+        cpp = motion(tj.law("Maxwell", stiffness=LINEAR, damping=0.1 * LINEAR), tj.law("Maxwell", stiffness=2 * LINEAR, damping=0.4 * LINEAR))
+        self.assertLess(abs(motion(tj.law("Two Creeps")) - cpp).max(), 1e-7 * abs(cpp).max())
+
+    def test_calls_of_laws_with_states_that_make_no_sense(self):
+        for wrong, sentence in ((dict(states=-1), "-1 states"), (dict(width=0), "width 0"), (dict(start=push), "no states to start"),
+                                (dict(states=1, tangent=push), "leave tangent out")):
+            with self.assertRaisesRegex(tj.UsageError, sentence):
+                tj.point_law("Senseless", **wrong)
+
+        @tj.point_law("Forgets Rates", states=1)
+        def forgetful(t, d, v, x):
+            return -d
+
+        with self.assertRaisesRegex(tj.ModelError, "Forgets Rates.*return a pair, forces and rates"):
+            tip_motion(synthesis(tj.law("Forgets Rates")), step=1e-3)
+
     def test_laws_of_two_coordinates(self):
         seen = []
 

@@ -108,10 +108,18 @@ class Laws(unittest.TestCase):
                 deck.add("Coupling/Point Laws/guy", {"First": "top beam:5", "Component": "v", "Type": law, law: parameters})
             return deck.run(law or "free")["transient/displacement"]
 
-        free, python, cpp = motion(""), motion("Rope", stiffness="200 kN/m"), motion("Spring", stiffness="200 kN/m")
+        @tj.point_law("Yielding Rope", states=1, start=lambda t, d, v, stiffness, damping: d)
+        def yielding(t, d, v, x, stiffness=tj.Parameter(unit="N/m"), damping=tj.Parameter(unit="N s/m")):
+            """A spring and a dashpot in series."""
+            return -stiffness * (d - x), stiffness / damping * (d - x)
+
+        free = motion("")
         size = abs(free).max()
-        self.assertGreater(abs(cpp - free).max(), 0.01 * size, "the spring does not show")
-        self.assertLess(abs(python - cpp).max(), 1e-7 * size)
+        for python, cpp, parameters in (("Rope", "Spring", {}), ("Yielding Rope", "Maxwell", {"damping": "10 kN s/m"})):
+            with self.subTest(cpp):
+                moved, truth = (motion(law, stiffness="200 kN/m", **parameters) for law in (python, cpp))
+                self.assertGreater(abs(truth - free).max(), 0.01 * size, "the law does not show")
+                self.assertLess(abs(moved - truth).max(), 1e-7 * size)
 
     def test_the_wall_of_a_bore_has_it(self):
         @tj.point_law("Frictionless Wall")

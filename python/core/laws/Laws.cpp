@@ -13,6 +13,7 @@
 #include "Lists.hpp"
 #include "common/Index.hpp"
 #include "laws/PythonLaw.hpp"
+#include "laws/PythonStateLaw.hpp"
 #include "model/laws/PointLawRegistry.hpp"
 #include "model/laws/StatefulPointLaw.hpp"
 
@@ -24,8 +25,8 @@ using model::PointLaw;
 
 /// A law that decks can name.
 struct WrittenLaw {
-  int width;
-  Kept force, tangent, power;
+  int width, states;
+  Kept force, tangent, power, start;
   py::dict names;
 };
 
@@ -43,16 +44,20 @@ std::unique_ptr<PointLaw> makeWritten(const std::string& name, const Teuchos::Pa
     if (one.width > place.coordinates)
       throw DeckError("The point law \"" + name + "\" takes " + std::to_string(one.width) +
                       " coordinates, but its place has " + std::to_string(place.coordinates) + ".");
-    law = std::make_unique<PythonLaw>(
-        name, place.points, one.width,
-        LawFunctions{one.force, one.tangent, one.power, Kept(keywords(own, one.names))});
+    LawFunction function(
+        name, one.width, one.states,
+        {one.force, one.tangent, one.power, one.start, Kept(keywords(own, one.names))});
+    if (one.states > 0)
+      law = std::make_unique<PythonStateLaw>(place.points, std::move(function));
+    else
+      law = std::make_unique<PythonLaw>(place.points, std::move(function));
   });
   return law;
 }
 
 void registerLaw(const std::string& name, const std::string& doc, const py::list& parameters,
-                 const py::dict& names, int width, const py::object& force,
-                 const py::object& tangent, const py::object& power) {
+                 const py::dict& names, int width, int states, const py::object& force,
+                 const py::object& tangent, const py::object& power, const py::object& start) {
   auto& laws = writtenLaws();
   const bool own = laws.count(name) != 0;
   auto& registry = model::PointLawRegistry::instance();
@@ -62,7 +67,8 @@ void registerLaw(const std::string& name, const std::string& doc, const py::list
     throw UsageError("The point law \"" + name +
                      "\" was registered with other parameters. Choose another name, or start "
                      "Python anew.");
-  laws.insert_or_assign(name, WrittenLaw{width, Kept(force), Kept(tangent), Kept(power), names});
+  laws.insert_or_assign(
+      name, WrittenLaw{width, states, Kept(force), Kept(tangent), Kept(power), Kept(start), names});
   if (own) return;
   registry.add(name,
                {doc, specFrom(name, doc, parameters),
@@ -104,8 +110,9 @@ void bindLaws(py::module_& module) {
       py::arg("name"), py::arg("parameters"), py::arg("points"), py::arg("coordinates"),
       "A law of the registry.");
   module.def("register_point_law", &registerLaw, py::arg("name"), py::arg("doc"),
-             py::arg("parameters"), py::arg("keywords"), py::arg("width"), py::arg("force"),
-             py::arg("tangent"), py::arg("power"), "Register a law written in Python.");
+             py::arg("parameters"), py::arg("keywords"), py::arg("width"), py::arg("states"),
+             py::arg("force"), py::arg("tangent"), py::arg("power"), py::arg("start"),
+             "Register a law written in Python.");
   module.def(
       "point_law_names", [] { return model::PointLawRegistry::instance().names(); },
       "Names of the laws there are.");

@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A point law whose force is a function of Python.
+/// A point law without states whose force is a function of Python.
 #pragma once
 
 #include <memory>
-#include <pybind11/pybind11.h>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "Calls.hpp"
+#include "laws/LawFunction.hpp"
 #include "model/laws/PointLaw.hpp"
 
 namespace tooljoint::python {
 
-/// force(t, d, v, **parameters); tangent and power likewise, or None.
-struct LawFunctions {
-  Kept force, tangent, power, parameters;
-};
-
-/// f(t, d, v) as a function of Python, one call for a batch of points. With width 1 its arrays have
-/// one dimension, else points x width. Needs no GIL.
+/// f(t, d, v) of LawFunction.
 class PythonLaw final : public model::PointLaw {
  public:
-  PythonLaw(std::string name, int points, int width, LawFunctions functions)
-      : name_(std::move(name)), points_(points), width_(width), functions_(std::move(functions)) {}
+  PythonLaw(int points, LawFunction function) : points_(points), function_(std::move(function)) {}
 
   int size() const override { return points_; }
-  int width() const override { return width_; }
+  int width() const override { return function_.width(); }
   void evaluate(double t, const std::vector<int>& active, const double* d, const double* v,
                 double* f) const override;
   /// By the function `tangent`, or by central differences.
@@ -44,21 +35,13 @@ class PythonLaw final : public model::PointLaw {
   std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& points) const override;
 
  private:
-  using Values = std::vector<double>;
-  std::string who() const { return "The point law \"" + name_ + "\""; }
-  Values gather(const std::vector<int>& points, const double* all) const;
-  pybind11::object call(const Kept& function, double t, const Values& d, const Values& v,
-                        int n) const;
-  Values force(double t, const Values& d, const Values& v, int n) const;
+  Values force(double t, Values d, Values v, int n) const;
   double potential(double t, const Values& d, int n) const;
-  Power givenPower(double t, const Values& d, const Values& v, int n) const;
   /// (df/dd, df/dv), each points x width x width.
-  void givenSlopes(double t, const Values& d, const Values& v, int n, Values* slopes) const;
-  void differences(double t, const Values& d, const Values& v, int n, Values* slopes) const;
+  std::array<Values, 2> givenSlopes(const LawInput& input) const;
 
-  std::string name_;
-  int points_, width_;
-  LawFunctions functions_;
+  int points_;
+  LawFunction function_;
 };
 
 }  // namespace tooljoint::python
