@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The files of xml/templates as texts in the program: generated/Templates.cpp defines templateFiles() of src/app/commands/Templates.hpp.
+# The files of xml/templates as texts in the program: generated/Templates.cpp defines templateFiles() of src/app/text/Templates.hpp.
 file(GLOB template_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/xml/templates/*.*)
 set(TEMPLATE_TEXTS)
 foreach(file ${template_files})

@@ -15,9 +15,7 @@
 #include <unistd.h>
 
 #include "app/commands/Commands.hpp"
-#include "app/commands/Modes.hpp"
-#include "app/commands/Pages.hpp"
-#include "app/commands/Scripts.hpp"
+#include "app/text/ManualPages.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
@@ -264,21 +262,17 @@ void addAnalyses(CLI::App& program, Options& options, std::function<void()>& com
   addDeckOptions(*modesCommand, options, Output::Wanted);
   modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
       ->check(aboveZero);
-  modesCommand->add_flag("--coupled",
+  modesCommand->add_flag("--coupled", options.coupledOnly,
                          "undamped modes of the coupled model and their estimated errors only: the "
                          "full model is not solved");
-  modesCommand->add_flag("--bases",
+  modesCommand->add_flag("--bases", options.bases,
                          "the vectors of the basis of each part too, behind the frequencies");
   modesCommand
       ->add_option("--time", options.modeTime,
                    "when the laws of time (rotary speed) are looked at for damped modes "
                    "[s] (default: the end of the motion)")
       ->check(anyNumber);
-  modesCommand->callback([&, modesCommand] {
-    const tooljoint::app::ModesChoice choice{modesCommand->count("--coupled") > 0,
-                                             modesCommand->count("--bases") > 0};
-    command = [&options, choice] { tooljoint::app::modes(options, choice); };
-  });
+  modesCommand->callback([&] { command = [&] { tooljoint::app::modes(options); }; });
 
   auto* torqueDragCommand = program.add_subcommand(
       "torque-drag",

@@ -22,7 +22,7 @@ TOOLKIT = {
     "cases": (CASES, "a case; run, record, restart, check"),
     "study": (f"{CASES} cases", "speed against error over many runs, maps over parameters"),
     "response": (f"{CASES} cases", "Campbell diagrams and harmonic responses of any case"),
-    "app": (f"{CASES} cases response study", "the program, a file for each command"),
+    "app": (f"{CASES} cases response study", "the program: a file for each command, and the texts it prints"),
 }
 # Room: (rooms of substructures/, rooms of src/, what it holds)
 DRILLSTRING = {

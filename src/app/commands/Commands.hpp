@@ -31,9 +31,19 @@ struct RunOptions {
   std::string reported;          ///< folder that `report` is made of
   std::string restart;           ///< folder of an interrupted run; empty: start anew
   int modeCount = 20;            ///< frequencies listed by `modes`
+  bool coupledOnly = false;      ///< `modes` leaves the full model out
+  bool bases = false;            ///< `modes` lists the vectors of the bases, too
   std::string format = "hdf5";   ///< files of `export`: a name of exportFormats()
   std::optional<double>
       modeTime;  ///< when `modes` looks at the laws of time [s]; the end of the motion
+};
+
+/// `tooljoint paraview`: options of the command line, as texts; empty: the default of the script.
+struct ParaviewOptions {
+  std::string folder;    ///< of a run
+  std::string output;    ///< folder of the files
+  std::string magnify;   ///< factor of the displacements
+  std::string pictures;  ///< of the motion, at most
 };
 
 /// Two results folders, the window of time to compare them in [s], and how the result is told.
@@ -94,6 +104,8 @@ void report(const std::string& folder, const std::string& output);
 /// with the command to write it later; TOOLJOINT_REPORT=off in the environment leaves it out. A
 /// report of an earlier run is removed.
 void reportAtEnd(const std::string& folder, bool wanted);
+/// `tooljoint paraview`: what a run left, as polydata files and their times. Errors as report().
+void paraview(const ParaviewOptions& options);
 /// `tooljoint doc`: the parameter manual (format "md" or "json"), or one topic of it.
 std::string manual(const std::string& topic, const std::string& format);
 /// `tooljoint template`: a deck to start from: "well", "parts" (of the file "part"), "study",

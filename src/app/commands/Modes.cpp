@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/commands/Modes.hpp"
-
+#include "app/commands/Commands.hpp"
 #include "cases/CaseKinds.hpp"
 #include "cases/ModesReport.hpp"
 
 namespace tooljoint::app {
 
-void modes(const RunOptions& options) { modes(options, {}); }
-
-void modes(const RunOptions& options, const ModesChoice& choice) {
+void modes(const RunOptions& options) {
   const auto one = cases::readCase(options.deck, options.overrides);
-  cases::listModes(
-      *one, {options.modeCount, options.modeTime, options.output, choice.coupled, choice.bases});
+  cases::listModes(*one, {options.modeCount, options.modeTime, options.output, options.coupledOnly,
+                          options.bases});
 }
 
 }  // namespace tooljoint::app

@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include "app/commands/Commands.hpp"
-#include "app/commands/Templates.hpp"
+#include "app/text/Templates.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/Commands.hpp"
 #include "app/commands/Scripts.hpp"
 
 namespace tooljoint::app {

@@ -2,7 +2,7 @@
 #include "cases/run/Run.hpp"
 
 #include "app/commands/Commands.hpp"
-#include "app/commands/LastScreen.hpp"
+#include "app/text/LastScreen.hpp"
 #include "cases/CaseKinds.hpp"
 
 namespace tooljoint::app {

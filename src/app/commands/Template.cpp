@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "app/commands/Commands.hpp"
-#include "app/commands/Templates.hpp"
+#include "app/text/Templates.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "substructures/drillstring/assembly/Components.hpp"

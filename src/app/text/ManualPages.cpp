@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/commands/Pages.hpp"
+#include "app/text/ManualPages.hpp"
 
 #include <vector>
 

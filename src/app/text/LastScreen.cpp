@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/commands/LastScreen.hpp"
+#include "app/text/LastScreen.hpp"
 
 #include <array>
 #include <cmath>
