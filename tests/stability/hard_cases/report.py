@@ -12,6 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
 import plots  # noqa: E402
 
 ORDER = ("met", "warned", "off", "refused", "WRONG", "open")
+SHORT = "This is the short version: a few points of the range, near its easy end."
 LONGEST_NOTE = 150  # characters of a sentence in the tables
 HEAD = """# Hard cases
 
@@ -41,9 +42,12 @@ def shortened(text):
     return text if len(text) <= LONGEST_NOTE else text[:LONGEST_NOTE - 3].rsplit(" ", 1)[0] + " ..."
 
 
+def line(cells):
+    return "| " + " | ".join(cell(x) for x in cells) + " |\n"
+
+
 def table(head, lines):
-    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] +
-                     ["| " + " | ".join(cell(x) for x in line) + " |" for line in lines]) + "\n"
+    return line(head) + "|" + "---|" * len(head) + "\n" + "".join(line(cells) for cells in lines)
 
 
 def span(values, digits=2):
@@ -84,7 +88,7 @@ def deviation(row):
     return f"{row.deviation:.2g} / {row.bound:.2g}" if math.isfinite(row.deviation) else ""
 
 
-def details(case, rows, drawn):
+def details(case, rows, drawn, short):
     lines = [(row.variant, row.parameter, row.truth, row.found, deviation(row), row.verdict,
               f"{row.cost:.2g}" if math.isfinite(row.cost) else "", shortened(row.note)) for row in rows]
     head = ("variant", "parameter", "truth", "found", "deviation / bound", "verdict",
@@ -92,7 +96,8 @@ def details(case, rows, drawn):
     keep = [i for i in range(len(head)) if i < 2 or any(line[i] != "" for line in lines)]
     pictures = "".join(f"\n![{plot.title}](figures/hard_{plot.name}.svg)\n" for plot in drawn)
     return (f"## {case.number}. {case.title}\n\n{case.must[0].upper()}{case.must[1:]}. Sweep: {case.sweep}." +
-            (f" Easy variant: {case.easy}." if case.easy else "") + "\n" + pictures + "\n" +
+            (f" Easy variant: {case.easy}." if case.easy else "") +
+            (f" {SHORT}" if short else "") + "\n" + pictures + "\n" +
             table([head[i] for i in keep], [[line[i] for i in keep] for line in lines]))
 
 
@@ -115,47 +120,32 @@ def draw(plot, path):
     plots.save(made, path)
 
 
-def numbers(cases):
-    """1, 2 and 5 to 7, of increasing numbers."""
-    runs = []
-    for n in cases:
-        if runs and n == runs[-1][1] + 1:
-            runs[-1][1] = n
-        else:
-            runs.append([n, n])
-    texts = [f"{a}" if a == b else f"{a}, {b}" if b == a + 1 else f"{a} to {b}" for a, b in runs]
-    return " and ".join([*([", ".join(texts[:-1])] if texts[1:] else []), *texts[-1:]])
-
-
-def extent(results):
-    """What the heading says of the rows: which cases are whole."""
-    short = [n for n, (_, _, part) in sorted(results.items()) if part]
-    whole = [n for n in sorted(results) if n not in short]
-    if not short:
-        return ""
-    text = "a few points of each range, near its easy end"
-    if not whole:
-        return f"This is the short version: {text}.\n\n"
-    return (f"Case{'s' if short[1:] else ''} {numbers(short)}: the short version, {text}. "
-            f"Case{'s' if whole[1:] else ''} {numbers(whole)}: the whole sweep.\n\n")
+def written(path):
+    """Case number -> (its line of the overview, its chapter) of a document."""
+    if not path.exists():
+        return {}
+    text = path.read_text(encoding="utf-8")
+    overview = text.partition("## Overview")[2].partition("\n## ")[0]
+    lines = {int(found[1]): found[0] for found in re.finditer(r"^\| (\d+) \| .*\n?", overview, re.MULTILINE)}
+    chapters = {int(found[1]): found[0].rstrip() + "\n" for found in re.finditer(r"^## (\d+)\. .*?(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)}
+    return {n: (lines[n], chapter) for n, chapter in chapters.items()}
 
 
 def write(path, results):
-    """`results`: case number -> (rows, plots, whether they are the short version)."""
+    """`results`: case number -> (rows, plots, whether they are the short version). Other cases stay as the document has them."""
     figures = path.parent / "figures"
     figures.mkdir(exist_ok=True)
     for _, drawn, _ in results.values():
         for plot in drawn:
             draw(plot, figures / f"hard_{plot.name}.svg")
-    overview = []
-    for n, (rows, _, _) in sorted(results.items()):
+    cases = {n: found for n, found in written(path).items() if n in CASES}
+    for n, (rows, drawn, short) in results.items():
         case = CASES[n]
         anchor = re.sub(r"[^a-z0-9 -]", "", f"{n}. {case.title}".lower()).replace(" ", "-")
-        overview.append((n, f"[{case.title}](#{anchor})", case.sweep, case.must, happened(rows),
-                         span([row.cost for row in rows]), strategies(rows)))
-    text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n" + extent(results)
-    text += "## Overview\n\n"
+        cases[n] = (line((n, f"[{case.title}](#{anchor})", case.sweep, case.must, happened(rows),
+                          span([row.cost for row in rows]), strategies(rows))), details(case, rows, drawn, short))
+    text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n## Overview\n\n"
     text += table(("case", "", "range", "must happen", "what happened", "cost over the easy variant",
-                   "strategies used"), overview)
-    text += "".join("\n" + details(CASES[n], *results[n][:2]) for n in sorted(results))
+                   "strategies used"), []) + "".join(cases[n][0] for n in sorted(cases))
+    text += "".join("\n" + cases[n][1] for n in sorted(cases))
     path.write_text(text, encoding="utf-8")

@@ -75,7 +75,7 @@ def main():
     parser.add_argument("--fresh", action="store_true", help="run cases again that are in the work folder")
     parser.add_argument("--no-run", action="store_true",
                         help="run nothing: take what is in the work folder, short rows where the whole case is not there")
-    parser.add_argument("--write", help="file of the table; figures go into figures/ beside it")
+    parser.add_argument("--write", help="file of the table, renewed for the cases that are chosen; figures go into figures/ beside it")
     options = parser.parse_args()
     missing = sorted(set(NUMBERS) - set(table.CASES))
     if missing:
