@@ -57,7 +57,7 @@ TEST(ApiDrillPipe, YieldsAtTheCatalogueLoads) {
       {"5.5 in 21.90 S-135 5.5 FH", 786809.0, 91278.0},
       {"3.5 in 13.30 S-135 NC38", 488825.0, 33392.0}};
   for (const auto& [name, tension, torque] : loads) {
-    const auto& body = stringOf(name).elements[3].section();
+    const beam::Section body = stringOf(name).elements[3].section();
     ASSERT_TRUE(body.material().yieldStrength.has_value());
     const double strength = *body.material().yieldStrength;
     EXPECT_NEAR(strength * body.area() / poundForce, tension, 1e-4 * tension) << name;
