@@ -4,6 +4,7 @@
 /// sentence and its exit code.
 #include <CLI/CLI.hpp>
 #include <Tpetra_Core.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -247,8 +248,8 @@ void addRun(CLI::App& program, Options& options, std::function<void()>& command)
   runCommand->callback([&] { command = [&] { tooljoint::app::run(options); }; });
 }
 
-/// The commands that look at a deck, and `export`.
-void addAnalyses(CLI::App& program, Options& options, std::function<void()>& command) {
+/// The commands that look at a deck.
+void addLooks(CLI::App& program, Options& options, std::function<void()>& command) {
   auto* checkCommand =
       program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
   addDeckOptions(*checkCommand, options, Output::None);
@@ -273,48 +274,61 @@ void addAnalyses(CLI::App& program, Options& options, std::function<void()>& com
                    "[s] (default: the end of the motion)")
       ->check(anyNumber);
   modesCommand->callback([&] { command = [&] { tooljoint::app::modes(options); }; });
+}
 
-  auto* torqueDragCommand = program.add_subcommand(
-      "torque-drag",
-      "hook load, surface torque, buckling and yield margins against the depth of the bit");
-  addDeckOptions(*torqueDragCommand, options, Output::Always, "_torque_drag");
-  torqueDragCommand->add_flag("--fresh", options.fresh,
-                              "forget the depths an earlier command left in the folder");
-  torqueDragCommand->callback([&] { command = [&] { tooljoint::app::torqueDrag(options); }; });
+/// A command that solves for many states and can be gone on with.
+struct Analysis {
+  const char* name;
+  const char* words;
+  const char* steps;  ///< what an earlier command may have left
+  void (*command)(const tooljoint::app::RunOptions&);
+};
 
-  auto* bhaCommand = program.add_subcommand(
-      "bha",
-      "side force and tilt at the bit, contacts, bending and sag of a bottom-hole assembly "
-      "against weight on bit, inclination and tool face");
-  addDeckOptions(*bhaCommand, options, Output::Always, "_bha");
-  bhaCommand->add_flag("--fresh", options.fresh,
-                       "forget the states an earlier command left in the folder");
-  bhaCommand->callback([&] { command = [&] { tooljoint::app::bha(options); }; });
+void addAnalysis(CLI::App& program, Options& options, std::function<void()>& command,
+                 const Analysis& analysis) {
+  auto* added = program.add_subcommand(analysis.name, analysis.words);
+  std::string suffix = std::string("_") + analysis.name;
+  std::replace(suffix.begin(), suffix.end(), '-', '_');
+  addDeckOptions(*added, options, Output::Always, suffix);
+  added->add_flag(
+      "--fresh", options.fresh,
+      std::string("forget the ") + analysis.steps + " an earlier command left in the folder");
+  added->callback([&options, &command, run = analysis.command] {
+    command = [&options, run] { run(options); };
+  });
+}
 
-  auto* bucklingCommand = program.add_subcommand(
-      "buckling",
-      "static states under a growing weight on bit, past buckling into the bore, beside theory "
-      "(list Buckling)");
-  addDeckOptions(*bucklingCommand, options, Output::Always, "_buckling");
-  bucklingCommand->add_flag("--fresh", options.fresh,
-                            "forget the path an earlier command left in the folder");
-  bucklingCommand->callback([&] { command = [&] { tooljoint::app::buckling(options); }; });
+/// The commands that solve for many states.
+void addAnalyses(CLI::App& program, Options& options, std::function<void()>& command) {
+  using namespace tooljoint::app;
+  addAnalysis(program, options, command,
+              {"torque-drag",
+               "hook load, surface torque, buckling and yield margins against the depth of the bit",
+               "depths", torqueDrag});
+  addAnalysis(
+      program, options, command,
+      {"bha",
+       "side force and tilt at the bit, contacts, bending and sag of a bottom-hole assembly "
+       "against weight on bit, inclination and tool face",
+       "states", bha});
+  addAnalysis(program, options, command,
+              {"buckling",
+               "static states under a growing weight on bit, past buckling into the bore, beside "
+               "theory (list Buckling)",
+               "path", buckling});
+  addAnalysis(
+      program, options, command,
+      {"campbell", "damped modes against the rotary speed, and critical speeds (list Campbell)",
+       "speeds", campbell});
+  addAnalysis(program, options, command,
+              {"response",
+               "amplitude and phase under unbalance or harmonic loads, transfer functions (list "
+               "Response)",
+               "points", response});
+}
 
-  auto* campbellCommand = program.add_subcommand(
-      "campbell", "damped modes against the rotary speed, and critical speeds (list Campbell)");
-  addDeckOptions(*campbellCommand, options, Output::Always, "_campbell");
-  campbellCommand->add_flag("--fresh", options.fresh,
-                            "forget the speeds an earlier command left in the folder");
-  campbellCommand->callback([&] { command = [&] { tooljoint::app::campbell(options); }; });
-
-  auto* responseCommand = program.add_subcommand(
-      "response",
-      "amplitude and phase under unbalance or harmonic loads, transfer functions (list Response)");
-  addDeckOptions(*responseCommand, options, Output::Always, "_response");
-  responseCommand->add_flag("--fresh", options.fresh,
-                            "forget the points an earlier command left in the folder");
-  responseCommand->callback([&] { command = [&] { tooljoint::app::response(options); }; });
-
+/// The command `export`.
+void addExport(CLI::App& program, Options& options, std::function<void()>& command) {
   auto* exportCommand =
       program.add_subcommand("export",
                              "reduce the parts of a deck and write them with their bases as part "
@@ -352,6 +366,54 @@ void addCompare(CLI::App& program, tooljoint::app::CompareOptions& comparison,
   compareCommand->callback([&] { command = [&] { tooljoint::app::compare(comparison); }; });
 }
 
+/// Options of the commands that write texts to start from, or about the program.
+struct Texts {
+  std::string topic;
+  std::string format = "md";
+  std::string kind, folder;
+  bool all = false;
+};
+
+/// The commands `doc`, `template` and `new`.
+void addTexts(CLI::App& program, Texts& texts, std::function<void()>& command) {
+  auto* docCommand = program.add_subcommand(
+      "doc", "print the parameter manual, or what describes the command line");
+  docCommand->add_option("TOPIC", texts.topic,
+                         "a list of the deck, e.g. Contact, or units; of man a command");
+  docCommand
+      ->add_option("--format", texts.format,
+                   "md or json: parameters; man: manual page; bash or zsh: completion function")
+      ->check(CLI::IsMember({"md", "json", "man", "bash", "zsh"}));
+  docCommand->callback([&] {
+    command = [&] {
+      say(std::cout, tooljoint::app::isPageFormat(texts.format)
+                         ? tooljoint::app::page(program, texts.topic, texts.format)
+                         : tooljoint::app::manual(texts.topic, texts.format));
+    };
+  });
+
+  auto* templateCommand =
+      program.add_subcommand("template", "print a commented deck to start from");
+  templateCommand
+      ->add_option(
+          "KIND", texts.kind,
+          "a surveyed well, parts, the part file of parts, a study, a scene with every list, "
+          "or a library of components")
+      ->type_name("{" + tooljoint::join(tooljoint::app::templateKinds(), ",") + "}")
+      ->required();
+  templateCommand->add_flag("--all", texts.all, "of scene: parameters for experts, too");
+  templateCommand->callback([&] {
+    command = [&] { say(std::cout, tooljoint::app::deckTemplate(texts.kind, texts.all)); };
+  });
+
+  auto* newCommand = program.add_subcommand(
+      "new", "write a folder with a deck that runs, its survey and a README");
+  newCommand->add_option("NAME", texts.folder, "folder to make; its deck has the same name")
+      ->type_name("DIR")
+      ->required();
+  newCommand->callback([&] { command = [&] { tooljoint::app::newFolder(texts.folder); }; });
+}
+
 /// What the program says without a command.
 constexpr const char* firstWords =
     "Tooljoint: component mode synthesis, and the drillstring simulator built on it.\n\n"
@@ -376,56 +438,22 @@ int run(int argc, char** argv) {
   program.add_flag("--version", version, "print program, git, Trilinos, MPI and HDF5 versions");
 
   Options options;
-  std::string topic;
-  std::string format = "md";
-  std::string kind, folder;
-  bool all = false;
   std::function<void()> command;
 
   addRun(program, options, command);
   addStudies(program, options, command);
 
+  addLooks(program, options, command);
   addAnalyses(program, options, command);
+  addExport(program, options, command);
   app::CompareOptions comparison;
   addCompare(program, comparison, command);
   addReport(program, options, command);
   app::ParaviewOptions shown;
   addParaview(program, shown, command);
 
-  auto* docCommand = program.add_subcommand(
-      "doc", "print the parameter manual, or what describes the command line");
-  docCommand->add_option("TOPIC", topic,
-                         "a list of the deck, e.g. Contact, or units; of man a command");
-  docCommand
-      ->add_option("--format", format,
-                   "md or json: parameters; man: manual page; bash or zsh: completion function")
-      ->check(CLI::IsMember({"md", "json", "man", "bash", "zsh"}));
-  docCommand->callback([&] {
-    command = [&] {
-      say(std::cout, app::isPageFormat(format) ? app::page(program, topic, format)
-                                               : app::manual(topic, format));
-    };
-  });
-
-  auto* templateCommand =
-      program.add_subcommand("template", "print a commented deck to start from");
-  templateCommand
-      ->add_option(
-          "KIND", kind,
-          "a surveyed well, parts, the part file of parts, a study, a scene with every list, "
-          "or a library of components")
-      ->type_name("{" + tooljoint::join(app::templateKinds(), ",") + "}")
-      ->required();
-  templateCommand->add_flag("--all", all, "of scene: parameters for experts, too");
-  templateCommand->callback(
-      [&] { command = [&] { say(std::cout, app::deckTemplate(kind, all)); }; });
-
-  auto* newCommand = program.add_subcommand(
-      "new", "write a folder with a deck that runs, its survey and a README");
-  newCommand->add_option("NAME", folder, "folder to make; its deck has the same name")
-      ->type_name("DIR")
-      ->required();
-  newCommand->callback([&] { command = [&] { app::newFolder(folder); }; });
+  Texts texts;
+  addTexts(program, texts, command);
 
   if (const auto ended = parse(program, argc, argv)) return code(*ended);
   if (version) {

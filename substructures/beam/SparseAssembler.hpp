@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "common/Index.hpp"
 #include "common/Types.hpp"
 
 namespace tooljoint::beam {
@@ -36,7 +37,7 @@ class SparseAssembler {
     double* values = matrix.valuePtr();
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
-        const int slot = slots[static_cast<std::size_t>(i * n + j)];
+        const int slot = slots[at(i * n + j)];
         if (slot >= 0) values[slot] += local(i, j);
       }
   }
