@@ -21,6 +21,7 @@
 #include "substructures/drillstring/case/StringResults.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
+#include "substructures/drillstring/scene/UsualRanges.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -164,8 +165,9 @@ int DrillstringCase::components() const { return kNodeDofs; }
 std::string DrillstringCase::describe() const { return describeScene(*scene_); }
 
 std::vector<std::string> DrillstringCase::remarks() const {
-  const auto remark = prestressRemark(*scene_);
-  return remark.empty() ? std::vector<std::string>() : std::vector<std::string>{remark};
+  auto found = unusualValues(deck());
+  if (const auto remark = prestressRemark(*scene_); !remark.empty()) found.push_back(remark);
+  return found;
 }
 
 void DrillstringCase::summarise(io::Summary& summary) const {

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values that are seldom meant, and what is said of them.
+#include "substructures/drillstring/scene/UsualRanges.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "io/TextFile.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+#include "tests/support/SourceFolder.hpp"
+
+namespace UsualRangesTest {
+
+using namespace tooljoint;
+using namespace tooljoint::drillstring;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::string> said(const std::string& deck, const std::vector<std::string>& overrides) {
+  const std::string file = testing_::sourceFolder() + "/xml/" + deck;
+  return unusualValues(deck::Deck::read(file, sceneSpec(), overrides));
+}
+
+TEST(UsualRanges, AreThoseOfNumbersWithUnits) {
+  const auto spec = sceneSpec();
+  for (const auto& range : usualRanges()) {
+    const deck::ListSpec* list = &spec;
+    std::istringstream names(range.path);
+    std::string name;
+    for (std::getline(names, name, '/'); list != nullptr && !names.eof();
+         std::getline(names, name, '/'))
+      list = list->findList(name);
+    ASSERT_NE(list, nullptr) << range.path;
+    const auto* parameter = list->findParameter(name);
+    ASSERT_NE(parameter, nullptr) << range.path;
+    EXPECT_TRUE(parameter->kind == deck::Kind::Real || parameter->kind == deck::Kind::RealArray)
+        << range.path;
+    EXPECT_NE(parameter->unit, "") << range.path;
+    EXPECT_LT(range.low, range.high) << range.path;
+  }
+}
+
+TEST(UsualRanges, ProposeTheUnitThatWasLeftOut) {
+  EXPECT_THAT(
+      said("first_run.xml", {"Mud/Flow Rate=2000", "Loads/Weight On Bit=40"}),
+      ElementsAre("--set Mud/Flow Rate=2000: /first_run/Mud/Flow Rate is 2000 m3/s, outside "
+                  "what is usual in drilling (1e-05 to 0.5 m3/s). Is \"2000 gpm\" or \"2000 "
+                  "lpm\" meant?",
+                  "--set Loads/Weight On Bit=40: /first_run/Loads/Weight On Bit is 40 N, "
+                  "outside what is usual in drilling (1000 to 5e+06 N). Is \"40 kN\" or \"40 "
+                  "klbf\" meant?"));
+}
+
+TEST(UsualRanges, KnowDiameters) {
+  std::string text = io::readText(testing_::sourceFolder() + "/xml/first_run.xml");
+  text = std::regex_replace(text, std::regex("\"Bore Radius\"[^/]*/"),
+                            "\"Bore Diameter\" type=\"double\" value=\"8.5\"/");
+  const auto found = unusualValues(deck::Deck::parse(text, "well.xml", sceneSpec()));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found.front(), HasSubstr("Bore Diameter is 8.5 m, outside what is usual in drilling "
+                                       "(0.04 to 1.5 m). Is "));
+  EXPECT_THAT(found.front(), HasSubstr("\"8.5 in\""));
+}
+
+TEST(UsualRanges, LookAtEachNumberOfAnArray) {
+  EXPECT_THAT(said("bha_motor_1500m.xml", {"Bottom-Hole Assembly/Weight On Bit={0, 50e3, 100}"}),
+              ElementsAre(HasSubstr("is 100 N, outside")));
+}
+
+TEST(UsualRanges, TakeZeroAndBothSigns) {
+  EXPECT_THAT(said("first_run.xml", {"Loads/Torque On Bit=0", "Mud/Flow Rate=-0.03"}), IsEmpty());
+}
+
+TEST(UsualRanges, HoldTheScenesOfTheProject) {
+  for (const char* deck :
+       {"first_run.xml", "stress_170m.xml", "helical_170m.xml", "build_hold_1400m.xml",
+        "bha_motor_1500m.xml", "buckling_100m.xml", "extended_reach_5000m.xml",
+        "stick_slip_2500m.xml", "vertical_10000m.xml"})
+    EXPECT_THAT(said(deck, {}), IsEmpty()) << deck;
+}
+
+}  // namespace UsualRangesTest
