@@ -216,8 +216,7 @@ class BoreholeContactOf final : public BoreholeContact,
   int tangent(std::size_t i, double omega, const double* d, const double* v, double* f,
               double* dfdd, double* dfdv) const {
     const WallKinematics at = where(i, d, v);
-    const double nu = at.nu;
-    const double nv = at.nv;
+    const double nu = at.nu, nv = at.nv;
     // derivatives of the rate and of the slip with respect to u, v: (velocity - n rate)/r and so on
     const double rateU = (v[0] - nu * at.rate) * at.inverse;
     const double rateV = (v[1] - nv * at.rate) * at.inverse;
@@ -225,11 +224,9 @@ class BoreholeContactOf final : public BoreholeContact,
     const double N = normal.value;
     const double Nu = normal.dG * nu + normal.dRate * rateU;
     const double Nv = normal.dG * nv + normal.dRate * rateV;
-    const double NuDot = normal.dRate * nu;
-    const double NvDot = normal.dRate * nv;
+    const double NuDot = normal.dRate * nu, NvDot = normal.dRate * nv;
     // dn/d(u,v) = (I - n n')/r
-    const double nuu = (1.0 - nu * nu) * at.inverse;
-    const double nuv = -nu * nv * at.inverse;
+    const double nuu = (1.0 - nu * nu) * at.inverse, nuv = -nu * nv * at.inverse;
     const double nvv = (1.0 - nv * nv) * at.inverse;
     f[0] = -N * nu;
     f[1] = -N * nv;
@@ -254,12 +251,11 @@ class BoreholeContactOf final : public BoreholeContact,
     const double mu = friction_[i].value(at.slip + (omega + v[2]) * radius, slope);
     const double slipU = (v[1] - nu * at.slip) * at.inverse;
     const double slipV = (-v[0] - nv * at.slip) * at.inverse;
-    const double T = mu * N;
+    const double T = mu * N, TzDot = slope * N * radius;
     const double Tu = mu * Nu + slope * N * slipU;
     const double Tv = mu * Nv + slope * N * slipV;
     const double TuDot = mu * NuDot - slope * N * nv;
     const double TvDot = mu * NvDot + slope * N * nu;
-    const double TzDot = slope * N * radius;
     f[0] += T * nv;
     f[1] -= T * nu;
     f[2] = -T * radius;
