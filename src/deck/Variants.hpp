@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "deck/ListSpec.hpp"
 #include "deck/Registry.hpp"
@@ -22,12 +23,12 @@ ListSpec variantSpec(const std::string& name, const Entry& entry) {
 /// `declareVariants<Integrator, ...>(list, "Integrator", "Generalized-alpha", "The time
 /// integrator.")`. The sentence of the choice is followed by what each variant is.
 template <class Base, class... Args>
-ListSpec& declareVariants(ListSpec& list, const std::string& parameter, const Default& chosen,
+ListSpec& declareVariants(ListSpec& list, const std::string& parameter, Default chosen,
                           const std::string& doc) {
   const auto& registry = Registry<Base, Args...>::instance();
   std::string sentence = doc;
   for (const auto& [name, entry] : registry.entries()) sentence += " " + name + ": " + entry.doc;
-  list.choice(parameter, chosen, registry.names(), sentence);
+  list.choice(parameter, std::move(chosen), registry.names(), sentence);
   for (const auto& [name, entry] : registry.entries()) {
     const ListSpec& own = entry.parameters;
     if (own.parameters().empty() && own.lists().empty() && own.pattern() == nullptr) continue;
