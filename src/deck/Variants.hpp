@@ -23,7 +23,7 @@ ListSpec variantSpec(const std::string& name, const Entry& entry) {
 /// `declareVariants<Integrator, ...>(list, "Integrator", "Generalized-alpha", "The time
 /// integrator.")`. The sentence of the choice is followed by what each variant is.
 template <class Base, class... Args>
-ListSpec& declareVariants(ListSpec& list, const std::string& parameter, Default chosen,
+ListSpec& declareVariants(ListSpec& list, const std::string& parameter, Default&& chosen,
                           const std::string& doc) {
   const auto& registry = Registry<Base, Args...>::instance();
   std::string sentence = doc;
