@@ -26,7 +26,7 @@ install(PROGRAMS tools/first_run.py tools/plot_bha.py tools/plot_map.py tools/pl
 # tools/plots is python/tooljoint/plots: the tools take it without the compiled package.
 install(DIRECTORY python/tooljoint/plots tools/paraview tools/report DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools PATTERN "__pycache__" EXCLUDE)
 # The program finds the scripts of its plots and reports beside itself, in the build tree as in the install tree.
-file(GLOB scripts RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS tools/plot_map.py tools/plot_study.py tools/paraview/*.* tools/plots/*.* tools/report/*.*)
+file(GLOB scripts RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS tools/plot_map.py tools/plot_study.py tools/paraview/*.* tools/plots/*.* tools/report/*.* tools/report/web/*.*)
 foreach(script ${scripts})
   configure_file(${script} ${PROJECT_BINARY_DIR}/share/tooljoint/${script} COPYONLY)
 endforeach()

@@ -57,7 +57,7 @@ def tests_of_room(project, test):
     """Names Suite.Test in the sources of a GoogleTest program."""
     kind, room = PROGRAM.match(test).group(1, 2)
     names = set()
-    for source in sorted((project / "tests" / kind / room).glob("*.cpp")):
+    for source in sorted((project / "tests" / kind / room).rglob("*.cpp")):
         for suite, name in re.findall(r"\bTEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)", source.read_text(encoding="utf-8")):
             names.add(f"{suite}.{name}")
     return names

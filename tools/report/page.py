@@ -5,7 +5,7 @@ import pathlib
 import string
 from html import escape
 
-HERE = pathlib.Path(__file__).resolve().parent
+WEB = pathlib.Path(__file__).resolve().parent / "web"
 THREE = pathlib.Path("/usr/share/javascript/three")  # of the Debian package libjs-three
 VIEWER = ("three.min.js", "examples/js/controls/OrbitControls.js")
 LICENCE = """three.js, (c) 2010-2019 three.js authors. Permission is hereby granted, free of charge, to any person obtaining a copy of this software and
@@ -18,7 +18,7 @@ OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR
 
 
 def template(name, **words):
-    return string.Template((HERE / name).read_text(encoding="utf-8").replace("<!-- SPDX-License-Identifier: BSD-3-Clause -->\n", "")).substitute(words)
+    return string.Template((WEB / name).read_text(encoding="utf-8").replace("<!-- SPDX-License-Identifier: BSD-3-Clause -->\n", "")).substitute(words)
 
 
 def without_addresses(script):
@@ -57,7 +57,7 @@ class Page:
 
     def sort_tables(self):
         """Tables of the kind "sortable" are sorted by a click on a title."""
-        self.scripts.append(f"<script>{(HERE / 'sort.js').read_text(encoding='utf-8')}</script>")
+        self.scripts.append(f"<script>{(WEB / 'sort.js').read_text(encoding='utf-8')}</script>")
 
     def view(self, data, note):
         """The 3-D view, or the reason why there is none."""
@@ -73,13 +73,13 @@ class Page:
         self.add("space", "In space", template("view.html", scale=scale, forces=forces, note=escape(f"{turn}{what} {note}")))
         scene = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")  # no name in it ends the script
         self.scripts += [f"<script>/* {LICENCE} */\n{library}</script>", f"<script>const SCENE = {scene};</script>",
-                         f"<script>{(HERE / 'viewer.js').read_text(encoding='utf-8')}</script>"]
+                         f"<script>{(WEB / 'viewer.js').read_text(encoding='utf-8')}</script>"]
 
     def text(self):
         links = "".join(f'<a href="#{name}">{escape(title)}</a>' for name, title, _ in self.sections)
         sections = "\n".join(f'<section id="{name}"><h2>{escape(title)}</h2>\n{content}\n</section>' for name, title, content in self.sections)
         notes = f'<ul class="notes">{"".join(self.notes)}</ul>' if self.notes else ""
-        style = (HERE / "page.css").read_text(encoding="utf-8")
+        style = (WEB / "page.css").read_text(encoding="utf-8")
         return template("page.html", title=escape(self.title), conditions=escape(self.conditions), notes=notes, links=links, sections=sections, style=style,
                         footer=escape(self.footer), scripts="\n".join(self.scripts))
 
