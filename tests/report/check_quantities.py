@@ -31,7 +31,9 @@ class Bar:
         self.E, self.G = 2.06e11, 8e10
         flat = {"young_modulus": self.E, "shear_modulus": self.G, "area": self.S, "torsion_constant": self.J, "outer_radius": outer}
         self.data = {f"/model/{name}": np.full(elements, value) for name, value in flat.items()}
-        self.data["/model/frame"] = np.broadcast_to(np.eye(3), (nodes, 3, 3))
+        self.data["/model/path_curvature"] = np.zeros((elements, 2))
+        turn = elements / length * np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # theta x z of a node over the length
+        self.data["/model/curvature_of_rotations"] = np.broadcast_to(np.hstack((-turn, turn)), (elements, 2, 6))
         self.data["/static/axial_force"], self.data["/static/torque"] = np.full(elements, tension), np.full(elements, torque)
         self.data["/static/displacement"] = np.zeros((nodes, 6))
 

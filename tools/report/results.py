@@ -10,7 +10,7 @@ import numpy as np
 BLOCK = 8_000_000  # numbers of a time series that are in memory at once
 SECOND_HALF = 0.5  # statistics begin after this share of the motion, when its start has died away
 # Without these datasets of a string there is nothing to draw.
-NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius", "/static/displacement", "/static/normal_force", "/static/axial_force", "/static/torque")
+NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius", "/model/path_curvature", "/model/curvature_of_rotations", "/static/displacement", "/static/normal_force", "/static/axial_force", "/static/torque")
 
 
 class Unreadable(Exception):
@@ -130,13 +130,11 @@ class Run:
 
 
 def curvature(run, displacement):
-    """Curvature of the bent string in its elements [1/m]: turn of the tangents from node to node, t' = t + theta x t, over the length.
-    `displacement` is ... x nodes x 6 in nodal frames."""
-    frames = run.get("/model/frame")
-    x, y, z = frames[:, :, 0], frames[:, :, 1], frames[:, :, 2]
-    # theta x z = theta_y x - theta_x y in the nodal frame
-    tangent = z + displacement[..., 4, None] * x - displacement[..., 3, None] * y
-    return np.linalg.norm(np.diff(tangent, axis=-2), axis=-1) / np.diff(run.s)
+    """Curvature of the bent string in its elements [1/m]: turn of the axes of the cross sections from node to node, a' = a + theta x a, over the
+    length. `displacement` is ... x nodes x 6 in nodal frames."""
+    rotations = displacement[..., 3:6]
+    both = np.concatenate((rotations[..., :-1, :], rotations[..., 1:, :]), axis=-1)
+    return np.linalg.norm(run.get("/model/path_curvature") + np.einsum("eac,...ec->...ea", run.get("/model/curvature_of_rotations"), both), axis=-1)
 
 
 def internal_forces(run, displacement):

@@ -74,6 +74,7 @@ class RestingString : public cases::RestingCase {
   void write(io::ResultsFile& file) const override {
     writeModel(scene_, stage_, file);
     writeSections(scene_, file);
+    writeBending(scene_, stage_, file);
     writePath(stage_, file);
     writeStatic(scene_, stage_, file);
   }

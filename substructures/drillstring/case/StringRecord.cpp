@@ -35,7 +35,7 @@ StringRecord::StringRecord(const Scene& scene, const StaticStage& stage,
       merits_(scene, stage),
       bit_(scene),
       surface_(scene, stage),
-      row_(columns().size()) {
+      row_(StringRecord::columns().size()) {
   const auto nodes = static_cast<std::size_t>(scene.string.nodeCount());
   const auto& output = scene.output;
   if (output.xdmf) picture_ = pictureOf(scene, stage);

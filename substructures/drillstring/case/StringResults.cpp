@@ -12,6 +12,7 @@
 #include "common/Text.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
+#include "substructures/drillstring/figures/BendingElements.hpp"
 #include "substructures/drillstring/scene/BucklingParameters.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
 
@@ -80,6 +81,23 @@ void writeSections(const Scene& scene, io::ResultsFile& file) {
   file.write("/model/component_names", names, "Entries of the assembly, each once");
   file.write("/model/component", component, elements, "1",
              "Entry of the assembly an element belongs to, counted from 1");
+}
+
+void writeBending(const Scene& scene, const StaticStage& stage, io::ResultsFile& file) {
+  std::vector<double> onPath, slopes;
+  for (const auto& element : bendingElements(scene.string, stage.path))
+    for (int axis = 0; axis < 2; ++axis) {
+      onPath.push_back(element.pathCurvature[axis]);
+      for (std::size_t end : {0, 1})
+        for (int component = 0; component < 3; ++component)
+          slopes.push_back((end == 1 ? 1.0 : -1.0) * element.slope[end](axis, component) /
+                           element.length);
+    }
+  const auto elements = onPath.size() / 2;
+  file.write("/model/path_curvature", onPath, {elements, 2}, "1/m",
+             "Curvature of the elements on the path, in two axes across them");
+  file.write("/model/curvature_of_rotations", slopes, {elements, 2, 6}, "1/m",
+             "Curvature in these axes per rotation of the upper and the lower node");
 }
 
 void writePath(const StaticStage& stage, io::ResultsFile& file) {

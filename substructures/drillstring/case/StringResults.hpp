@@ -19,6 +19,7 @@ namespace tooljoint::drillstring {
 /// Groups /model, /path and /static of the results file.
 void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& file);
 void writeSections(const Scene& scene, io::ResultsFile& file);
+void writeBending(const Scene& scene, const StaticStage& stage, io::ResultsFile& file);
 void writePath(const StaticStage& stage, io::ResultsFile& file);
 void writeStatic(const Scene& scene, const StaticStage& stage, io::ResultsFile& file);
 /// Group /profile of the file of a study.

@@ -10,25 +10,16 @@
 
 namespace tooljoint::drillstring {
 
-namespace {
-
 using namespace beam::nodal;
 
-/// theta x z = theta_y x - theta_x y in the nodal frame.
-Eigen::Vector2d slope(const Vector& d, Eigen::Index node) {
-  return {d[perNode * node + thetaY], -d[perNode * node + thetaX]};
-}
-
-}  // namespace
-
-/// kappa = kappa_path + (R2 dt2 - R1 dt1)/l
+/// kappa = kappa_path + (theta2 x a2 - theta1 x a1)/l
 Eigen::Vector2d meanMoment(const BendingElement& element, std::size_t index,
                            const Vector& displacement) {
   const auto node = static_cast<Eigen::Index>(index);
-  const Eigen::Vector2d turn = element.slopeRotation[1] * slope(displacement, node + 1) -
-                               element.slopeRotation[0] * slope(displacement, node);
-  const Eigen::Vector2d path(element.pathCurvature[0], element.pathCurvature[1]);
-  return element.rigidity * (path + turn / element.length);
+  const Eigen::Vector2d turn =
+      element.slope[1] * displacement.segment<3>(perNode * (node + 1) + thetaX) -
+      element.slope[0] * displacement.segment<3>(perNode * node + thetaX);
+  return element.rigidity * (element.pathCurvature + turn / element.length);
 }
 
 BendingFigures::BendingFigures(std::vector<BendingElement> elements, std::optional<io::SnLine> line)

@@ -20,17 +20,20 @@ constexpr std::size_t kBendingPlanes = 4;
 
 /// Bending of one element about the bent path, in two axes across it.
 struct BendingElement {
-  std::array<double, 2> pathCurvature{};         ///< of the string on its path [1/m]
-  std::array<Eigen::Matrix2d, 2> slopeRotation;  ///< nodal axes x, y of both ends in these axes
-  double length = 0.0;                           ///< [m]
-  double rigidity = 0.0;                         ///< E I [N m2]
-  double stressPerMoment = 0.0;                  ///< R/I at the outer wall [1/m3]
-  double leastRange = 0.0;                       ///< smaller cycles are not counted [N m]
+  /// Of the string on its path, with its bends straightened [1/m].
+  Eigen::Vector2d pathCurvature = Eigen::Vector2d::Zero();
+  /// theta x a of both ends in these axes, a the axis of the cross section on the path, theta in
+  /// the nodal frame. The spin of a section about its own axis bends nothing.
+  std::array<Eigen::Matrix<double, 2, 3>, 2> slope;
+  double length = 0.0;           ///< [m]
+  double rigidity = 0.0;         ///< E I [N m2]
+  double stressPerMoment = 0.0;  ///< R/I at the outer wall [1/m3]
+  double leastRange = 0.0;       ///< smaller cycles are not counted [N m]
 };
 
-/// E I times the turn of the tangents t' = t + theta x t from node to node over the length, about
-/// the bent path, in the axes of the element [N m]: the mean moment of element `index`.
-/// \param displacement 6 per node in nodal frames
+/// E I times the turn of the axes of the cross sections a' = a + theta x a from node to node over
+/// the length, in the axes of the element [N m]: the mean moment of element `index`. \param
+/// displacement 6 per node in nodal frames
 Eigen::Vector2d meanMoment(const BendingElement& element, std::size_t index,
                            const Vector& displacement);
 

@@ -214,7 +214,9 @@ TEST(BitFigures, NoSpecificEnergyOfABitThatDoesNotAdvance) {
 BendingElement bent(double curvature) {
   BendingElement element;
   element.pathCurvature = {curvature, 0.0};
-  element.slopeRotation = {Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity()};
+  Eigen::Matrix<double, 2, 3> slope;  // theta x z
+  slope << 0.0, 1.0, 0.0, -1.0, 0.0, 0.0;
+  element.slope = {slope, slope};
   element.length = 2.0;
   element.rigidity = 1e6;
   element.stressPerMoment = 100.0;
