@@ -46,13 +46,14 @@ deck::ListSpec parameters() {
             "Of equal steps: a step error above this is a warning. The step error is an estimate "
             "of the error of the vibration after 3 s or the whole motion, whichever is shorter.")
       .expert()
-      .real("Step Error Limit", "", usual.stepErrorLimit, deck::Range::positive(),
-            "Of equal steps: with a step error above half of this, or where contact rests on walls "
-            "too stiff for the step, the first 3 s of the motion are integrated again in half the "
-            "step, or in shorter ones that resolve such contact. A run fails when both differ by "
-            "more than this, "
-            "unless the motion is chaotic, or when their speeds do by 2.5 times as much; and with "
-            "a step error above 1. A limit of 1 and more is one of the step error alone.")
+      .real(
+          "Step Error Limit", "", usual.stepErrorLimit, deck::Range::positive(),
+          "Of equal steps: with an estimated step error above half of this, or where contact rests "
+          "on walls too stiff for the step, the first 3 s of the motion are integrated again in "
+          "half the step, or in shorter ones that resolve such contact. A run fails when both "
+          "differ by more than this, unless the motion is chaotic, or when their speeds do by 2.5 "
+          "times as much; and with an estimate above 1. A limit of 1 and more is one of the "
+          "estimate alone.")
       .formerly("Generalized-alpha/Accept Coarse Steps")
       .expert()
       .real("Energy Residual Warning", "", usual.energyResidualWarning, deck::Range::positive(),

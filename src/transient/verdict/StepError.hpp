@@ -2,7 +2,7 @@
 /// \file
 /// Accuracy of fixed steps, measured: windows of some steps of a run are taken again in steps of
 /// half the length (RetakenWindow). With e the difference of the displacements at the end of a
-/// window that begins at q_0, the step error is
+/// window that begins at q_0, the estimate of the step error is
 ///
 ///     S = N sqrt(<|e|^2> / <max_k |q_k - q_0|^2>)
 ///

@@ -55,7 +55,6 @@ struct Findings {
   }
   /// Neighbours part as far as steps and shorter steps do.
   bool isChaos() const { return neighbour && neighbour->size > chaoticShare * shorter->size; }
-  double reported() const { return shorter ? shorter->size : error; }
   bool isRight(double warning) const {
     return shorter && !isUnknown() && shorter->size <= warning &&
            std::abs(shorter->speeds - 1) <= warning &&
@@ -63,22 +62,31 @@ struct Findings {
   }
   /// Contact that neither the steps nor what they are compared with resolve.
   bool isUnknown() const { return rests && shorterStep > 0 && (!shorter || shorter->unresolved); }
-  bool isWide(double warning) const {
-    return error > warning || (shorter && shorter->size > warning) || isUnknown();
+  /// The step error: D where the comparison finds the motion right, else the larger of S and D.
+  double stepError(double warning) const {
+    if (!shorter) return error;
+    return isRight(warning) ? shorter->size : std::max(error, shorter->size);
+  }
+  bool isWide(double warning) const { return stepError(warning) > warning || isUnknown(); }
+  /// What the summary holds: 0 where a step error within the warning is not known to be all.
+  double reported(double warning) const {
+    return isUnknown() && stepError(warning) <= warning ? 0.0 : stepError(warning);
   }
   bool isTooLarge(double limit) const {
     return isSlow(limit) || isFast(limit) || (neighbour && !isChaos());
   }
 };
 
-std::string describe(const Findings& found, double span) {
+std::string describe(const Findings& found, double span, double warning) {
   std::ostringstream text;
-  text << "step error " << percent(found.error);
+  text << "step error " << (found.isUnknown() ? "at least " : "")
+       << percent(found.stepError(warning));
   if (found.shorter)
-    text << std::setprecision(2) << "; in its first " << span << " s the motion differs by "
-         << percent(found.shorter->size) << ", and its velocities by "
-         << percent(found.shorter->velocities) << ", from that in steps of " << found.shorterStep
-         << " s without numerical damping, at " << found.shorter->speeds << " of its speed";
+    text << std::setprecision(2) << ": estimated " << percent(found.error) << "; in its first "
+         << span << " s the motion differs by " << percent(found.shorter->size)
+         << ", and its velocities by " << percent(found.shorter->velocities)
+         << ", from that in steps of " << found.shorterStep << " s without numerical damping, at "
+         << percent(found.shorter->speeds) << " of its speed";
   if (found.neighbour)
     text << ", and a disturbance of 0.1 % changes that by " << percent(found.neighbour->size);
   if (found.isUnknown())
@@ -121,22 +129,22 @@ double judgeSteps(const Integrator& run, const StepError& error, const Transient
                    found.damped > comparedDamping * warning || found.rests;
   if (due && !lost && limit < lostMotion) {
     compare(comparison(), limit, found);
-    log::info("accuracy    " + describe(found, error.span()));
+    log::info("accuracy    " + describe(found, error.span(), warning));
   }
   const bool tooLarge = lost || found.isTooLarge(limit);
-  if (!tooLarge && found.isRight(warning)) return found.reported();
+  if (!tooLarge && found.isRight(warning)) return found.reported(warning);
   const double step = run.equalStep();
   if (found.damped > warning) warnOfDamping(found, error, step);
-  if (!tooLarge && !found.isWide(warning)) return found.reported();
+  if (!tooLarge && !found.isWide(warning)) return found.reported(warning);
   std::ostringstream text;
   text << "The time step (" << step << " s) is " << (tooLarge ? "too large" : "coarse") << ": "
-       << describe(found, error.span()) << ". "
+       << describe(found, error.span(), warning) << ". "
        << (found.isSlow(limit) && !found.rests && error.damping().scheme() != nullptr
                ? error.damping().scheme()->dampingAdvice()
                : run.stepAdvice());
   if (tooLarge) throw ConvergenceError(text.str());
   log::warn(text.str());
-  return found.reported();
+  return found.reported(warning);
 }
 
 }  // namespace tooljoint::transient

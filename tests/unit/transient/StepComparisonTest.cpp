@@ -84,7 +84,7 @@ TEST(StepComparison, warnsOfVelocitiesThatStepsDoNotResolve) {
   Keep samples;
   log::clearWarnings();
   const auto report = integrate(model, o, samples);
-  EXPECT_LT(report.stepError, o.stepErrorWarning);
+  EXPECT_GT(report.stepError, o.stepErrorWarning);  // that of the warning, not the small D
   ASSERT_EQ(log::warnings().size(), 1u);
   EXPECT_NE(log::warnings().front().find("and its velocities by"), std::string::npos);
 }
@@ -152,7 +152,8 @@ TEST(StepComparison, seesContactThatHalvesHoldDownToo) {
     return log::warnings().empty() ? std::string() : log::warnings().front();
   };
   const auto refused = said(-20, 0);
-  EXPECT_NE(refused.find("too large: step error 0"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("too large: step error 1"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("estimated 0"), std::string::npos) << refused;
   EXPECT_NE(refused.find("from that in steps of 0.00063 s"), std::string::npos) << refused;
   EXPECT_EQ(said(-20, 1e3), "");  // the floor takes more than the damper makes
   EXPECT_EQ(said(0, 0), "");
