@@ -139,6 +139,14 @@ std::string excerpt(std::string_view text, std::size_t most) {
   return std::string(text.substr(0, end)).append(dots);
 }
 
+std::string inShellQuotes(const std::string& text) {
+  const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=+-:,%@";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 std::string inQuotes(std::string_view text) { return "\"" + excerpt(text) + "\""; }
 
 std::string quotedList(const std::vector<std::string>& parts) {

@@ -45,6 +45,9 @@ std::string excerpt(std::string_view text, std::size_t most = longestQuote);
 /// `"text"`, shortened by excerpt().
 std::string inQuotes(std::string_view text);
 
+/// As a shell reads it: the text, in single quotes where it needs them.
+std::string inShellQuotes(const std::string& text);
+
 /// `"a", "b", "c"`, each shortened by excerpt().
 std::string quotedList(const std::vector<std::string>& parts);
 

@@ -112,12 +112,14 @@ std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model
   std::vector<Matrix> all;
   for (const auto& [component, dofs] : components) {
     if (!driven[component] || !standAlone(model, symmetric, rows, dofs)) continue;
+    const Sparse K = reduction::block(symmetric, dofs, dofs),
+                 M = reduction::block(mass, dofs, dofs);
     linalg::EigenOptions options;
     options.tolerance = basisAccuracy;
-    options.shift = floatingShift;
-    const auto modes = linalg::lowestFiniteModes(reduction::block(symmetric, dofs, dofs),
-                                                 reduction::block(mass, dofs, dofs),
-                                                 std::min(sizeOf(dofs), modesBeyond), options);
+    // a bit law may push harder than the component alone resists
+    if (linalg::eigenvaluesBelow(K, M, floatingShift) == 0) options.shift = floatingShift;
+    const auto modes =
+        linalg::lowestFiniteModes(K, M, std::min(sizeOf(dofs), modesBeyond), options);
     Matrix shapes = Matrix::Zero(model.size(), modes.count());
     shapes(dofs, Eigen::all) = modes.vectors;
     all.push_back(std::move(shapes));

@@ -175,10 +175,10 @@ Matrix12 rotation12(const Matrix3& element, const Matrix3& node1, const Matrix3&
   return r;
 }
 
-Matrix12 slopeRotation(const Matrix12& rotation) {
+Matrix12 slopeRotation(const Matrix12& rotation, const Vector3& axis1, const Vector3& axis2) {
   Matrix12 r = rotation;
-  r.col(5).setZero();
-  r.col(11).setZero();
+  r.middleCols<3>(3) -= rotation.middleCols<3>(3) * axis1 * axis1.transpose();
+  r.middleCols<3>(9) -= rotation.middleCols<3>(9) * axis2 * axis2.transpose();
   return r;
 }
 

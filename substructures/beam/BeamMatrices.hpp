@@ -55,11 +55,12 @@ Vector12 distributedLoad(const Vector3& q, double length);
 /// frame E (columns are axes), so that K_nodal = R' K_element R.
 Matrix12 rotation12(const Matrix3& element, const Matrix3& node1, const Matrix3& node2);
 
-/// The same for what depends on slopes alone (geometric stiffness). The change of a nodal tangent t
-/// is theta x t, to which the spin theta_z about t gives nothing: the columns of theta_z of
-/// `rotation` = rotation12(...) are zero here. Turned by rotation12 itself, the spin of a node
-/// tilts the chord of a curved element by theta_z kappa l/2.
-Matrix12 slopeRotation(const Matrix12& rotation);
+/// The same for what depends on slopes alone (geometric stiffness, loads along the element). The
+/// change of the axis a of a cross section is theta x a, to which the spin about a gives nothing:
+/// rotation12(...) of theta - (theta.a) a. Turned by rotation12 itself, the spin of a node tilts
+/// the chord of a curved element by theta_z kappa l/2. \param axis1, axis2 a of both ends in their
+/// nodal frames
+Matrix12 slopeRotation(const Matrix12& rotation, const Vector3& axis1, const Vector3& axis2);
 
 /// Element triad from its end points and nodal triads: z on the chord, x and y from the mean of the
 /// nodal y axes. ModelError if the points coincide or the mean y axis lies on the chord.

@@ -77,12 +77,17 @@ class Builder {
   void addLineLoads(int e, const beam::Element& element, const Matrix3& triad,
                     const Matrix12& turn) {
     const auto i = static_cast<std::size_t>(e);
-    const Matrix12 slopes = beam::slopeRotation(turn);
+    const Matrix12 slopes = slopeTurn(e, turn);
     const loads::LoadedElement loaded{element.section(), triad, in_.string.nodes[i].s,
                                       in_.string.nodes[i + 1].s};
     for (const auto& load : in_.loads)
       for (const auto& line : load->onElement(loaded, in_.rotary))
         addLoad(line.name, line.law, e, slopes.transpose() * element.distributedLoad(line.force));
+  }
+
+  Matrix12 slopeTurn(int e, const Matrix12& turn) const {
+    const auto i = static_cast<std::size_t>(e);
+    return beam::slopeRotation(turn, in_.path.axisInFrame(i), in_.path.axisInFrame(i + 1));
   }
 
   /// K_a + F K_gF + T K_gT, or the corotational tangent of the path state, in nodal frames.
@@ -127,7 +132,7 @@ class Builder {
     for (const auto& term : mud.stiffness)
       if (term.law == kConstant || in_.rotary.present())
         addStiffness(term.name, term.law, e, nodal(term.matrix));
-    addLoad("mud", model::ScalarLaw::one(), e, beam::slopeRotation(turn).transpose() * mud.load);
+    addLoad("mud", model::ScalarLaw::one(), e, slopeTurn(e, turn).transpose() * mud.load);
   }
 
   /// R_ipa and the loads at nodes.

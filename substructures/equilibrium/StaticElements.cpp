@@ -27,8 +27,7 @@ StaticElements::StaticElements(const StaticInput& input) : input_(input) {
   units_.reserve(input.elements.size());
   for (const StaticElement& element : input.elements) {
     const beam::Matrix12 k = element.formulation->stiffness();
-    const beam::Matrix12 r =
-        input.chordSlopes ? element.rotation : beam::slopeRotation(element.rotation);
+    const beam::Matrix12& r = element.slopes;
     units_.push_back({difference(element.rotation, beam::nodal::w),
                       difference(element.rotation, beam::nodal::thetaZ), k(8, 8), k(11, 11),
                       r.transpose() * element.formulation->geometricAxial() * r,

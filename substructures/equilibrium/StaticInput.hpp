@@ -16,6 +16,9 @@ struct StaticElement {
   std::shared_ptr<const beam::Element> formulation;
   beam::Matrix12 stiffness;  ///< everything linear, K_pa of the element, in nodal frames
   beam::Matrix12 rotation;   ///< nodal dofs to the element frame (beam::rotation12)
+  /// The same for K_gpo: beam::slopeRotation, so that a section that spins about its own axis meets
+  /// no geometric stiffness, or `rotation`, as the source has it.
+  beam::Matrix12 slopes;
   /// Axial force of the undeformed element [N]: 0 where the nodes stand as an unloaded string has
   /// them.
   double pretension = 0.0;
@@ -36,10 +39,6 @@ struct StaticInput {
   std::shared_ptr<const contact::StaticContact> contact;  ///< null: no contact in this scene
   contact::Sliding sliding{0.0, 1.0};  ///< of the string on the wall; none: no friction
   bool geometricStiffness = true;      ///< K_gpo(D)
-  /// K_gpo takes its slopes from all rotations in the element frame, spin included, as the source
-  /// does. False: from the change of the nodal tangents (beam::slopeRotation), so that a section
-  /// that spins about its own axis meets no geometric stiffness.
-  bool chordSlopes = false;
 };
 
 }  // namespace tooljoint::equilibrium

@@ -43,6 +43,11 @@ struct PathState {
   /// T_apa).
   std::vector<beam::Matrix12> tangent;
   PathReport report;
+
+  /// The axis of the cross section of a node in its nodal frame.
+  Vector3 axisInFrame(std::size_t node) const {
+    return frame[node].transpose() * sectionAxis[node];
+  }
 };
 
 }  // namespace tooljoint::path

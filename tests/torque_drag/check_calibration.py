@@ -7,6 +7,7 @@
 import csv
 import math
 import pathlib
+import re
 import sys
 
 import numpy
@@ -74,6 +75,12 @@ def straight():
         expect(f"{name} is inside its bounds", one["at_bound"] == 0, one)
     expect("the truth is near", abs(found["Contact/Friction/Dynamic"]["fitted"] - 0.31) < 0.01, found)
     expect("what to put into a deck is said", "--set \"Contact/Friction/Dynamic=0.3" in done.stdout, done.stdout[-800:])
+    lower = run(STRAIGHT, "calibrated_lower", "Well/Trajectory=Survey", f"Well/Survey/File={survey}", f"Torque and Drag/Measured={measured}", "Contact/Friction/Static=0.2",
+                "Contact/Friction/Dynamic=0.2")
+    said = re.findall(r'^ *--set "(.*)"$', lower.stdout, re.MULTILINE)
+    expect("the static coefficient is raised with the dynamic one", any(one.startswith("Contact/Friction/Static=0.3") for one in said), lower.stdout[-800:])
+    again = run(STRAIGHT, "calibrated_again", "Well/Trajectory=Survey", f"Well/Survey/File={survey}", *said)
+    expect("what is said can be run", again.returncode == 0, again.stderr)
     lines = rows("calibrated", "torque_drag_measured.csv")
     expect("gaps stay gaps", any(row["hook_load"] == "" and row["computed_hook_load"] == "" for row in lines), lines[:3])
     two = run(STRAIGHT, "calibrated_2", "Well/Trajectory=Survey", f"Well/Survey/File={survey}", f"Torque and Drag/Measured={measured}", ranks=2)

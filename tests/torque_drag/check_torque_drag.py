@@ -78,6 +78,15 @@ def straight():
     expect("nothing is compressed off bottom", full["Rotate off bottom"]["helical_margin"] == "")
 
 
+def backward():
+    """A string that turns backward under the mirrored torque is the same string."""
+    forward = run("forward", "Torque and Drag/Count=1")
+    turned = run("backward", "Torque and Drag/Count=1", "Rotary Speed/Constant/Speed=-120 rpm", "Loads/Torque On Bit=-4 kN m")
+    for one, other in zip(forward, turned):
+        for column in ("surface_torque", "hook_load", "stiff_surface_torque"):
+            expect(f"{one['operation']}: {column} of a string that turns backward", one[column] == other[column], (one[column], other[column]))
+
+
 def pressure():
     """Margins to yield with the pressure of the mud: von Mises of a thick wall from the loads of the profile, friction losses of the flow, the pump pressure."""
     survey = pathlib.Path("straight.csv").resolve()
@@ -318,6 +327,7 @@ def files():
 
 
 straight()
+backward()
 pressure()
 grades()
 stiff("build_hold_1400m", 0.01, 0.03)

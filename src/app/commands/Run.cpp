@@ -11,7 +11,7 @@ void run(const RunOptions& options) {
   const auto one = cases::readCase(options.deck, options.overrides);
   const auto folder = cases::run(*one, {options.output, options.restart});
   reportAtEnd(folder, one->output().report);
-  lastScreen(folder, options.deck);
+  lastScreen(folder, one->deck());
 }
 
 }  // namespace tooljoint::app

@@ -35,16 +35,16 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
                       parts.size(), modes, reducedDofs, fullDofs, wall);
 }
 
-std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced) {
+std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced,
+                         const std::string& switches) {
   const double ratio = reduced.total() / full.total();
   const std::string text = fmt::sprintf(
       "cost        predicted work of a step: reduced model %.2f of the full model (%.3g of %.3g "
       "multiplications)\n            ",
       ratio, reduced.total(), full.total());
   if (ratio < transient::worthReducing) return text + "The reduced model is faster.";
-  return text +
-         "The full model is as fast and has no reduction error: run it with --without Reduction "
-         "--without Substructures.";
+  return text + "The full model is as fast and has no reduction error: run it with" + switches +
+         ".";
 }
 
 std::string describeCoupling(const coupling::Coupling& coupled) {

@@ -17,8 +17,10 @@ namespace tooljoint::cases {
 
 std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts,
                               int fullDofs, int reducedDofs, double wall);
-/// Predicted work of a step of both models, and which is faster.
-std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced);
+/// Predicted work of a step of both models, and which is faster; `switches` of the command make the
+/// full model.
+std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced,
+                         const std::string& switches);
 /// Assembly, joined dofs, and what the interface reduction kept of them.
 std::string describeCoupling(const coupling::Coupling& coupled);
 std::string describeMotionError(const estimate::MotionEstimate& error);

@@ -10,6 +10,7 @@
 #include "cases/measured/LogReport.hpp"
 #include "cases/measured/MeasuredLog.hpp"
 #include "cases/recording/RecordedNodes.hpp"
+#include "cases/run/DeckCommand.hpp"
 #include "cases/run/Report.hpp"
 #include "cases/run/ResultsWriter.hpp"
 #include "common/Error.hpp"
@@ -196,7 +197,7 @@ std::string predictCost(const Case& one, const model::SecondOrderModel& full,
   const auto costOfFull = transient::costModel(full, options);
   const auto costOfReduced = transient::costModel(reduced, options);
   if (ratio != nullptr) *ratio = costOfReduced.total() / costOfFull.total();
-  return describeCost(costOfFull, costOfReduced);
+  return describeCost(costOfFull, costOfReduced, fullModelSwitches(one.deck()));
 }
 
 std::string run(const Case& one, const RunOptions& options) { return Run(one, options).go(); }

@@ -35,11 +35,12 @@ class Model {
         const std::vector<Measurement>& measured)
       : scene_(scene), settings_(settings), measured_(measured) {
     const auto& contact = *scene.contact;
-    unknowns_.push_back({"friction", "Contact/Friction/Dynamic", contact.values.muDynamic});
+    unknowns_.push_back({"friction", "Contact/Friction/Dynamic", contact.values.muDynamic,
+                         contact.values.muStatic});
     for (const auto& interval : contact.intervals)
       unknowns_.push_back({"friction in " + interval.name,
                            "Contact/Intervals/" + interval.name + "/Friction/Dynamic",
-                           interval.values.muDynamic});
+                           interval.values.muDynamic, interval.values.muStatic});
     unknowns_.push_back({"block weight", "Torque and Drag/Block Weight", settings.blockWeight});
     for (const auto& one : measured) {
       auto named = settings;

@@ -22,6 +22,7 @@ struct Fitted {
   std::string name;          ///< "friction", "friction in casing", "block weight"
   std::string parameter;     ///< its path in the deck
   double deck = 0.0;         ///< value of the deck
+  double deckStatic = 0.0;   ///< of friction: the static coefficient of the deck
   double value = 0.0;        ///< [1] or [N]
   double uncertainty = 0.0;  ///< half the width of the 95 % confidence interval
   bool atBound = false;      ///< the interval then says nothing

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <fmt/format.h>
+#include <string>
+#include <vector>
 
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
@@ -15,10 +17,15 @@ std::string number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? fmt::format("{:.10g}", *value) : "";
 }
 
+/// ".../Friction/Static" of ".../Friction/Dynamic".
+std::string staticOf(const std::string& dynamic) {
+  return dynamic.substr(0, dynamic.rfind('/') + 1) + "Static";
+}
+
 void print(const Calibration& fit) {
   log::info(fmt::format("calibration to {} lines of measurements; intervals of 95 % confidence",
                         fit.measured.size()));
-  std::string settings;
+  std::vector<std::string> settings;
   for (const Fitted& one : fit.fitted) {
     const bool force = one.name == "block weight";
     const deck::PrintedUnit unit(force ? "kN" : "");
@@ -29,13 +36,17 @@ void print(const Calibration& fit) {
     log::info(fmt::format("{:<28}{:>9} {} {}{}   (deck: {})", one.name, text(one.value),
                           one.atBound ? "at its bound," : "+-", text(one.uncertainty), suffix,
                           text(one.deck)));
-    settings += fmt::format(" --set \"{}={}{}\"", one.parameter, text(one.value), suffix);
+    if (!force &&
+        one.value > one.deckStatic)  // the dynamic coefficient is not above the static one
+      settings.push_back(fmt::format("--set \"{}={}\"", staticOf(one.parameter), text(one.value)));
+    settings.push_back(fmt::format("--set \"{}={}{}\"", one.parameter, text(one.value), suffix));
   }
   const deck::PrintedUnit force("kN"), torque("kN m");
   log::info(fmt::format(
       "misfit      {:.1f} {} of hook load, {:.2f} {} of torque (root mean square)",
       force(fit.hookLoadMisfit), force.name(), torque(fit.torqueMisfit), torque.name()));
-  log::info("in a deck  " + settings);
+  log::info("in a deck");
+  for (const auto& setting : settings) log::info("  " + setting);
 }
 
 void stageFit(const Calibration& fit, io::OutputFolder& folder) {

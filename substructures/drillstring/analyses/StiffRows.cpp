@@ -33,7 +33,10 @@ Row rowAt(const Scene& scene, double bit, const std::vector<softstring::Operatio
     none.failure = error.what();
     Row row(operations.size(), none);
     for (std::size_t k = 1; k < row.size(); ++k)
-      row[k].failure = "Without friction there is no equilibrium at this depth.";
+      row[k].failure =
+          "No equilibrium without friction was found at this depth; more, shorter elements may "
+          "find "
+          "one.";
     return row;
   }
 }

@@ -170,10 +170,15 @@ SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene
 
 std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings) {
-  const double deckSpeed = scene.rotary.present() ? std::abs(scene.rotary.speed(started)) : 0.0;
+  const double deckSpeed = scene.rotary.present() ? scene.rotary.speed(started) : 0.0;
   const auto& loads = scene.list().sublist("Loads");
-  drilling::BitLoad bit{loads.get<double>("Weight On Bit"), loads.get<double>("Torque On Bit")};
-  const double speed = settings.rotarySpeed.value_or(deckSpeed > 0.0 ? deckSpeed : usualSpeed);
+  // operations turn in the positive sense: the torque of a deck that turns backward changes its
+  // sign
+  const double sense = deckSpeed < 0.0 ? -1.0 : 1.0;
+  drilling::BitLoad bit{loads.get<double>("Weight On Bit"),
+                        sense * loads.get<double>("Torque On Bit")};
+  const double speed =
+      settings.rotarySpeed.value_or(deckSpeed != 0.0 ? std::abs(deckSpeed) : usualSpeed);
   if (scene.bit) {
     const Scene drilled = turningAt(scene, speed);
     const auto steady = drilling::steadyLoad(

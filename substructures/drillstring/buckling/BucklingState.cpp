@@ -86,8 +86,7 @@ BucklingMeasure::BucklingMeasure(const Scene& scene, const path::PathState& path
     clearance_.push_back(scene.well.boreRadius(0.5 * (depth_[at(e)] + depth_[at(e + 1)])) -
                          section.outerRadius());
     const auto& element = input.elements[at(e)];
-    const beam::Matrix12 r =
-        input.chordSlopes ? element.rotation : beam::slopeRotation(element.rotation);
+    const beam::Matrix12& r = element.slopes;
     unitAxial_.push_back(r.transpose() * element.formulation->geometricAxial() * r);
   }
 }

@@ -52,7 +52,6 @@ equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& 
   equilibrium::StaticInput input;
   input.nodes = equations.model.nodes;
   input.held = scene.heldAtRest();
-  input.chordSlopes = scene.path.prestress == path::Prestress::AxialAndTorque;
   input.geometricStiffness = scene.statics.geometricStiffness;
   std::vector<double> pretension;
   if (reference == equilibrium::Reference::Hanging) pretension = hangingTension(equations);
@@ -64,6 +63,10 @@ equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& 
     element.formulation = scene.string.elements[i].formulation;
     element.stiffness = equations.stiffness[i];
     element.rotation = beam::rotation12(path.elementFrame[i], path.frame[i], path.frame[i + 1]);
+    element.slopes =
+        scene.path.prestress == path::Prestress::AxialAndTorque
+            ? element.rotation
+            : beam::slopeRotation(element.rotation, path.axisInFrame(i), path.axisInFrame(i + 1));
     const double curvature =
         std::max(scene.well.trajectory().at(path.arcLength[i]).curvature.norm(),
                  scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());

@@ -42,6 +42,7 @@ StaticInput string(bool held = true) {
     element.formulation = std::make_shared<beam::Timoshenko>(section, length);
     element.stiffness = element.formulation->stiffness();
     element.rotation.setIdentity();
+    element.slopes.setIdentity();
     input.elements.push_back(element);
     for (const int node : {e, e + 1}) {
       input.load(6 * node) += 0.25 * weight;

@@ -156,7 +156,7 @@ TEST(Element, SlopesDoNotKnowTheSpin) {
   };  // about y, in the plane of the arc
   const Matrix12 r =
       rotation12(Matrix3::Identity(), tilted(-0.5 * kappa * l), tilted(0.5 * kappa * l));
-  const Matrix12 slopes = slopeRotation(r);
+  const Matrix12 slopes = slopeRotation(r, Vector3::UnitZ(), Vector3::UnitZ());
   Vector12 spin = Vector12::Zero();
   spin(5) = spin(11) = 1.0;
   for (const Matrix12& k : {geometricAxial(l), geometricTorque(l)}) {
@@ -173,6 +173,23 @@ TEST(Element, SlopesDoNotKnowTheSpin) {
   // F kappa^2 l^2/12 per length, twice the energy of the parabola with slopes -+kappa l/2
   EXPECT_NEAR(spin.dot(r.transpose() * geometricAxial(l) * r * spin),
               kappa * kappa * l * l / 12.0 * l, 1e-3 * kappa * kappa * l * l * l);
+}
+
+/// The same about the axis of a cross section that is not the z axis of its node.
+TEST(Element, SlopesDoNotKnowTheSpinAboutASection) {
+  const Matrix12 r = rotation12(Matrix3::Identity(), rotationExponential(Vector3(0.1, 0.2, 0.3)),
+                                rotationExponential(Vector3(-0.2, 0.1, 0.4)));
+  const Vector3 upper = Vector3(0.05, -0.02, 1.0).normalized(),
+                lower = Vector3(-0.04, 0.03, 1.0).normalized();
+  const Matrix12 slopes = slopeRotation(r, upper, lower);
+  Vector12 spin = Vector12::Zero();
+  spin.segment<3>(3) = upper;
+  spin.segment<3>(9) = lower;
+  EXPECT_LT((slopes * spin).norm(), 1e-15);
+  Vector12 bent = Vector12::Zero();  // across the axes
+  bent.segment<3>(3) = upper.cross(Vector3::UnitX());
+  bent.segment<3>(9) = lower.cross(Vector3::UnitY());
+  EXPECT_LT(((slopes - r) * bent).norm(), 1e-15);
 }
 
 TEST(Element, TriadHasItsZOnTheChord) {

@@ -36,6 +36,7 @@ struct Column {
       element.formulation = std::make_shared<beam::Timoshenko>(section, length / elements);
       element.stiffness = element.formulation->stiffness();
       element.rotation.setIdentity();
+      element.slopes.setIdentity();
       input.elements.push_back(element);
     }
     input.held.assign(6 * nodes, 0);

@@ -47,6 +47,7 @@ struct Case {
       element.formulation = std::make_shared<beam::Timoshenko>(section(e), lengths[e]);
       element.stiffness = element.formulation->stiffness();
       element.rotation.setIdentity();
+      element.slopes.setIdentity();
       input.elements.push_back(element);
     }
     input.held.assign(6 * nodes, 0);

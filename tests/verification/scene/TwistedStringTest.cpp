@@ -83,4 +83,41 @@ TEST(TwistedString, BentHasTheCurvatureOfTheWell) {
                   2.0 * constants::degree / 30.0);
 }
 
+std::vector<Eigen::Vector2d> moments(const drillstring::Scene& scene) {
+  const auto stage = drillstring::findEquilibrium(scene);
+  const auto bending = drillstring::bendingElements(scene.string, stage.path);
+  std::vector<Eigen::Vector2d> found;
+  for (std::size_t e = 0; e < bending.size(); ++e)
+    found.push_back(drillstring::meanMoment(bending[e], e, stage.state.displacement));
+  return found;
+}
+
+/// 1425 m of pipe with tool joints in a well that builds to 60 degrees, without friction.
+drillstring::Scene jointed(const std::string& torque) {
+  return drillstring::readScene(
+      testing_::sourceFolder() + "/xml/build_hold_1400m.xml",
+      {"!Contact/Friction", "!Rotary Speed", "!Transient", "Loads/Torque On Bit=" + torque});
+}
+
+TEST(TwistedString, TwistDoesNotBendToolJoints) {
+  // Joints are straighter than the well: the axes of their ends are not its tangents. 4 kN m twist
+  // the string by some seven radians.
+  const auto plain = moments(jointed("0")), twistedToo = moments(jointed("4 kN m"));
+  double largest = 0.0, changed = 0.0;
+  for (std::size_t e = 0; e < plain.size(); ++e) {
+    largest = std::max(largest, plain[e].norm());
+    changed = std::max(changed, (twistedToo[e] - plain[e]).norm());
+  }
+  EXPECT_LT(changed, 0.05 * largest);
+}
+
+TEST(TwistedString, TheWeightDoesNotTwistAHelix) {
+  // 900 m without friction: the surface bears the torque of the bit
+  const auto scene = testing_::reference(
+      {"!Contact/Friction", "!Rotary Speed", "!Transient", "!Reduction", "!Substructures",
+       "Path/Pre-stress=Full tangent", "Well/Helix/Radius=150", "Well/Helix/Angle=4",
+       "Well/Helix/Length=1000", "Drillstring/Assembly={90*pipe}"});
+  EXPECT_NEAR(drillstring::findEquilibrium(scene).state.topTorque, -5000.0, 0.002 * 5000.0);
+}
+
 }  // namespace TwistedStringTest

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Words of commands for the deck of a case, as a shell reads them.
+#pragma once
+
+#include <string>
+
+#include "deck/Deck.hpp"
+
+namespace tooljoint::cases {
+
+/// The overrides of a deck: " --without Mud --set 'Transient/Step=1 ms'"; "" for none.
+std::string overrideSwitches(const deck::Deck& deck);
+
+/// The switches that make the full model of a deck that reduces: what has no effect, or is refused,
+/// without its Reduction list goes with that list; the other overrides stay.
+std::string fullModelSwitches(const deck::Deck& deck);
+
+}  // namespace tooljoint::cases
