@@ -12,7 +12,9 @@
 #include <unistd.h>
 #include <vector>
 
+#include "cases/run/DeckCommand.hpp"
 #include "common/Parallel.hpp"
+#include "common/Text.hpp"
 #include "common/report/Detail.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
@@ -172,20 +174,22 @@ std::string adviceOf(const Check& check, const Json& summary) {
 
 /// What to try next, a line each: what mends a check that is not met, else what shows more.
 std::vector<std::string> next(const Json& summary, const std::string& folder,
-                              const std::string& deck) {
+                              const deck::Deck& deck) {
+  const auto file = inShellQuotes(deck.file()), shown = inShellQuotes(folder),
+             full = inShellQuotes(folder + "_full");
   const auto worst = worstCheck(summary);
   if (worst.check != nullptr && worst.value > worst.check->bound && worst.check->advice != nullptr)
     return {"the run again with " + adviceOf(*worst.check, summary) + " (" + worst.check->name +
             ")"};
   if (!number(summary, "/transient/steps"))
     return {"tooljoint " +
-            std::string(number(summary, "/static/top_torque") ? "torque-drag " : "modes ") + deck};
+            std::string(number(summary, "/static/top_torque") ? "torque-drag " : "modes ") + file +
+            cases::overrideSwitches(deck)};
   const auto ratio = number(summary, "/reduction/cost_ratio");
   if (ratio && *ratio < 1.0)
-    return {"tooljoint run " + deck + " --output " + folder + "_full \\",
-            "  --without Reduction --without Substructures",
-            "tooljoint compare " + folder + " " + folder + "_full"};
-  return {"tooljoint paraview " + folder};
+    return {"tooljoint run " + file + " --output " + full + " \\",
+            " " + cases::fullModelSwitches(deck), "tooljoint compare " + shown + " " + full};
+  return {"tooljoint paraview " + shown};
 }
 
 /// Times of the stages and counters of the motion, of --verbose.
@@ -205,7 +209,7 @@ void details(const Json& summary) {
 
 }  // namespace
 
-void lastScreen(const std::string& folder, const std::string& deck) {
+void lastScreen(const std::string& folder, const deck::Deck& deck) {
   if (log::quiet() || parallel::rank() != 0) return;
   const auto summary = Json::parse(io::readText(folder + "/summary.json"));
   details(summary);

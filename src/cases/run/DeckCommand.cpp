@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/DeckCommand.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "common/Text.hpp"
@@ -30,21 +31,19 @@ bool touches(const std::string& override, const std::string& path) {
 std::string overrideSwitches(const deck::Deck& deck) { return switches(deck.overrides()); }
 
 std::string fullModelSwitches(const deck::Deck& deck) {
-  const auto& list = deck.list();
-  std::vector<std::string> without{"Reduction"}, set;
-  if (deck.gives("Output/Export Parts")) without.push_back("Output/Export Parts");
-  if (!deck.gives("Coupling") && deck.gives("Substructures")) without.push_back("Substructures");
-  if (deck.gives("Coupling/Assembly") &&
-      list.sublist("Coupling").get<std::string>("Assembly") == "Dual")
-    set.push_back("Coupling/Assembly=Primal");
+  std::vector<std::string> gone{"Reduction"};
+  if (deck.gives("Output/Export Parts")) gone.emplace_back("Output/Export Parts");
+  if (!deck.gives("Coupling") && deck.gives("Substructures")) gone.emplace_back("Substructures");
   std::vector<std::string> all;
-  for (const auto& path : without) all.push_back("!" + path);
-  for (const auto& one : deck.overrides()) {
-    bool gone = false;
-    for (const auto& path : without) gone = gone || touches(one, path);
-    if (!gone) all.push_back(one);
-  }
-  all.insert(all.end(), set.begin(), set.end());
+  for (const auto& path : gone) all.push_back("!" + path);
+  const bool dual = deck.gives("Coupling/Assembly") &&
+                    deck.list().sublist("Coupling").get<std::string>("Assembly") == "Dual";
+  if (dual) gone.emplace_back("Coupling/Assembly");
+  for (const auto& one : deck.overrides())
+    if (std::none_of(gone.begin(), gone.end(),
+                     [&](const std::string& path) { return touches(one, path); }))
+      all.push_back(one);
+  if (dual) all.emplace_back("Coupling/Assembly=Primal");
   return switches(all);
 }
 

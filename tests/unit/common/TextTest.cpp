@@ -76,6 +76,13 @@ TEST(Text, QuotesAtMost200Characters) {
   EXPECT_EQ(excerpt(umlauts, 10), "\u00e4\u00e4\u00e4...");
 }
 
+TEST(Text, IsQuotedForAShellWhereItMustBe) {
+  EXPECT_EQ(inShellQuotes("results/a-1.xml"), "results/a-1.xml");
+  EXPECT_EQ(inShellQuotes("End Time=2"), "'End Time=2'");
+  EXPECT_EQ(inShellQuotes("it's $5"), "'it'\\''s $5'");
+  EXPECT_EQ(inShellQuotes(""), "''");
+}
+
 TEST(Text, CountsHaveThreeDigits) {
   EXPECT_EQ(countText(999999), "999999");
   EXPECT_EQ(countText(1.23456e9), "1.23e+09");
