@@ -86,16 +86,28 @@ class Axes(Style):
             self.assertGreater(axes.get_zlim()[0], axes.get_zlim()[1], "depth does not point downwards")
             self.assertEqual([axes.get_xlabel(), axes.get_ylabel(), axes.get_zlabel()], ["north [m]", "east [m]", "depth [m]"])
 
-    def test_logarithmic_ticks_are_plain_numbers(self):
+    def logarithmic(self, low, x=plots.plain, y=plots.percent):
+        """Tick labels of axes whose y reaches from `low` to 1."""
         made, axes = plots.figure()
-        axes.plot([0.01, 100], [1e-6, 1])
-        plots.error_band(axes, [0.01, 100], [5e-7, 0.5], [2e-6, 1.0])
-        plots.log_log(axes, y=plots.percent)
+        axes.plot([0.01, 100], [low, 1])
+        plots.error_band(axes, [0.01, 100], [0.5 * low, 0.5], [2 * low, 1.0])
+        plots.log_log(axes, x, y)
         made.canvas.draw()
-        self.assertIn("0.1", [text.get_text() for text in axes.get_xticklabels()])
-        self.assertIn("10 %", [text.get_text() for text in axes.get_yticklabels()])
         self.assertEqual(len(axes.collections), 1)
         self.check(made)
+        return [text.get_text() for text in axes.get_xticklabels()], [text.get_text() for text in axes.get_yticklabels()]
+
+    def test_logarithmic_ticks_are_plain_numbers(self):
+        across, up = self.logarithmic(1e-4)
+        self.assertIn("0.1", across)
+        self.assertIn("10 %", up)
+
+    def test_an_axis_has_one_way_of_writing(self):
+        for y in (plots.percent, plots.plain):
+            up = self.logarithmic(1e-7, y=y)[1]
+            self.assertTrue(all(text.startswith("10") and "%" not in text for text in up), up)
+        self.assertIn("10⁻¹", up)
+        self.assertTrue(all("%" in text for text in self.logarithmic(1e-4)[1]))
 
     def test_a_title_says_the_conditions(self):
         made, axes = plots.figure()

@@ -130,42 +130,56 @@ def square(axes: Any, reach: float) -> None:
     axes.set_aspect("equal")
 
 
-def plain(value: float) -> str:
-    """Numbers on logarithmic axes as people write them.
+def power(value: float) -> str:
+    """A positive number as a power of ten, with a factor before it where it has one.
 
-    >>> plain(0.02), plain(1e-6), plain(0)
-    ('0.02', '10⁻⁶', '')
+    >>> power(1e-6), power(2e-5)
+    ('10⁻⁶', '2·10⁻⁵')
+    """
+    exponent = math.floor(math.log10(value) + 1e-9)
+    factor = f"{value / 10.0 ** exponent:.3g}"
+    return ("" if factor == "1" else factor + "·") + "10" + str(exponent).translate(SUPERSCRIPTS)
+
+
+def plain(value: float, low: float | None = None, high: float | None = None) -> str:
+    """Numbers on logarithmic axes as people write them; all of an axis between `low` and `high` are written in one way.
+
+    >>> plain(0.02), plain(1e-6), plain(0), plain(0.1, 1e-6, 1.0)
+    ('0.02', '10⁻⁶', '', '10⁻¹')
     """
     if value <= 0:
         return ""
-    if 1e-3 <= value < 1e4:
-        return f"{value:g}"
-    exponent = math.floor(math.log10(value) + 1e-9)
-    return "10" + str(exponent).translate(SUPERSCRIPTS)
+    return f"{value:g}" if 1e-3 <= (low or value) and (high or value) < 1e4 else power(value)
 
 
-def percent(value: float) -> str:
-    """Shares on logarithmic axes; below 0.001 % as a power of ten.
+def percent(value: float, low: float | None = None, high: float | None = None) -> str:
+    """Shares on logarithmic axes; on an axis that goes below 0.001 % as powers of ten.
 
-    >>> percent(0.025)
-    '2.5 %'
+    >>> percent(0.025), percent(0.1, 1e-6, 1.0)
+    ('2.5 %', '10⁻¹')
     """
-    return f"{100 * value:g} %" if value >= 1e-5 else plain(value)
+    if value <= 0:
+        return ""
+    return f"{100 * value:g} %" if (low or value) >= 1e-5 else power(value)
 
 
-def logarithmic(axis: Any, formatter: Callable[[float], str] = plain) -> None:
+def logarithmic(axis: Any, formatter: Callable[..., str] = plain) -> None:
     """Ticks of a logarithmic axis that has its limits: decades, what is between them unless there are many, and 2, 3, 5 with numbers where
-    there is less than a decade and a half."""
+    there is less than a decade and a half. `formatter` writes a number of an axis whose least and largest decade it is given."""
+    def text(value: float, _: Any = None) -> str:
+        low, high = sorted(axis.get_view_interval())
+        return formatter(value, *(10.0 ** math.ceil(math.log10(low) - 1e-9), high) if low > 0 else (None, None))
+
     axis.set_major_locator(ticker.LogLocator(base=10, numticks=20))
-    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: formatter(value)))
+    axis.set_major_formatter(ticker.FuncFormatter(text))
     low, high = axis.get_view_interval()
     narrow = low > 0 and high < 30 * low
     wide = low > 0 and high > 1e6 * low
     axis.set_minor_locator(ticker.NullLocator() if wide else ticker.LogLocator(base=10, subs=(2, 3, 5) if narrow else range(2, 10), numticks=40))
-    axis.set_minor_formatter(ticker.FuncFormatter(lambda value, _: formatter(value)) if narrow else ticker.NullFormatter())
+    axis.set_minor_formatter(ticker.FuncFormatter(text) if narrow else ticker.NullFormatter())
 
 
-def log_log(axes: Any, x: Callable[[float], str] = plain, y: Callable[[float], str] = plain) -> None:
+def log_log(axes: Any, x: Callable[..., str] = plain, y: Callable[..., str] = plain) -> None:
     """Logarithmic axes with the limits of what is drawn; `x`, `y` write the ticks."""
     axes.set_xscale("log"), axes.set_yscale("log")
     logarithmic(axes.xaxis, x)
