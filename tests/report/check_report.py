@@ -62,6 +62,19 @@ TEXTS = """[...document.querySelectorAll("figure svg")].flatMap((svg) => {
 })"""
 
 
+# Texts of the axes in space that lie on one another or outside of the picture.
+AXES = """(() => {
+  const view = document.getElementById("view"), texts = view.labels(), canvas = view.querySelector("canvas");
+  const faults = texts.filter((a) => Math.max(-a.left, a.right) > canvas.clientWidth / 2 || Math.max(-a.low, a.high) > canvas.clientHeight / 2).map((a) => "cut: " + a.text);
+  texts.forEach((a, i) => texts.slice(i + 1).forEach((b) => { if (a.left < b.right && a.right > b.left && a.low < b.high && a.high > b.low) faults.push(a.text + " on " + b.text); }));
+  return faults;
+})()"""
+NAMES = 'document.getElementById("view").labels().map((one) => one.text).filter((text) => text.endsWith("[m]")).length'
+WHEEL = """(() => {
+  for (let i = 0; i < 8; ++i) document.querySelector("#view canvas").dispatchEvent(new WheelEvent("wheel", {deltaY: %d, bubbles: true, cancelable: true}));
+})()"""
+
+
 def run(folder, deck, *arguments):
     shutil.rmtree(folder, ignore_errors=True)
     done = tooljoint("run", deck, "--output", folder, *arguments)
@@ -120,6 +133,13 @@ def look(title, path, chromium, view=True, moves=True):
             if chromium.value('document.getElementById("view-field").length') > 1:
                 chromium.value('(() => { const f = document.getElementById("view-field"); f.value = 1; f.dispatchEvent(new Event("change")); })()')
                 expect(f"{title}: another colour field is another picture", chromium.value(PIXELS)["sum"] != rest["sum"])
+        if view:
+            expect(f"{title}, {width} px: the axes in space have their names", chromium.value(NAMES) == 3, chromium.value(NAMES))
+            for zoom in (0, 100, -100, -100):  # as it opens, farther away, nearer
+                if zoom:
+                    chromium.value(WHEEL % zoom)
+                faults = chromium.value(AXES)
+                expect(f"{title}, {width} px: no text of the axes in space is cut off or lies on another", not faults, faults)
         small = chromium.value("""[...document.querySelectorAll("figure")].filter((f) => f.querySelector("svg").getBoundingClientRect().height < 60).map((f) => f.id)""")
         expect(f"{title}, {width} px: figures have a size", not small, small)
         wide = chromium.value("""[...document.querySelectorAll(".card, .notes li")].filter((card) => card.scrollWidth > card.clientWidth).map((card) => card.textContent)""")

@@ -63,9 +63,11 @@
     return colours[Math.round(share * (colours.length - 1))];
   }
 
-  // The box around the model with ticks on three edges.
-  const labels = [];
-  function label(text, position, align) {
+  // The box around the model. Numbers and names stand beside three of its edges, in pixels away from them: they keep their room at every zoom.
+  const GAP = 6;  // between an edge, its numbers and its name [px]
+  const axes = [];
+  let placed = [];  // texts that are shown and the room they take, from the middle of the picture [px]
+  function label(text) {
     const canvas = document.createElement("canvas");
     const context = canvas.getContext("2d");
     const high = 44;
@@ -75,14 +77,10 @@
     context.font = high * 0.8 + "px sans-serif";
     context.fillStyle = "#444444";
     context.fillText(text, 4, high * 0.78);
-    const material = new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), depthTest: false, sizeAttenuation: false});
-    material.map.minFilter = THREE.LinearFilter;
-    const sprite = new THREE.Sprite(material);
-    sprite.userData.ratio = canvas.width / high;
-    labels.push(sprite);
-    sprite.position.copy(position);
-    sprite.center.set(align, 0.5);
+    const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), depthTest: false, sizeAttenuation: false}));
+    sprite.material.map.minFilter = THREE.LinearFilter;
     scene.add(sprite);
+    return {text, sprite, wide: LABEL * canvas.width / high};
   }
   function niceStep(length) {
     const raw = length / 4, power = Math.pow(10, Math.floor(Math.log10(raw)));
@@ -90,29 +88,80 @@
   }
   function addAxes() {
     const isString = SCENE.kind === "string";
-    const low = box.min.clone().subScalar(0.06 * size), high = box.max.clone().addScalar(0.06 * size);
-    const frame = new THREE.Box3Helper(new THREE.Box3(low, high), 0xc8ccd4);
-    scene.add(frame);
+    const room = new THREE.Box3(box.min.clone().subScalar(0.06 * size), box.max.clone().addScalar(0.06 * size));
+    scene.add(new THREE.Box3Helper(room, 0xc8ccd4));
     const names = isString ? ["east [m]", "depth [m]", "north [m]"] : ["x [m]", "z [m]", "y [m]"];
-    const points = [];
-    const digits = (step) => Math.max(0, Math.min(3, -Math.floor(Math.log10(step))));
+    const signs = [1, isString ? -1 : 1, -1];
     for (let axis = 0; axis < 3; ++axis) {
-      const key = "xyz"[axis], length = high[key] - low[key], step = niceStep(Math.max(length, size / 3));
-      const sign = axis === 0 ? 1 : axis === 1 ? (isString ? -1 : 1) : -1;
-      const corner = new THREE.Vector3(low.x, low.y, high.z);
-      const out = new THREE.Vector3(axis === 0 ? 0 : -0.02 * size, axis === 1 ? 0 : -0.02 * size, 0);
-      const place = (v) => { const p = corner.clone(); p[key] = v; return p; };
-      for (let v = Math.ceil(low[key] / step) * step; v <= high[key]; v += step) {
-        if (isString && axis === 1 && v > 1e-9 * size) continue;
-        if (length < 0.25 * size) break;  // the box is too narrow there for numbers beside each other
-        const at = place(v);
-        points.push(at, at.clone().add(out));
-        label((sign * v + 0).toFixed(digits(step)).replace(/^-(0(\.0+)?)$/, "$1"), at.clone().addScaledVector(out, 1.6), axis === 0 ? 0.5 : 1);
-      }
-      const away = [new THREE.Vector3(0, -0.075, 0), new THREE.Vector3(-0.14, 0, 0), new THREE.Vector3(-0.1, -0.1, 0)][axis];
-      label(names[axis], place((low[key] + high[key]) / 2).addScaledVector(away, size), axis === 0 ? 0.5 : 1);
+      const key = "xyz"[axis], low = room.min[key], high = room.max[key], step = niceStep(Math.max(high - low, size / 3));
+      const digits = Math.max(0, Math.min(3, -Math.floor(Math.log10(step)))), ticks = [];
+      for (let v = Math.ceil(low / step) * step; v <= high; v += step)
+        if (!(isString && axis === 1 && v > 1e-9 * size)) ticks.push({value: v, ...label((signs[axis] * v + 0).toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1"))});
+      const dots = new THREE.BufferGeometry();
+      dots.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * ticks.length), 3));
+      const marks = new THREE.Points(dots, new THREE.PointsMaterial({size: 4, sizeAttenuation: false, color: 0x8a8a8a}));
+      marks.frustumCulled = false;
+      scene.add(marks);
+      axes.push({key, low, high, ticks, marks, room, name: label(names[axis])});
     }
-    scene.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({color: 0x8a8a8a})));
+  }
+  // Pixels from the middle of the picture, up positive; null behind the camera.
+  function onScreen(point) {
+    const p = point.clone().project(camera);
+    return p.z > 1 ? null : {x: p.x * host.clientWidth / 2, y: p.y * renderer.domElement.clientHeight / 2};
+  }
+  // A text beside a point, as far away in the direction n as it is large there; false where it would lie on another one or outside.
+  function stand(one, point, n, distance) {
+    const at = onScreen(point);
+    if (!at) return false;
+    const away = distance + (Math.abs(n.x) * one.wide + Math.abs(n.y) * LABEL) / 2;
+    const x = at.x + n.x * away, y = at.y + n.y * away;
+    const own = {text: one.text, left: x - one.wide / 2, right: x + one.wide / 2, low: y - LABEL / 2, high: y + LABEL / 2};
+    if (Math.max(-own.left, own.right) > host.clientWidth / 2 || Math.max(-own.low, own.high) > renderer.domElement.clientHeight / 2) return false;
+    if (placed.some((other) => own.left < other.right + 4 && own.right > other.left - 4 && own.low < other.high && own.high > other.low)) return false;
+    one.sprite.position.copy(point);
+    one.sprite.center.set(0.5 - n.x * away / one.wide, 0.5 - n.y * away / LABEL);
+    placed.push(own);
+    return true;
+  }
+  // Of the four edges along an axis the leftmost (of the vertical axis) or the lowest, and the direction away from it.
+  function edgeOf(axis) {
+    const others = [..."xyz"].filter((key) => key !== axis.key), edges = [];
+    for (const first of ["min", "max"])
+      for (const second of ["min", "max"]) {
+        const corner = axis.room.min.clone();
+        corner[others[0]] = axis.room[first][others[0]];
+        corner[others[1]] = axis.room[second][others[1]];
+        const at = (v) => { const p = corner.clone(); p[axis.key] = v; return p; };
+        const from = onScreen(at(axis.low)), to = onScreen(at(axis.high));
+        if (from && to) edges.push({at, from, to, order: axis.key === "y" ? from.x + to.x : from.y + to.y});
+      }
+    if (!edges.length) return null;
+    const edge = edges.reduce((a, b) => (a.order <= b.order ? a : b));
+    const across = {x: edge.from.y - edge.to.y, y: edge.to.x - edge.from.x}, length = Math.hypot(across.x, across.y) || 1;
+    const middle = onScreen(axis.room.getCenter(new THREE.Vector3())) || {x: 0, y: 0};
+    const outwards = across.x * (edge.from.x - middle.x) + across.y * (edge.from.y - middle.y) < 0 ? -1 : 1;
+    return {at: edge.at, n: {x: outwards * across.x / length, y: outwards * across.y / length}};
+  }
+  // Names first, each as near to the middle of its edge as there is room; then the numbers that have room.
+  function placeLabels() {
+    placed = [];
+    const edges = axes.map(edgeOf);
+    axes.forEach((axis, i) => {
+      const {n, at} = edges[i] || {};
+      const widest = n && Math.max(0, ...axis.ticks.map((tick) => Math.abs(n.x) * tick.wide + Math.abs(n.y) * LABEL));
+      const shares = Array.from({length: 41}, (_, k) => 0.5 + (k % 2 ? 1 : -1) * Math.ceil(k / 2) / 40);
+      axis.name.sprite.visible = !!n && shares.some((share) => stand(axis.name, at(axis.low + share * (axis.high - axis.low)), n, widest + 2 * GAP));
+    });
+    axes.forEach((axis, i) => {
+      const dots = axis.marks.geometry.attributes.position;
+      axis.marks.visible = !!edges[i];
+      axis.ticks.forEach((tick, k) => {
+        tick.sprite.visible = !!edges[i] && stand(tick, edges[i].at(tick.value), edges[i].n, GAP);
+        if (edges[i]) dots.set(edges[i].at(tick.value).toArray(), 3 * k);
+      });
+      dots.needsUpdate = true;
+    });
   }
 
   // Pipes: rings of vertices around a chain of nodes.
@@ -217,6 +266,7 @@
     render();
   }
   function render() {
+    placeLabels();
     renderer.render(scene, camera);
   }
 
@@ -258,7 +308,8 @@
   }
   function lookAtAll() {
     const narrow = Math.min(1, camera.aspect);
-    look(box.getCenter(new THREE.Vector3()), 1.85 * size / narrow);
+    const height = renderer.domElement.clientHeight;
+    look(box.getCenter(new THREE.Vector3()), 1.85 * size / narrow * height / (height - 6 * LABEL));  // numbers and names have room above and below
   }
   function lookAtDepth(depth) {
     let i = 0;
@@ -272,7 +323,7 @@
     camera.updateProjectionMatrix();
     // a sprite of size 1 fills the view at the distance 1, whose height is 2 tan(fov / 2)
     const unit = LABEL / height * 2 * Math.tan(camera.fov * Math.PI / 360);
-    for (const sprite of labels) sprite.scale.set(unit * sprite.userData.ratio, unit, 1);
+    for (const axis of axes) for (const one of [axis.name, ...axis.ticks]) one.sprite.scale.set(unit * one.wide / LABEL, unit, 1);
     render();
   }
 
@@ -325,5 +376,6 @@
   setScale(Math.pow(10, slider.value / 20));
   showTime();
   lookAtAll();
+  host.labels = () => placed;
   document.body.dataset.view = "drawn";
 })();
