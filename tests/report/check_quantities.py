@@ -116,6 +116,10 @@ def scenes():
     whole = deck.read(text, "Loads/Torque On Bit=3 kN m\nx=2\n")
     expect("overrides are in the deck", whole["x"] == "2" and whole["Loads"]["Torque On Bit"] == "3 kN m", whole)
     expect("a title names the conditions", deck.conditions(whole) == "WOB 40 kN, TOB 3 kN m, mud 1.2 g/cm3", deck.conditions(whole))
+    for law, parameter, words in (("Exponential", "Final Speed", "up to 60 rpm"), ("Ramp", "Final Speed", "ramp to 60 rpm"), ("Harmonic", "Mean Speed", "60 rpm on average"), ("Constant", "Speed", "60 rpm")):
+        turns = {"Rotary Speed": {"Law": law, law: {parameter: str(2 * np.pi)}}, "Loads": {"Weight On Bit": "25 klbf"}}
+        expect(f"a title names the speed of the law {law}", deck.conditions(turns) == f"{words}, WOB 25 klbf", deck.conditions(turns))
+        expect("and leaves it out where it varies", deck.conditions(turns, {f"Rotary Speed/{law}/{parameter}"}) == "WOB 25 klbf")
     expect("lists that are taken out are gone", "Mud" not in deck.read(text, "!Mud\n"))
     expect("parameters stand before lists", [row[1] for row in deck.rows(whole)] == ["x", "Loads", "Weight On Bit", "Torque On Bit", "Mud", "Density"])
     expect("no deck is an empty one", deck.read("<no", "") == {})
@@ -173,6 +177,9 @@ def view():
     near("numbers of 16 bits are right to half a step", back, values, 0.51 / scene3d.LARGEST)
     expect("zeros stay zeros", scene3d.packed(np.zeros(3), "i2")["scale"] == 1.0)
     near("a node has the larger value of its elements", scene3d.at_nodes(np.array([1.0, 3.0, 2.0])), [1, 3, 3, 2])
+    bar = np.column_stack([np.arange(5.0), np.zeros((5, 2))])
+    found = scene3d.held_edges(bar, np.array([0, 0, 0, 1, 1]), [(1, 2)])
+    expect("a held node is joined to the nearest node of its part", found == [(0, 1)], found)
 
 
 def main():

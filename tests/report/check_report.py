@@ -241,6 +241,7 @@ def parts(chromium):
     lengths = np.linalg.norm(position[links[:, 0]] - position[links[:, 1]], axis=1)
     known = {0.375, 0.5}  # of the arm, of beams and columns
     expect("parts: edges have the lengths of their parts", set(lengths.round(4)) == known, sorted(set(lengths.round(4))))
+    expect("parts: no node stands alone, not even a held one", len(np.unique(links)) == len(position), len(np.unique(links)))
     expect("parts: the loop of the frame closes", len(position) == len(np.unique(position.round(4), axis=0)))
     if chromium:
         look("parts", path, chromium)

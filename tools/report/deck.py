@@ -4,14 +4,21 @@ import math
 import re
 import xml.etree.ElementTree as xml
 
-# What a title says of a scene: path, symbol before, SI unit of a plain number with the factor to the unit that is shown.
-SPEED = "Rotary Speed/Constant/Speed"
+RPM = 30 / math.pi
+# What a title says of a scene: path, words before, SI unit of a plain number with the factor to the unit that is shown.
 CONDITIONS = (
-    (SPEED, "", "rpm", 30 / math.pi),
     ("Loads/Weight On Bit", "WOB ", "kN", 1e-3),
     ("Loads/Torque On Bit", "TOB ", "kN m", 1e-3),
     ("Mud/Density", "mud ", "kg/m3", 1.0),
 )
+OF_ANALYSES = (  # and of an analysis besides
+    ("Well/Bore Diameter", "bore ", "mm", 1e3),
+    ("Contact/Friction/Static", "static friction ", "", 1.0),
+    ("Contact/Friction/Dynamic", "dynamic friction ", "", 1.0),
+)
+BLOCK = ("Torque and Drag/Block Weight", "block ", "kN", 1e-3)
+# The speed a law ends with or turns about: law, parameter, words before and after.
+SPEEDS = (("Constant", "Speed", "", ""), ("Exponential", "Final Speed", "up to ", ""), ("Ramp", "Final Speed", "ramp to ", ""), ("Harmonic", "Mean Speed", "", " on average"))
 
 
 def nested(element):
@@ -62,17 +69,28 @@ def shown(text, unit, factor):
     """A quantity as the deck gives it, or in a unit of the field when it is a plain number."""
     if not re.fullmatch(r"[-+0-9.eE]+", text.strip()):
         return text
-    return f"{float(text) * factor:.4g} {unit}"
+    return f"{float(text) * factor:.4g} {unit}".strip()
 
 
-def conditions(deck, varied=()):
-    """"120 rpm, WOB 40 kN, ..." for the title of a page, without the paths that are `varied`."""
-    words = []
-    for path, symbol, unit, factor in CONDITIONS:
+def rotary_speed(deck, varied=()):
+    """"120 rpm", "up to 60 rpm", ... of the law of the rotary speed; "" where the deck gives none or it varies."""
+    law = value(deck, "Rotary Speed/Law") or "Constant"
+    for name, parameter, before, after in SPEEDS:
+        path = f"Rotary Speed/{name}/{parameter}"
+        text = value(deck, path) if name == law and path not in varied else None
+        if text:
+            return before + shown(text, "rpm", RPM) + after
+    return "speeds of a table" if law == "Table" else ""
+
+
+def conditions(deck, varied=(), more=()):
+    """"120 rpm, WOB 40 kN, ..." for the title of a page, without the paths that are `varied`; `more`: further conditions."""
+    words = [rotary_speed(deck, varied)]
+    for path, before, unit, factor in (*CONDITIONS, *more):
         text = value(deck, path) if path not in varied else None
-        if text and text not in ("0", "0.0") and (path != SPEED or value(deck, "Rotary Speed/Law") in (None, "Constant")):
-            words.append(symbol + shown(text, unit, factor))
-    return ", ".join(words)
+        if text and text not in ("0", "0.0"):
+            words.append(before + shown(text, unit, factor))
+    return ", ".join(filter(None, words))
 
 
 def rows(deck, depth=0):

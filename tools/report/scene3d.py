@@ -136,6 +136,17 @@ def in_space(displacement, columns):
     return np.stack([displacement[..., c] if c >= 0 else np.zeros(displacement.shape[:-1]) for c in columns], axis=-1)
 
 
+def held_edges(position, part, edges):
+    """Edges from nodes without any, which are held, to the nearest node of their part that has some."""
+    linked = np.unique(np.array(edges, int))
+    found = []
+    for node in np.setdiff1d(np.arange(len(part)), linked):
+        others = linked[part[linked] == part[node]]
+        if len(others):
+            found.append((int(node), int(others[np.linalg.norm(position[others] - position[node], axis=1).argmin()])))
+    return found
+
+
 def of_parts(run):
     """Nodes of imported parts whose positions are known; (None, why) otherwise."""
     if "/model/located" not in run.file:
@@ -148,8 +159,9 @@ def of_parts(run):
     step = max(1, -(-len(rows) // 6000))
     rows, position = rows[::step], position[::step]
     number = {row: i for i, row in enumerate(rows)}
-    links = run.get("/model/links")
+    part, links = run.get("/model/part")[rows] - 1, run.get("/model/links")
     edges = [(number[a], number[b]) for a, b in links - 1 if a in number and b in number] if links is not None else []
+    edges += held_edges(position, part, edges) if step == 1 else []
     rest = in_space(run.get("/static/displacement"), columns)[rows]
     at = samples_of(run, len(rows)) if run.moves else None
     motion = in_space(taken(run.file["/transient/displacement"], at), columns)[:, rows] if run.moves else None
@@ -157,7 +169,7 @@ def of_parts(run):
     turn = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])  # x, z up, -y
     data = {"kind": "parts", "colours": colours(), "fields": [entry for entry in [field("displacement", "displacement", "mm", *size)] if entry],
             "position": packed(position @ turn.T, "f4"), "rest": packed(rest @ turn.T, "f4"),
-            "links": packed(np.array(edges, dtype="u4").reshape(-1, 2), "u4"), "part": packed(run.get("/model/part")[rows] - 1, "u4")}
+            "links": packed(np.array(edges, dtype="u4").reshape(-1, 2), "u4"), "part": packed(part, "u4")}
     if run.moves:
         data["time"] = packed(run.time[at], "f4")
         data["motion"] = packed(motion @ turn.T, "i2")
