@@ -132,7 +132,7 @@ def wrapped(name: str, width: int = 24) -> str:
 
 def overlaps(made: Any) -> list[str]:
     """Texts of a figure that lie on one another or are cut off at its edge, each a line. Left out: turned texts, whose boxes are larger
-    than themselves, ticks in space, and texts for which another one keeps the room (a title for its conditions)."""
+    than themselves, and texts for which another one keeps the room (a title for its conditions)."""
     made.canvas.draw()
     renderer, hidden, faults = made.canvas.get_renderer(), undrawn(made), []
     seen = [text for text in made.findobj(Text) if text.get_visible() and text.get_in_layout() and text.get_text().strip() and text.get_rotation() % 90 == 0 and text not in hidden]
@@ -156,7 +156,7 @@ def undrawn(made: Any) -> set[Any]:
             axis = getattr(axes, name, None)
             if axis is None:
                 continue
-            drawn = axis._update_ticks() if axes.axison and not hasattr(axes, "zaxis") else []
+            drawn = axis._update_ticks() if axes.axison else []
             if not axes.axison:
                 hidden.update(axis.findobj(Text))
             for tick in {*axis.get_major_ticks(), *axis.get_minor_ticks()} - set(drawn):

@@ -10,8 +10,8 @@ from matplotlib import ticker
 from .style import label
 
 LEAST_SHARE = 0.25  # of the longest axis that each axis has, so that a vertical well has room for its numbers
-SHORT = 0.5  # share of the longest axis below which an axis has room for one number
-ZOOM = 0.85  # leaves room for the labels
+FEWEST = 2  # numbers of a short axis
+ZOOM = 0.8  # leaves room for the labels
 
 
 def space_axes(made: Any, place: Any, names: tuple[str, str, str] = ("north", "east", "depth")) -> Any:
@@ -20,7 +20,11 @@ def space_axes(made: Any, place: Any, names: tuple[str, str, str] = ("north", "e
     axes.set_xlabel(label(names[0], "m")), axes.set_ylabel(label(names[1], "m")), axes.set_zlabel(label(names[2], "m"))
     axes.view_init(elev=18, azim=-150)
     axes.tick_params(labelsize=7, pad=0)
-    axes.zaxis.labelpad = 8
+    axes.tick_params(axis="z", pad=6)
+    for axis, turn, pad in ((axes.xaxis, 0, 10), (axes.yaxis, 0, 10), (axes.zaxis, 90, 20)):  # pads [pt] that leave room for numbers of four digits
+        axis.set_rotate_label(False)
+        axis.label.set_rotation(turn)
+        axis.labelpad = pad
     return axes
 
 
@@ -35,6 +39,5 @@ def equal_axes(axes: Any, points: Any) -> None:
     down = axes.get_zlabel().startswith("depth")
     axes.set_zlim(*((last[2], first[2]) if down else (first[2], last[2])))
     axes.set_box_aspect(span, zoom=ZOOM)
-    for axis, share, at in zip((axes.xaxis, axes.yaxis, axes.zaxis), span / span.max(), middle):
-        few = share < SHORT
-        axis.set_major_locator(ticker.FixedLocator([float(f"{at:.2g}")]) if few else ticker.MaxNLocator(round(5 * share)))
+    for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), span / span.max()):
+        axis.set_major_locator(ticker.MaxNLocator(max(FEWEST, round(5 * share)), min_n_ticks=FEWEST))
