@@ -17,7 +17,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "support")]
 from checks import expect, finish  # noqa: E402
 import plot_map  # noqa: E402
 import plots  # noqa: E402
-from report import checks, deck, of_map, of_run, quantities, results, scene3d, tables  # noqa: E402
+from report import checks, deck, figures, of_map, of_run, quantities, results, scene3d, tables  # noqa: E402
 
 
 class Bar:
@@ -86,6 +86,62 @@ def motions():
     spikes[[777, 50_123]] = 9.0, -7.0
     shown = plots.envelope(np.arange(100_000.0), spikes)[1]
     expect("thinned curves keep their extremes", len(shown) <= 1200 and shown.max() == 9 and shown.min() == -7, f"({len(shown)})")
+
+
+class Still:
+    """A string of three nodes in the place of a run: vertical, inclined by 30 degrees to the east, by 1 degree to the south; `amplitude` [m] of a circle at all of them."""
+
+    is_string, moves, value, rotary = True, True, results.Run.value, lambda self: np.full(200, 10.0)
+
+    def __init__(self, amplitude, figures=None):
+        self.s, self.time, self.recorded = np.array([0.0, 500.0, 1000.0]), np.linspace(0, 2, 200), np.arange(3)
+        self.summary = {"transient": {"figures": figures or {}}}
+        tilt = np.radians([0.0, 30.0, 1.0])
+        tangents = np.stack([[0, 0, -np.sin(tilt[2])], np.sin([0, tilt[1], 0]), np.cos(tilt)], axis=1)  # north, east, down
+        x = np.array([1.0, 2.0, 0.0]) - np.outer(tangents @ [1.0, 2.0, 0.0], [1, 1, 1]) * tangents
+        x /= np.linalg.norm(x, axis=1)[:, None]
+        self.data = {"/model/frame": np.stack([x, np.cross(tangents, x), tangents], axis=2), "/model/clearance": np.full(3, 0.05)}
+        circle = amplitude * np.stack([np.cos(10 * self.time), np.sin(10 * self.time)], axis=1)
+        self.file = {"/transient/displacement": np.concatenate([np.repeat(circle[:, None], 3, axis=1), np.zeros((200, 3, 4))], axis=2)}
+
+    def get(self, path):
+        return self.data.get(path)
+
+    def blocks(self, path):
+        yield 0, self.file[path]
+
+    second_half, column, component_at, bit_speed = results.Run.second_half, results.Run.column, lambda self, node: "pipe", lambda self: np.full(200, 10.0)
+
+
+def sides():
+    run = Still(1e-3)
+    for node, names, first, second in ((0, ("north", "east"), [1, 0, 0], [0, 1, 0]), (1, ("high side", "right side"), [0, np.sqrt(0.75), -0.5], [-1, 0, 0]), (2, ("north", "east"), None, None)):
+        found, turned = results.sides(run, node)
+        frame = run.data["/model/frame"][node]
+        expect(f"node {node} has the sides {names}", found == names and np.allclose(turned @ turned.T, np.eye(2)) and np.linalg.det(turned) > 0, (found, turned))
+        if first is not None:
+            near("they point there, looking down the hole", turned @ frame[:, :2].T, np.array([first, second], float), 1e-12)
+
+
+def rounding():
+    """What does not vibrate has no orbits, spectra and whirl; no number is minus zero."""
+    figures_ = {"begin": 1.0, "end": 2.0, "stick_slip_index": 0.0, "stuck_share": 0.25, "stuck_speed_rpm": 4.77, "weight_on_bit": {"mean": 444822.16152605, "min": 4e5, "max": 5e5}, "torque_on_bit": {"mean": None},
+                "rate_of_penetration": 0.3048 / 360, "specific_energy": 6894757.293, "lateral_acceleration": {"rms": 1.0, "worst_rms": 2.0, "worst_rms_depth": 3.0, "peak": 4.0},
+                "whirl": {"worst_backward_share": 0.5, "worst_backward_share_depth": 6.0, "worst_precession_rpm": -0.2, "worst_backward_contact_share": 0.0}, "bending": {"range": None, "damage_per_hour": None}}
+    for amplitude, moves in ((1e-10, False), (1e-3, True)):
+        run = Still(amplitude, figures_)
+        motion = results.Motion(run, (0, 1))
+        rows = {name: " ".join((value, remark)) for name, value, remark in results.merits(run, motion)}
+        drawn = [figure.name for part in (figures.orbits, figures.spectra) for figure in part(run, motion, {0: "top", 1: "middle"})] + [figure.name for figure in figures.vibration(run, motion)]
+        expect(f"an amplitude of {amplitude} m {'is' if moves else 'is no'} vibration", drawn == (["orbit-1", "orbit-2", "lateral-spectrum", "rms"] if moves else []), drawn)
+        expect("and has figures of merit so", ("Backward whirl" in rows) == ("Lateral acceleration" in rows) == moves == (not rows["Largest lateral vibration"].startswith("none")), rows)
+        expect("numbers are not minus zero", not any(re.search(r"-0(?![.\d])|-0\.0+(?!\d)", text) for text in rows.values()), rows)
+        expect("the bit is stuck as the program says", rows["Time the bit is stuck"] == "25.0 % below 4.77 rpm", rows)
+        expect("weight, penetration and energy in both units", [rows[key] for key in ("Mean weight on bit", "Rate of penetration", "Mechanical specific energy")]
+               == ["444.8 kN 100.0 klbf; 400.0 kN to 500.0 kN", "3.05 m/h 10.0 ft/h", "6.9 MPa 1.0 ksi"] and "Mean torque on bit" not in rows, rows)
+    captions = [figure.caption for figure in figures.orbits(run, motion, {0: "top", 1: "middle"})]
+    expect("an orbit says how it is seen and how it turns", all("looking down the hole; mean precession 95 rpm, 1.00 of the surface speed" in text for text in captions), captions)
+    expect("numbers that round to zero have no sign", [quantities.fixed(-0.04, 1), quantities.fixed(-1.26, 1), quantities.plain(-0.0)] == ["0.0", "-1.3", "0"])
 
 
 def pictures():
@@ -183,7 +239,7 @@ def view():
 
 
 def main():
-    for part in (stresses, motions, pictures, units, scenes, judged, mapped, view):
+    for part in (stresses, motions, sides, rounding, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 

@@ -5,11 +5,14 @@ import numpy as np
 import plots
 from plots import COLOURS, GREY, RPM
 from report import results
+from report.quantities import fixed
 
 BLUE, ORANGE, GREEN = COLOURS[:3]
 PICTURE_ROWS = 240  # of contact forces over time and depth
 STRETCHES = 100  # of a profile that changes from element to element; longer than a joint of pipe
-FLOOR = 1e-8  # of the largest value of a spectrum, below which it is not drawn
+FLOOR = 1e-8  # of the largest value of a spectrum, where its picture ends
+DOWN_TO = f"drawn down to {plots.plain(FLOOR)} of the largest value"
+EVEN = 1e-3  # of its size: a quantity that changes less is a line, not a picture of rounding
 
 
 class Figure:
@@ -63,9 +66,7 @@ def static_profiles(run):
         axes.set_xlim(left=0, right=max(1.08 * force.max(), 1e-3))
 
     def radial(axes):
-        depth, narrow, wide = plots.stretches(run.s, 1e3 * run.get("/model/clearance"), min(STRETCHES, len(run.s) - 1))
-        axes.fill_betweenx(depth, 0, wide, step="mid", color="#eeeeee", linewidth=0)
-        axes.fill_betweenx(depth, 0, narrow, step="mid", color="#dadada", linewidth=0, label="clearance")
+        draw_clearance(axes, run.s, run.get("/model/clearance"))
         axes.plot(1e3 * results.lateral(run, run.get("/static/displacement")), run.s, color=GREEN, linewidth=1.1, label="string")
         axes.set_xlim(left=0)
         plots.legend_above(axes, 2)
@@ -84,6 +85,15 @@ def static_profiles(run):
     return found
 
 
+def draw_clearance(axes, s, clearance):
+    """The clearance [mm], pale; where it changes within a stretch of depth, as at tool joints, the least of it darker."""
+    depth, narrow, wide = plots.stretches(s, 1e3 * clearance, min(STRETCHES, len(s) - 1))
+    changes = np.any(wide > 1.001 * narrow)
+    axes.fill_betweenx(depth, 0, wide, step="mid", color="#ececec", linewidth=0, label="largest clearance" if changes else "clearance")
+    if changes:
+        axes.fill_betweenx(depth, 0, narrow, step="mid", color="#d2d2d2", linewidth=0, label="least clearance")
+
+
 def banded(axes, values, depth, colour):
     """Values along the depth; of many elements the largest of each stretch, and pale the range down to the smallest."""
     if len(depth) > 4 * STRETCHES:
@@ -92,18 +102,43 @@ def banded(axes, values, depth, colour):
     axes.plot(values, depth, color=colour, linewidth=1.1)
 
 
+def draw_bit_speed(axes, time, bit, rotary):
+    """Speeds [rad/s] of the bit and at the surface; a bit that turns evenly is a line, not a picture of rounding."""
+    axes.plot(*plots.envelope(time, RPM * bit), color=BLUE, linewidth=0.8, label="bit")
+    axes.plot(*plots.envelope(time, RPM * rotary), color=ORANGE, linewidth=1.4, label="surface")
+    low, high = axes.get_ylim()
+    if high - low < 0.2:  # rpm
+        axes.set_ylim(0.5 * (low + high) - 1, 0.5 * (low + high) + 1)
+    plots.legend_above(axes)
+
+
 def bit_speed(run):
     bit = run.bit_speed()
     if bit is None:
         return []
     made, axes = plots.in_time("speed [rpm]", run.time)
-    axes.plot(*plots.envelope(run.time, RPM * bit), color=BLUE, linewidth=0.8, label="bit")
-    axes.plot(*plots.envelope(run.time, RPM * run.rotary()), color=ORANGE, linewidth=1.4, label="surface")
-    low, high = axes.get_ylim()
-    if high - low < 0.2:  # rpm: a bit that turns evenly
-        axes.set_ylim(0.5 * (low + high) - 1, 0.5 * (low + high) + 1)
-    plots.legend_above(axes)
+    draw_bit_speed(axes, run.time, bit, run.rotary())
     return [Figure("bit-speed", made, "Rotary speed of the bit and at the surface.", True)]
+
+
+def surface(run):
+    """Torques and hook load over time, as far as they are recorded."""
+    found = []
+    for name, label, lines in (("torques", "torque [kN m]", (("surface_torque", "at the surface", ORANGE), ("torque_on_bit", "of the rock on the bit", BLUE))),
+                               ("hook-loads", "hook load [kN]", (("hook_load", "effective tension in the uppermost element", ORANGE),))):
+        recorded = [(values, text, colour) for data, text, colour in lines if (values := run.get(f"/transient/{data}")) is not None]
+        if not recorded:
+            continue
+        made, axes = plots.in_time(label, run.time)
+        for values, text, colour in recorded:
+            axes.plot(*plots.envelope(run.time, values / 1e3), color=colour, linewidth=0.9, label=text)
+        low, high = axes.get_ylim()
+        least = EVEN * max(abs(low), abs(high), 1.0)
+        if high - low < least:
+            axes.set_ylim(0.5 * (low + high - least), 0.5 * (low + high + least))
+        plots.legend_above(axes)
+        found.append(Figure(name, made, f"{label.split(' [')[0].capitalize()} over time: {' and '.join(text for _, text, _ in recorded)}.", True))
+    return found
 
 
 def contact(run, found):
@@ -140,41 +175,46 @@ def contact_shares(run, found):
 
 
 def vibration(run, motion):
-    limits, s = (run.s[0], run.s[-1]), run.s[run.recorded]
-    marks = {} if run.moves else {"marker": "o", "markersize": 4, "linestyle": ":"}
-    made, axes = plots.profile("lateral vibration [mm rms]", limits)
-    axes.plot(1e3 * motion.lateral_rms(), s, color=GREEN, linewidth=1.1, **marks)
-    axes.set_xlim(left=0)
-    found = [Figure("rms", made, "Lateral vibration about the mean position, second half of the motion.")]
-    made, axes = plots.profile("torsional vibration [deg rms]", limits)
-    axes.plot(np.degrees(motion.rms[:, 5]), s, color=COLOURS[4], linewidth=1.1, **marks)
-    axes.set_xlim(left=0)
-    return [*found, Figure("twist", made, "Torsional vibration, likewise.")]
+    """Along the string, of what vibrates."""
+    found = []
+    for name, label, values, colour, caption in (
+            ("rms", "lateral vibration [mm rms]", 1e3 * motion.lateral_rms(), GREEN, "Lateral vibration about the mean position, second half of the motion."),
+            ("twist", "torsional vibration [deg rms]", np.degrees(motion.rms[:, 5]), COLOURS[4], "Torsional vibration about the mean twist, second half of the motion.")):
+        if values.max() <= (1e3 if name == "rms" else np.degrees(1)) * results.VIBRATES:
+            continue
+        made, axes = plots.profile(label, (run.s[0], run.s[-1]))
+        axes.plot(values, run.s[run.recorded], color=colour, linewidth=1.1, **({} if run.moves else {"marker": "o", "markersize": 4, "linestyle": ":"}))
+        axes.set_xlim(left=0)
+        found.append(Figure(name, made, caption))
+    return found
 
 
 def orbits(run, motion, chosen):
-    """The path of the axis of the string in the bore at chosen nodes, in the second half of the motion."""
+    """The path of the axis of the string in the bore at those of the chosen nodes that vibrate, in the second half of the motion, looking down the hole."""
     found = []
     clearance = run.get("/model/clearance")
     half = slice(motion.first, None)
     for number, (node, why) in enumerate(chosen.items()):
-        u, v = 1e3 * motion.histories[half, number, 0], 1e3 * motion.histories[half, number, 1]
+        if not motion.vibrates[number]:
+            continue
+        (up, right), turned = results.sides(run, node)
+        a, b = 1e3 * turned @ motion.histories[half, number, :2].T
         made, axes = plots.figure(plots.SLENDER, 3.0)
         gap = 1e3 * clearance[node]
-        largest = max(np.abs(u).max(), np.abs(v).max(), 1e-3)
+        largest = max(np.abs(a).max(), np.abs(b).max(), 1e-3)
         if gap < 20 * largest:
             angle = np.linspace(0, 2 * np.pi, 120)
             axes.plot(gap * np.cos(angle), gap * np.sin(angle), color=GREY, linewidth=1.2)
             largest = max(largest, gap)
-        axes.plot(plots.thinned(u, 2500), plots.thinned(v, 2500), color=BLUE, linewidth=0.6)
-        axes.plot(u[-1], v[-1], "o", color=ORANGE, markersize=4)
+        axes.plot(plots.thinned(b, 2500), plots.thinned(a, 2500), color=BLUE, linewidth=0.6)
+        axes.plot(b[-1], a[-1], "o", color=ORANGE, markersize=4)
         plots.square(axes, 1.08 * largest)
-        axes.set_xlabel("u [mm]"), axes.set_ylabel("v [mm]")
-        turn = results.precession(u, v, run.time[half])
+        axes.set_xlabel(f"{right} [mm]"), axes.set_ylabel(f"{up} [mm]")
+        turn = results.precession(a, b, run.time[half])
         speed = np.abs(run.rotary()[half]).mean()
-        whirl = f"; mean precession {RPM * turn:.0f} rpm" + (f", {turn / speed:+.2f} of the surface speed" if speed > 0 else "")
+        whirl = f"; mean precession {fixed(RPM * turn, 0)} rpm" + (f", {fixed(turn / speed, 2)} of the surface speed" if speed > 0 else "")
         circle = "" if gap < 20 * largest else f"; the clearance of {gap:.0f} mm is out of the picture"
-        found.append(Figure(f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}{whirl}{circle}."))
+        found.append(Figure(f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}, looking down the hole{whirl}{circle}."))
     return found
 
 
@@ -185,31 +225,41 @@ def frequency_axes(label):
     return made, axes
 
 
-def draw_spectrum(axes, values, interval, **line):
-    frequency, power = plots.spectrum(values, interval)
+def draw_density(axes, frequency, power, **line):
+    """A line of a spectrum; the picture ends at FLOOR of the largest value of all lines."""
     if len(frequency) > 2 and power[1:].max() > 0:
-        axes.plot(frequency[1:], np.where(power[1:] > FLOOR * power[1:].max(), power[1:], np.nan), linewidth=0.9, **line)
+        axes.plot(frequency[1:], power[1:], linewidth=0.9, **line)
+        top = max(drawn.get_ydata().max() for drawn in axes.lines)
+        axes.set_ylim(FLOOR * top, 3 * top)
         plots.logarithmic(axes.yaxis)
 
 
+def draw_spectrum(axes, values, interval, **line):
+    draw_density(axes, *plots.spectrum(values, interval), **line)
+
+
 def spectra(run, motion, chosen):
+    """Of the lateral motion of the chosen nodes and of the bit speed, where they vibrate."""
     half = slice(motion.first, None)
     interval = float(np.median(np.diff(run.time)))
     found = []
-    made, axes = frequency_axes("lateral displacement [mm²/Hz]")
-    for number, node in enumerate(chosen):
-        draw_spectrum(axes, 1e3 * motion.histories[half, number, 0], interval, color=COLOURS[number], label=f"{run.s[node]:.0f} m")
-    if axes.lines:
-        plots.legend_above(axes)
-        found.append(Figure("lateral-spectrum", made, "Spectra of the lateral displacement u at the nodes of the orbits, second half of the motion.", True))
-    else:
-        plots.plt.close(made)
+    if motion.vibrates.any():
+        made, axes = frequency_axes("lateral displacement [mm²/Hz]")
+        for number, node in enumerate(chosen):
+            if motion.vibrates[number]:
+                up = 1e3 * motion.histories[half, number, :2] @ results.sides(run, node)[1][0]
+                draw_spectrum(axes, up, interval, color=COLOURS[number], label=f"{run.s[node]:.0f} m, {results.sides(run, node)[0][0]}")
+        if axes.lines:
+            plots.legend_above(axes, 3)
+            found.append(Figure("lateral-spectrum", made, f"Spectra of the lateral displacement at the nodes of the orbits, second half of the motion, {DOWN_TO}.", True))
+        else:
+            plots.plt.close(made)
     bit = run.bit_speed()
-    if bit is not None:
+    if bit is not None and np.std(bit[half]) > results.VIBRATES:
         made, axes = frequency_axes("bit speed [rpm²/Hz]")
         draw_spectrum(axes, RPM * bit[half], interval, color=BLUE)
         if axes.lines:
-            found.append(Figure("bit-spectrum", made, "Spectrum of the bit speed, likewise.", True))
+            found.append(Figure("bit-spectrum", made, f"Spectrum of the bit speed, second half of the motion, {DOWN_TO}.", True))
         else:
             plots.plt.close(made)
     return found

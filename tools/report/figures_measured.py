@@ -2,11 +2,9 @@
 """Measured signals beside the computed ones."""
 import math
 
-import numpy as np
-
 import plots
 from plots import COLOURS, RPM
-from report.figures import FLOOR, Figure, frequency_axes
+from report.figures import DOWN_TO, Figure, draw_density, frequency_axes
 from report.tables import table
 
 COMPUTED, MEASURED = COLOURS[0], COLOURS[1]
@@ -49,18 +47,16 @@ def beside(run):
         axes.plot(*plots.envelope(run.time[inside], factor * run.get(group + "computed")[inside]), color=COMPUTED, linewidth=0.8, label="computed")
         plots.legend_above(axes)
         found.append(Figure(f"measured-{number}", made, f"{row['name']}: {row['quantity'].lower()}, measured and computed.", True))
-        lines = []
+        made, axes = frequency_axes(f"{row['quantity'].lower()} [({unit})²/Hz]")
         for which, colour in (("measured", MEASURED), ("computed", COMPUTED)):
             density = run.get(f"{group}{which}_spectrum")
-            if density is not None and density[1:].max() > 0:
-                lines.append((run.get(f"{group}{which}_frequency")[1:], factor ** 2 * np.maximum(density[1:], FLOOR * density[1:].max()), colour, which))
-        if not lines:
+            if density is not None:
+                draw_density(axes, run.get(f"{group}{which}_frequency"), factor ** 2 * density, color=colour, label=which)
+        if not axes.lines:
+            plots.plt.close(made)
             continue
-        made, axes = frequency_axes(f"{row['quantity'].lower()} [({unit})²/Hz]")
-        for frequency, density, colour, which in lines:
-            axes.plot(frequency, density, color=colour, linewidth=0.9, label=which)
         plots.legend_above(axes)
         peak = row["computed_peak_hz"], row["measured_peak_hz"]
         said = "" if None in peak or not all(map(math.isfinite, peak)) else f"; largest peaks at {peak[0]:.3g} Hz (computed) and {peak[1]:.3g} Hz (measured)"
-        found.append(Figure(f"measured-spectrum-{number}", made, f"{row['name']}: spectra of both{said}.", True))
+        found.append(Figure(f"measured-spectrum-{number}", made, f"{row['name']}: spectra of both, {DOWN_TO}{said}.", True))
     return found

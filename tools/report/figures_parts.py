@@ -6,7 +6,7 @@ import numpy as np
 import plots
 from plots import COLOURS
 from report import results
-from report.figures import Figure, draw_spectrum, frequency_axes
+from report.figures import DOWN_TO, Figure, draw_spectrum, frequency_axes
 
 
 def components(run):
@@ -114,7 +114,7 @@ def spectra(run):
                 draw_spectrum(axes, values[run.second_half():], interval, color=COLOURS[c % len(COLOURS)], label=f"{name}, {node_name(run, node)}")
         if axes.lines:
             plots.legend_above(axes, 2)
-            found.append(Figure(f"spectrum-{wanted}", made, "Spectra of the nodes that move most, second half of the motion.", True))
+            found.append(Figure(f"spectrum-{wanted}", made, f"Spectra of the nodes that move most, second half of the motion, {DOWN_TO}.", True))
         else:
             plots.plt.close(made)
     return found

@@ -4,7 +4,7 @@ import pathlib
 
 from report import checks, deck, figures, figures_measured, figures_parts, of_tables, results, scene3d, tables
 from report.page import Page, cards
-from report.quantities import both, percent
+from report.quantities import both, fixed, percent
 
 ENDS = {"failed": "The run failed", "interrupted": "The run was interrupted"}
 
@@ -22,7 +22,7 @@ def headline(run):
                           f"at {depth} ({feet}), {run.component_at(node - 1) or f'node {node}'}", False))
     speed = run.value("transient.bit_speed_rpm") or {}
     if speed.get("mean") is not None:
-        found.append(("Bit speed", f"{speed['mean']:.1f} rpm", f"{speed['min']:.1f} to {speed['max']:.1f} rpm", "mean and range of the motion", False))
+        found.append(("Bit speed", f"{fixed(speed['mean'], 1)} rpm", f"{fixed(speed['min'], 1)} to {fixed(speed['max'], 1)} rpm", "mean and range of the motion", False))
     largest = run.value("transient.max_displacement")
     if largest is not None:
         found.append(("Largest displacement", f"{largest:.4g}", "m or rad", "of all nodes and components", False))
@@ -68,6 +68,10 @@ def conditions(run, scene):
     return ", ".join(words)
 
 
+def over_time(run):
+    return [*figures.bit_speed(run), *figures.surface(run)]
+
+
 def string_sections(page, run):
     page.view(*scene3d.of_string(run))
     page.plots("well", "Well", figures.well(run))
@@ -77,12 +81,11 @@ def string_sections(page, run):
         motion = results.Motion(run)
         chosen = results.chosen_nodes(run, motion.lateral_rms())
         motion = results.Motion(run, chosen)
-        page.plots("motion", "Motion", [*figures.bit_speed(run), *figures.contact(run, results.Contact(run)), *figures.vibration(run, motion)],
-                   tables.pairs(results.merits(run, motion)))
+        page.plots("motion", "Motion", [*over_time(run), *figures.contact(run, results.Contact(run)), *figures.vibration(run, motion)], tables.pairs(results.merits(run, motion)))
         page.plots("orbits", "Orbits", figures.orbits(run, motion, chosen))
         page.plots("spectra", "Spectra", figures.spectra(run, motion, chosen))
     elif run.time is not None:
-        page.plots("motion", "Motion", figures.bit_speed(run))
+        page.plots("motion", "Motion", over_time(run), tables.pairs(results.figures_of_bit(run)))
 
 
 def part_sections(page, run):

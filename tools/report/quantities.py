@@ -8,16 +8,27 @@ UNITS = {
     "length": (("m", 1.0, 1), ("ft", 1 / FOOT, 0)),
     "side force": (("kN", 1e-3, 2), ("lbf", 1 / POUND, 0)),
     "hook load": (("kN", 1e-3, 1), ("klbf", 1e-3 / POUND, 1)),
+    "pressure": (("MPa", 1e-6, 1), ("ksi", 1e-3 * FOOT ** 2 / (144 * POUND), 1)),
+    "penetration": (("m/h", 3600.0, 2), ("ft/h", 3600 / FOOT, 1)),
     "torque": (("kN m", 1e-3, 2), ("kft lbf", 1e-3 / (FOOT * POUND), 2)),
 }
 SMALLEST = 1e-6  # share that is told in numbers
+
+
+def fixed(value, decimals):
+    """A number with so many decimals; what rounds to zero has no sign.
+
+    >>> fixed(-0.04, 1), fixed(-1.26, 1)
+    ('0.0', '-1.3')
+    """
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"
 
 
 def both(value, quantity):
     """("442.7 kN", "99.5 klbf"); dashes where there is no value."""
     if value is None or not math.isfinite(value):
         return "-", ""
-    return tuple(f"{value * factor:.{decimals}f} {unit}" for unit, factor, decimals in UNITS[quantity])
+    return tuple(f"{fixed(value * factor, decimals)} {unit}" for unit, factor, decimals in UNITS[quantity])
 
 
 def plain(value, digits=4):
@@ -28,7 +39,7 @@ def plain(value, digits=4):
         return "yes" if value else "no"
     if isinstance(value, (int, str)):
         return str(value)
-    return f"{value:.{digits}g}" if math.isfinite(value) else "-"
+    return f"{value + 0.0:.{digits}g}" if math.isfinite(value) else "-"
 
 
 def percent(value):

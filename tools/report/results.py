@@ -7,8 +7,13 @@ import math
 import h5py
 import numpy as np
 
+from report.quantities import both, fixed
+
 BLOCK = 8_000_000  # numbers of a time series that are in memory at once
 SECOND_HALF = 0.5  # statistics begin after this share of the motion, when its start has died away
+VIBRATES = 1e-6  # [m], [rad], [rad/s], rms: less is no vibration. Solvers leave 1e-10 to 1e-7 of it, a wall is rough by more.
+STEEP = math.sin(math.radians(3))  # a hole that is nearer to the vertical has no high side worth the name
+NONE, STILL = "none", f"less than {1e6 * VIBRATES:g} micrometre rms: rounding"
 # Without these datasets of a string there is nothing to draw.
 NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius", "/model/path_curvature", "/model/curvature_of_rotations", "/static/displacement", "/static/normal_force", "/static/axial_force", "/static/torque")
 
@@ -190,6 +195,7 @@ class Motion:
         count = shape[0] - self.first
         self.mean = total / count
         self.rms = np.sqrt(np.maximum(square / count - self.mean ** 2, 0.0))
+        self.vibrates = self.lateral_rms()[self.chosen] > VIBRATES  # of the chosen nodes
 
     def lateral_rms(self):
         """Root mean square of the lateral vibration about the mean position [m], of the nodes of a string."""
@@ -223,6 +229,17 @@ def precession(u, v, time):
     return float(np.sum(u * np.gradient(v, time) - v * np.gradient(u, time)) / size) if size > 0 and len(u) > 2 else 0.0
 
 
+def sides(run, node):
+    """((a, b), matrix that turns (u, v) of a node into them): the high side of the hole and its right side, looking down the hole; north and east in a
+    hole that is all but vertical. Both turn clockwise from a to b, as the rotation does."""
+    x, y, tangent = run.get("/model/frame")[node].T
+    names, up = (("high side", "right side"), [0, 0, -1]) if np.hypot(*tangent[:2]) > STEEP else (("north", "east"), [1, 0, 0])
+    first = up - np.dot(up, tangent) * tangent
+    first /= np.linalg.norm(first)
+    second = np.cross(tangent, first)
+    return names, np.array([[x @ first, y @ first], [x @ second, y @ second]])
+
+
 def chosen_nodes(run, rms, most=4):
     """At most `most` recorded nodes (from 0) worth a look, by depth, with why: the largest lateral vibration, the largest static side force,
     above the bit, then quarters of the length; of chosen nodes those that vibrate most."""
@@ -248,39 +265,53 @@ def chosen_nodes(run, rms, most=4):
 
 def merits(run, motion):
     """Figures of merit of the second half of the motion: rows of (name, value, what it is)."""
-    half = slice(motion.first, None)
-    rows = []
-    bit, rotary = run.bit_speed(), run.rotary()
-    if bit is not None:
-        bit = bit[half]
-        mean = bit.mean()
-        rows.append(("Stick-slip index", f"{np.ptp(bit) / (2 * abs(mean)):.2f}" if mean else "-", "(max - min) / (2 mean) of the bit speed; stick-slip from 1 on"))
-        slow = 0.05 * np.abs(rotary[half]).mean()
-        if slow > 0:
-            rows.append(("Time the bit is stuck", f"{100 * np.mean(np.abs(bit) < slow):.1f} %", "below 5 % of the mean surface speed"))
     rms = motion.lateral_rms()
     largest = int(np.argmax(rms))
     node = int(run.recorded[largest])
-    rows.append(("Largest lateral vibration" + ("" if run.moves else " of the recorded nodes"), f"{1e3 * rms[largest]:.2f} mm rms",
-                 f"at {run.s[node]:.1f} m, {run.component_at(node) or f'node {node + 1}'}"))
+    name = "Largest lateral vibration" + ("" if run.moves else " of the recorded nodes")
+    vibrates = rms[largest] > VIBRATES
+    rows = [(name, f"{1e3 * rms[largest]:.3g} mm rms", f"at {run.s[node]:.1f} m, {run.component_at(node) or f'node {node + 1}'}") if vibrates else (name, NONE, STILL)]
     if run.recorded[-1] == len(run.s) - 1:
-        rows.append(("Axial vibration of the bit", f"{1e3 * motion.rms[-1, 2]:.3g} mm rms", ""))
-    return rows + figures_of_summary(run)
+        axial = motion.rms[-1, 2]
+        rows.append(("Axial vibration of the bit", *((f"{1e3 * axial:.3g} mm rms", "") if axial > VIBRATES else (NONE, STILL))))
+    return [*figures_of_bit(run), *rows, *figures_along(run, vibrates)]
 
 
-def figures_of_summary(run):
-    """Those that need more than the histories of the nodes, from summary.json, over the window it names."""
+def window(found):
+    return f"{found['begin']:g} to {found['end']:g} s"
+
+
+def figures_of_bit(run):
+    """Bit speed, weight, torque and penetration from summary.json, over the window it names."""
     found = run.value("transient.figures") or {}
-    if not found.get("whirl") or found["lateral_acceleration"]["rms"] is None:
-        return []
-    lateral, whirl, bending = found["lateral_acceleration"], found["whirl"], found["bending"]
-    window = f"{found['begin']:g} to {found['end']:g} s"
-    rows = [("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms", f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most; {window}"),
-            ("Backward whirl in contact", f"{100 * whirl['worst_backward_contact_share']:.1f} % of the time",
-             f"at {whirl['worst_backward_share_depth']:.1f} m, {whirl['worst_precession_rpm']:.0f} rpm"),
-            ("Largest range of the bending moment", f"{bending['range'] / 1e3:.3g} kN m", f"at {bending['range_depth']:.1f} m, in a plane that turns with the pipe")]
-    if bending["damage_per_hour"] is not None:
+    rows = []
+    if found.get("stick_slip_index") is not None:
+        rows.append(("Stick-slip index", fixed(found["stick_slip_index"], 2), f"(max - min) / (2 mean) of the bit speed; stick-slip from 1 on; {window(found)}"))
+    if found.get("stuck_share") is not None:
+        rows.append(("Time the bit is stuck", f"{fixed(100 * found['stuck_share'], 1)} %", f"below {found['stuck_speed_rpm']:.3g} rpm"))
+    for name, key, quantity in (("Mean weight on bit", "weight_on_bit", "hook load"), ("Mean torque on bit", "torque_on_bit", "torque"), ("Rate of penetration", "rate_of_penetration", "penetration"),
+                                ("Mechanical specific energy", "specific_energy", "pressure")):
+        value = found.get(key)
+        spans = isinstance(value, dict)
+        mean = value["mean"] if spans else value
+        if mean is not None:
+            si, field = both(mean, quantity)
+            rows.append((name, si, field + (f"; {both(value['min'], quantity)[0]} to {both(value['max'], quantity)[0]}" if spans else "")))
+    return rows
+
+
+def figures_along(run, vibrates):
+    """Of the nodes and elements, from summary.json; without a lateral vibration no figures of one."""
+    found = run.value("transient.figures") or {}
+    rows = []
+    lateral, whirl, bending = (found.get(key) or {} for key in ("lateral_acceleration", "whirl", "bending"))
+    if vibrates and lateral.get("rms") is not None:
+        rows.append(("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms", f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most; {window(found)}"))
+    if vibrates and whirl.get("worst_backward_share"):
+        rows.append(("Backward whirl", f"{fixed(100 * whirl['worst_backward_share'], 1)} % of the time",
+                     f"at {whirl['worst_backward_share_depth']:.1f} m, {fixed(whirl['worst_precession_rpm'], 0)} rpm; {fixed(100 * whirl['worst_backward_contact_share'], 1)} % in contact as well"))
+    if bending.get("range"):
+        rows.append(("Largest range of the bending moment", f"{bending['range'] / 1e3:.3g} kN m", f"at {bending['range_depth']:.1f} m, in a plane that turns with the pipe"))
+    if bending.get("damage_per_hour") is not None:
         rows.append(("Fatigue damage", f"{bending['damage_per_hour']:.2e} 1/h", f"at {bending['damage_per_hour_depth']:.1f} m"))
-    if found["specific_energy"] is not None:
-        rows.append(("Mechanical specific energy", f"{found['specific_energy'] / 1e6:.3g} MPa", f"at {3600 * found['rate_of_penetration']:.3g} m/h"))
     return rows

@@ -90,7 +90,7 @@ def of_numerics(run):
             ("Wall time", f"{plain(run.value('wall_s'), 3)} s", f"{plain(run.value('peak_memory_mb'), 3)} MB")]
     if t.get("integrator"):
         rows += [("Integrator", t["integrator"], f"{t['model']} model"),
-                 ("Motion", f"{plain(t['start'])} to {plain(t['end'])} s", f"{plain(t['steps'])} steps of {plain(t['min_step'], 3)} to {plain(t['max_step'], 3)} s"),
+                 ("Motion", f"{plain(t['start'])} to {plain(t['end'])} s", f"{plain(t['steps'])} steps of {' to '.join(dict.fromkeys(plain(t[key], 3) for key in ('min_step', 'max_step')))} s"),
                  ("CPU time of the motion", f"{plain(t['cpu_s'], 3)} s", f"real-time factor {plain(t['real_time_factor'], 3)}"),
                  ("Rejected, halved, unconverged steps", ", ".join(plain(t[key]) for key in ("rejected", "halved", "unconverged_steps")), ""),
                  ("Step error", percent(t.get("step_error")), "estimated vibration error of equal steps"),
