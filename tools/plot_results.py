@@ -16,7 +16,7 @@ try:
 
     import plots
     from plots import COLOURS, GREY, MAP, RPM, plt
-    from report import folder
+    from report import figures, folder, scene3d
 except ImportError as missing:
     sys.exit(f"{missing}: plot_results.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
@@ -24,6 +24,7 @@ BLUE, ORANGE, GREEN = COLOURS[:3]
 WALL = "#e2e2e2"
 KIND = "folder of a run that ended"
 MOST_PICTURES = 200  # of an animation
+ALONG = 0.999  # cosine of an angle that is none
 LARGEST_SHARE = 0.1  # of the size of a scene that the largest displacement is magnified to
 
 
@@ -44,10 +45,10 @@ def draw_static(row, results):
     displacement = results["/static/displacement"][:]
     radial, contact, axial, torque = row
     plots.profiles(row, [plots.label(*pair) for pair in (("lateral displacement", "mm"), ("contact force", "kN"), ("axial force", "kN"), ("torque", "kN m"))], (s[0], s[-1]))
-    radial.fill_betweenx(s, 0, 1e3 * results["/model/clearance"][:], step="mid", color=WALL, linewidth=0, label="clearance")
+    figures.draw_clearance(radial, s, results["/model/clearance"][:])
     radial.plot(1e3 * np.hypot(displacement[:, 0], displacement[:, 1]), s, color=BLUE, linewidth=1.0, label="string")
     radial.set_xlim(left=0)
-    plots.legend_above(radial, 2)
+    plots.legend_above(radial, 1)
     contact.hlines(s, 0, results["/static/normal_force"][:] / 1e3, color=BLUE, linewidth=1.2)
     contact.set_xlim(left=0)
     for axes, name, colour in ((axial, "axial_force", ORANGE), (torque, "torque", GREEN)):
@@ -56,13 +57,11 @@ def draw_static(row, results):
 
 
 def draw_motion(axes, results):
-    time, rotary = results["/transient/time"][:], results["/transient/speed"][:]
-    bit = results["/transient/motion"][:, 2]
-    axes.plot(*plots.envelope(time, RPM * bit), color=BLUE, linewidth=0.6, label="bit")
-    axes.plot(*plots.envelope(time, RPM * rotary), color=ORANGE, linewidth=1.2, label="surface")
+    time = results["/transient/time"][:]
+    plots.whole_ticks(axes, 8, 5)
+    figures.draw_bit_speed(axes, time, results["/transient/motion"][:, 2], results["/transient/speed"][:])
     axes.set_xlim(time[0], time[-1])
     axes.set_xlabel(plots.label("time", "s")), axes.set_ylabel(plots.label("speed", "rpm"))
-    plots.legend_above(axes)
 
 
 def draw_string(results):
@@ -151,11 +150,18 @@ def draw(results):
     return draw_parts(results) if "/model/part_names" in results else draw_string(results)
 
 
+def lateral_names(results):
+    """What u and v are called: the frames of the nodes are carried along the well without spin, from north and east where it starts downwards."""
+    frame = results.get("/model/frame")
+    known = frame is not None and frame[0, 0, 0] > ALONG
+    return ("u, north at the surface", "v, east at the surface") if known else ("displacement u", "displacement v")
+
+
 def moving_string(results, samples):
     """(figure, function of a sample): the lateral displacements of the string in its clearance."""
     s, clearance, rows = results["/model/s"][:], 1e3 * results["/model/clearance"][:], results["/transient/displacement"]
     made, pair = plt.subplots(1, 2, figsize=(6.2, 5.5), sharey=True, constrained_layout=True)
-    plots.profiles(pair, [plots.label("displacement u", "mm"), plots.label("displacement v", "mm")], (s[0], s[-1]))
+    plots.profiles(pair, [plots.label(name, "mm") for name in lateral_names(results)], (s[0], s[-1]))
     reach = max(1e3 * float(np.abs(rows[samples, :, :2]).max()), 1e-6)
     lines = []
     for axes in pair:
@@ -177,7 +183,8 @@ def moving_parts(results, samples):
     position, rows = results["/model/position"][:], results["/model/located"][:] - 1
     links = [pair for pair in results["/model/links"][:] - 1 if np.isin(pair, rows).all()]
     components, motion = texts(results["/model/components"]), results["/transient/displacement"]
-    places = np.searchsorted(rows, np.array(links, int).reshape(-1, 2))
+    places = [list(np.searchsorted(rows, pair)) for pair in links]
+    places += map(list, scene3d.held_edges(position, results["/model/part"][:][rows], places))
     columns = [components.index(name) if name in components else None for name in ("u", "v", "w")]
     move = lambda sample: np.column_stack([motion[sample][rows, c] if c is not None else np.zeros(len(rows)) for c in columns])  # noqa: E731
     largest = max(float(np.abs(move(sample)).max()) for sample in samples)

@@ -20,8 +20,8 @@ def space_axes(made: Any, place: Any, names: tuple[str, str, str] = ("north", "e
     axes.set_xlabel(label(names[0], "m")), axes.set_ylabel(label(names[1], "m")), axes.set_zlabel(label(names[2], "m"))
     axes.view_init(elev=18, azim=-150)
     axes.tick_params(labelsize=7, pad=0)
-    axes.tick_params(axis="z", pad=6)
-    for axis, turn, pad in ((axes.xaxis, 0, 10), (axes.yaxis, 0, 10), (axes.zaxis, 90, 20)):  # pads [pt] that leave room for numbers of four digits
+    axes.tick_params(axis="z", pad=9)
+    for axis, turn, pad in ((axes.xaxis, 0, 10), (axes.yaxis, 0, 10), (axes.zaxis, 90, 24)):  # pads [pt] that leave room for numbers of four digits
         axis.set_rotate_label(False)
         axis.label.set_rotation(turn)
         axis.labelpad = pad
