@@ -67,10 +67,9 @@ deck::ListSpec parameters() {
       .textArray("Nodes", deck::Optional{}, {},
                  "Of parts: nodes that are recorded, each as part:node. By default all nodes are.")
       .boolean("CSV", defaults.csv, "Write tables for spreadsheets beside results.h5.")
-      .boolean(
-          "Report", defaults.report,
-          "Write report.html at the end of `tooljoint run`, `study`, `map`, `bha`, `buckling` and "
-          "`torque-drag`: figures, plots and a 3-D view of the results in one file.")
+      .boolean("Report", defaults.report,
+               "Write report.html at the end of `tooljoint run` and of the analyses: figures, "
+               "plots and a 3-D view of the results in one file.")
       .boolean("XDMF", defaults.xdmf,
                "Write results.xdmf for ParaView: the string in its well, coloured by contact force "
                "and speed.")

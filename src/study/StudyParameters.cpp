@@ -26,8 +26,8 @@ ListSpec dimension() {
   return ListSpec("Dimension",
                   "One dimension of the sweep, named as you like; several lists make a product.")
       .text("Parameter", deck::Required{},
-            "Path of a parameter of the deck: Transient/Step, Reduction/Cut-off Frequency, "
-            "Substructures/Rule ...")
+            "Path of a parameter of the deck: Transient/Step, Reduction/Mode Selection/Cut-off "
+            "Frequency, Substructures/Rule ...")
       .textArray("Values", deck::Required{}, {},
                  "The values it takes, each written as behind --set PATH=.");
 }

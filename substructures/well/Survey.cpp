@@ -57,7 +57,7 @@ const bool surveyRegistered = TrajectoryRegistry::instance().add(
      deck::ListSpec("Survey", "Survey stations, joined by minimum curvature.")
          .text("File", deck::Optional{},
                "Table of measured depth, inclination and azimuth, relative to the deck; cells "
-               "separated by commas, semicolons or tabs. This or Stations.")
+               "separated by commas, semicolons, tabs or blanks. This or Stations.")
          .realArray("Stations", "", deck::Optional{}, deck::Range::any(),
                     "Measured depth, inclination and azimuth of one station after the other, in "
                     "the units below: a short survey without a file.")
