@@ -2,6 +2,7 @@
 """Decks: read, changed, written, run."""
 from __future__ import annotations
 
+import difflib
 import json
 import os
 import pathlib
@@ -30,6 +31,10 @@ class Deck:
     Traceback (most recent call last):
     ...
     tooljoint.errors.DeckError: --set Transient/End Tim=1: /frame/Transient/End Tim is not a parameter. Did you mean "End Time"? ...
+    >>> deck["Transient/End Tim"]
+    Traceback (most recent call last):
+    ...
+    KeyError: 'The deck has no Transient/End Tim. Did you mean "End Time"?'
     """
 
     def __init__(self, file: str | os.PathLike, set: Mapping[str, Any] | None = None, without: Iterable[str] = ()):
@@ -49,7 +54,8 @@ class Deck:
         value = self._read.to_dict()
         for name in _pieces(path):
             if not isinstance(value, dict) or name not in value:
-                raise KeyError(f"The deck has no {path}.")
+                similar = difflib.get_close_matches(name, list(value) if isinstance(value, dict) else [], 1)
+                raise KeyError(f"The deck has no {path}." + (f" Did you mean \"{similar[0]}\"?" if similar else ""))
             value = value[name]
         return value
 

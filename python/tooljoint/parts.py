@@ -42,9 +42,12 @@ def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Itera
     size, width = (np.shape(mass) or (0,))[0], len(component_names)
     if nodes is None:
         nodes = np.arange(size) // width + 1
+    nodes = _whole(nodes, "nodes")
+    if min(nodes, default=1) < 1:
+        raise ModelError(f"nodes has {min(nodes)}; nodes are numbered from 1 on.")
     if components is None:
         components = _repeating(nodes, width)
-    model = _core.Model(mass, stiffness, _whole(nodes, "nodes"), _whole(components, "components"), list(component_names))
+    model = _core.Model(mass, stiffness, nodes, _whole(components, "components"), list(component_names))
     if damping is not None:
         model.add_damping(damping)
     if load is not None:

@@ -64,6 +64,8 @@ class Matrices(unittest.TestCase):
                 tj.part("bad", np.eye(2), np.eye(2), **{name: wrong})
         with self.assertRaisesRegex(tj.ModelError, "retained"):
             tj.part("bad", np.eye(2), np.eye(2), interface=[1], retained=[1])
+        with self.assertRaisesRegex(tj.ModelError, "nodes has 0; nodes are numbered from 1 on"):
+            tj.part("bad", np.eye(2), np.eye(2), nodes=[0, 1])
         with self.assertRaisesRegex(tj.ModelError, "whole numbers"):
             tj.part("mask", np.eye(2), np.eye(2), interface=[True, False])
 
