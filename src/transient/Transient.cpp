@@ -355,18 +355,14 @@ class Run {
               "\" does not measure its steps. Compare with a run of half the step.");
   }
 
-  /// The motion from its start, to be compared with others.
+  /// The motion from its beginning, to be compared with others.
   StepComparison again() {
-    CompiledModel::Snapshot now;
-    model_.remember(now);
-    State start = state_;
-    startState(start);
-    model_.comeBack(now);
+    const State& from = stepError_->beginning();
     return {model_,
             [this] { return make(); },
-            Window{start.t, options_.end, options_.sampling, integrator_->equalStep()},
+            Window{from.t, options_.end, options_.sampling, integrator_->equalStep()},
             stepError_->span(),
-            start,
+            from,
             [this] { return isStopped(); }};
   }
 

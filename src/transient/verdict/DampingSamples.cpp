@@ -22,19 +22,19 @@ long DampingSamples::next() const {
                                                        static_cast<double>(looks_));
 }
 
-void DampingSamples::look(const TranslationNorm& norm, const State& from, const State& to) {
+void DampingSamples::look(const MotionNorm& norm, const State& from, const State& to) {
   if (scheme_ == nullptr) return;
   const bool first = taken_ < firstSteps;
   if (taken_++ < next()) return;
   if (!first) ++looks_;
   const double weight = first ? 1.0 : static_cast<double>(stride);
   difference_ = to.q - from.q;
-  vibrated_ += weight * norm.square(difference_) / (to.t - from.t);
+  vibrated_ += weight * norm.translations(difference_) / (to.t - from.t);
   lost_ += weight * scheme_->dissipated(from, to);
   if (scheme_->hasUnresolvedContact()) rested_ += weight;
 }
 
-double DampingSamples::damped(const TranslationNorm& norm, double span) const {
+double DampingSamples::damped(const MotionNorm& norm, double span) const {
   const double energy = 0.5 * norm.inertia() * vibrated_;  // integral over the time looked at
   if (!(energy > 0)) return 0.0;
   return 1 - std::exp(-std::max(0.0, 0.25 * span * lost_ / energy));

@@ -13,8 +13,8 @@
 
 #include <vector>
 
+#include "transient/accuracy/MotionNorm.hpp"
 #include "transient/accuracy/NumericalDamping.hpp"
-#include "transient/accuracy/TranslationNorm.hpp"
 
 namespace tooljoint::transient {
 
@@ -24,9 +24,9 @@ class DampingSamples {
   DampingSamples(const NumericalDamping* scheme, const Vector& like)
       : scheme_(scheme), difference_(like) {}
   /// After each step.
-  void look(const TranslationNorm& norm, const State& from, const State& to);
+  void look(const MotionNorm& norm, const State& from, const State& to);
   /// 1 - exp(-d): part of its amplitude that vibration loses in `span` [s].
-  double damped(const TranslationNorm& norm, double span) const;
+  double damped(const MotionNorm& norm, double span) const;
   /// Contact rests on walls too stiff for the steps in more than a tenth of them.
   bool hasUnresolvedContact() const;
   const NumericalDamping* scheme() const { return scheme_; }

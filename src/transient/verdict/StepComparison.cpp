@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/Error.hpp"
@@ -15,9 +14,11 @@ namespace {
 /// Part of its velocity that a motion is disturbed by, so often in T, in turns up and down.
 constexpr double disturbance = 1e-3;
 constexpr long disturbances = 16;
-/// Motion below this part of all displacement is rounding, and a speed that would take T for this
-/// part of the motion is rest.
-constexpr double rounding = 1e-6, rest = 1e-3;
+/// Motion below this part of all displacement is rounding.
+constexpr double rounding = 1e-6;
+/// Speeds of the second half below this part of those of all T are rest: what chatters on after a
+/// landing, or rings out, has no share in the motion.
+constexpr double rest = 0.01;
 /// Shorter steps cost more than they tell: contact that they do not resolve is warned of.
 constexpr int mostParts = 32;
 
@@ -35,6 +36,7 @@ StepComparison::StepComparison(CompiledModel& model,
       norm_(model) {
   const double steps = std::max(1.0, std::floor(span / window.step + 1e-6));
   window_.end = std::min(window.end, window.begin + steps * window.step);
+  whole_ = window.end - window_.end < window.step;
   window_.sampling = window.step;  // of which steps of a half are a whole part
 }
 
@@ -89,7 +91,7 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
   model_->remember(snapshot);
   const long steps = std::lround((window_.end - window_.begin) / window_.step);
   const long between = std::max(1L, steps / disturbances);
-  double apart = 0, moved = 0, size = 0, speed = 0, otherSpeed = 0, v = 0, otherV = 0;
+  Sums sums;
   long unresolved = 0;
   bool whole = false;
   try {
@@ -100,7 +102,7 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
     Vector before = start_.q, otherBefore = start_.q, difference = start_.q;
     const auto square = [&](const Vector& a, const Vector& b) {
       difference = a - b;
-      return norm_.square(difference);
+      return norm_.squares(difference);
     };
     for (long k = 1; k <= steps && !stop_(); ++k) {
       const double t = window_.begin + static_cast<double>(k) * window_.step;
@@ -108,14 +110,16 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
       advance(run, t);
       advance(second, t);
       if (contact != nullptr && contact->hasUnresolvedContact()) ++unresolved;
-      apart += square(run.state.q, second.state.q);
-      moved += square(second.state.q, start_.q);
-      size += norm_.square(second.state.q);
-      v += square(run.state.v, second.state.v);
-      otherV += norm_.square(second.state.v);
+      sums.apart += square(run.state.q, second.state.q);
+      sums.moved += square(second.state.q, start_.q);
+      sums.size += norm_.squares(second.state.q);
+      sums.v += square(run.state.v, second.state.v);
+      sums.otherV += norm_.squares(second.state.v);
+      const Norms otherPath = square(second.state.q, otherBefore);
+      sums.otherPath += otherPath;
       if (2 * k > steps) {
-        speed += square(run.state.q, before);
-        otherSpeed += square(second.state.q, otherBefore);
+        sums.latePath += square(run.state.q, before);
+        sums.otherLatePath += otherPath;
       }
       before = run.state.q;
       otherBefore = second.state.q;
@@ -124,16 +128,26 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
   } catch (const ConvergenceError&) {
   }
   model_->comeBack(snapshot);
-  if (!whole || !std::isfinite(apart + moved + otherSpeed)) return std::nullopt;
-  Difference found;
+  if (!whole || !sums.isFinite()) return std::nullopt;
+  Difference found = differenceOf(sums);
   found.unresolved = static_cast<double>(unresolved) > oftenUnresolved * static_cast<double>(steps);
-  if (std::max(moved, apart) <= rounding * rounding * size) return found;
-  found.size = moved > 0 ? std::sqrt(apart / moved) : std::numeric_limits<double>::infinity();
-  if (otherV > 0) found.velocities = std::sqrt(v / otherV);
-  const double inT = static_cast<double>(steps * steps) * std::max(speed, otherSpeed);
-  if (inT <= rest * rest * moved) return found;
-  found.speeds =
-      otherSpeed > 0 ? std::sqrt(speed / otherSpeed) : std::numeric_limits<double>::infinity();
+  return found;
+}
+
+StepComparison::Difference StepComparison::differenceOf(const Sums& sums) const {
+  Difference found;
+  found.whole = whole_;
+  const auto moving = (sums.moved.max(sums.apart) > rounding * rounding * sums.size).eval();
+  found.still = !moving.any();
+  found.sizes = moving.select(rootRatio(sums.apart, sums.moved), 0.0);
+  found.size = found.sizes.maxCoeff();
+  found.velocities = moving.select(rootRatio(sums.v, sums.otherV), 0.0).maxCoeff();
+  const Norms speeds = rootRatio(sums.latePath, sums.otherLatePath);
+  const auto late = sums.latePath.max(sums.otherLatePath);
+  for (int norm = 0; norm < speeds.size(); ++norm)
+    if (moving[norm] && late[norm] > rest * rest * sums.otherPath[norm] &&
+        std::abs(std::log(speeds[norm])) > std::abs(std::log(found.speeds)))
+      found.speeds = speeds[norm];
   return found;
 }
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A second look at the steps of a run: the first T seconds of its motion are integrated twice
-/// more, side by side, in the steps of the run and otherwise:
+/// A second look at the steps of a run: the first T seconds of its motion, from where it begins
+/// (StepError.hpp), are integrated twice more, side by side, in the steps of the run and otherwise:
 ///
 ///     D^2 = sum |q - q'|^2 / sum |q' - q(0)|^2        over the steps of the run in T
 ///     V^2 = sum |v - v'|^2 / sum |v'|^2
 ///     r^2 = sum |q_k - q_k-1|^2 / sum |q'_k - q'_k-1|^2     over those in the second half of T
 ///
-/// |.| is the norm over the translations of the nodes, q' and v' are displacement and velocity of
-/// the other motion.
-/// The other steps are halves without numerical damping, or shorter where halves do not resolve
-/// contact that rests on a wall (NumericalDamping.hpp). Beside halves D is the vibration error less
-/// that of the halves: half of it where the steps are of first order, most of it else. Of the other
-/// steps beside themselves with a velocity that is disturbed by a thousandth, D is the sensitivity:
-/// where it is of the size of the first, the motion parts from any neighbour and only means like r
-/// say whether the steps are right.
+/// |.| is the norm over the translations of the nodes, and that of the mass (MotionNorm.hpp); q'
+/// and v' are displacement and velocity of the other motion. The other steps are halves without
+/// numerical damping, or shorter where halves do not resolve contact that rests on a wall
+/// (NumericalDamping.hpp). Beside halves D is the vibration error less that of the halves: half of
+/// it where the steps are of first order, most of it else. Of the other steps beside themselves
+/// with a velocity that is disturbed by a thousandth, D is the sensitivity: where it is of the size
+/// of the first, the motion parts from any neighbour and only means like r say whether the steps
+/// are right.
 ///
 /// Objects, points and states are its own; the model is left as it was.
 #pragma once
@@ -25,23 +25,26 @@
 #include <vector>
 
 #include "transient/Integrator.hpp"
-#include "transient/accuracy/TranslationNorm.hpp"
+#include "transient/accuracy/MotionNorm.hpp"
 
 namespace tooljoint::transient {
 
 class StepComparison {
  public:
   struct Difference {
-    double size = 0;          ///< D; 0 where nothing moves
-    double speeds = 1;        ///< r
-    double velocities = 0;    ///< V; 0 where nothing moves
+    Norms sizes{0, 0};        ///< D in both norms
+    double size = 0;          ///< the larger one
+    double speeds = 1;        ///< r, the one farther from 1
+    double velocities = 0;    ///< V, the larger one
+    bool still = false;       ///< nothing moves: the others say nothing
+    bool whole = false;       ///< the run ends within T
     bool unresolved = false;  ///< contact rests on walls too stiff for the shorter steps, too
   };
 
   /// \param make    objects made from the parameters of the run
   /// \param window  that of the run, with the length of its equal steps
   /// \param span    T [s]
-  /// \param start   q, v and states at the start of the run
+  /// \param start   q, v and states where the compared motion begins
   /// \param stop    true when the user has asked for an end
   StepComparison(CompiledModel& model, std::function<std::unique_ptr<Integrator>()> make,
                  const Window& window, double span, const State& start, std::function<bool()> stop);
@@ -65,15 +68,25 @@ class StepComparison {
   void begin(Motion& motion, std::unique_ptr<Integrator> scheme, double step);
   void advance(Motion& motion, double t);
   std::unique_ptr<Integrator> sharpened() const;
+  /// Over the steps of the run in T.
+  struct Sums {
+    Norms apart{0, 0}, moved{0, 0}, size{0, 0};  ///< |q - q'|^2, |q' - q(0)|^2, |q'|^2
+    Norms v{0, 0}, otherV{0, 0};                 ///< |v - v'|^2, |v'|^2
+    Norms otherPath{0, 0};                       ///< |q'_k - q'_k-1|^2
+    Norms latePath{0, 0}, otherLatePath{0, 0};   ///< of q and q' in the second half
+    bool isFinite() const { return (apart + moved + v + otherPath + latePath).allFinite(); }
+  };
   std::optional<Difference> compare(std::unique_ptr<Integrator> first, double step, double kick);
+  Difference differenceOf(const Sums& sums) const;
 
   CompiledModel* model_;
   std::function<std::unique_ptr<Integrator>()> make_;
   Window window_;
+  bool whole_;     ///< the run ends within T
   int parts_ = 2;  ///< of a step, that the other steps are
   State start_;
   std::function<bool()> stop_;
-  TranslationNorm norm_;
+  MotionNorm norm_;
 };
 
 }  // namespace tooljoint::transient

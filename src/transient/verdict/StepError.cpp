@@ -24,6 +24,9 @@ constexpr double negligibleMotion = 1e-3;
 constexpr double quiet = 1e-6;
 /// Over longer times [s] contact parts any two motions.
 constexpr double longest = 3.0;
+/// Motion begins anew where it is so many times as large as before; it is compared from there when
+/// that is after this part of T, of which too little would be left.
+constexpr double risen = 100, lateStart = 0.5;
 
 }  // namespace
 
@@ -38,7 +41,9 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
       start_(start.q),
       difference_(start.q),
       steps_(static_cast<long>(std::floor((window.end - window.begin) / h_ + 1e-6))),
-      stride_(std::max(std::clamp(steps_ / fewest, inWindow, usualStride), steps_ / most)) {
+      stride_(std::max(std::clamp(steps_ / fewest, inWindow, usualStride), steps_ / most)),
+      last_(start),
+      calm_(start) {
   plan();
 }
 
@@ -57,8 +62,19 @@ void StepError::before(const Integrator& run, const State& from) {
   ++seen_;
   plan();
   end_ = step + inWindow;
-  most_ = 0;
+  most_ = {0, 0};
+  watchCalm(from);
   window_.begin(run, from);
+}
+
+void StepError::watchCalm(const State& from) {
+  difference_ = from.q - start_;
+  const double level = norm_.squares(difference_)[1];
+  if (level > risen * risen * level_) {
+    level_ = level;
+    if (last_.t - begin_ > lateStart * turning_) calm_ = last_;
+  }
+  last_ = from;
 }
 
 void StepError::after(const State& from, const State& to) {
@@ -66,46 +82,57 @@ void StepError::after(const State& from, const State& to) {
   if (end_ < 0) return;
   const auto square = [&](const Vector& a, const Vector& b) {
     difference_ = a - b;
-    return norm_.square(difference_);
+    return norm_.squares(difference_);
   };
   const double dt = to.t - from.t;
   sums_.speeds += square(to.q, from.q) / dt;
   sums_.offsets += square(to.q, start_) * dt;
   sums_.duration += dt;
-  most_ = std::max(most_, square(to.q, window_.start()));
+  most_ = most_.max(square(to.q, window_.start()));
   const double endOfFirst = time(end_ - inWindow + 1), end = time(end_);
   if (to.t < endOfFirst + 1e-6 * h_) window_.endFirst(to.q);
   if (to.t < end - 1e-6 * h_) return;
   if (window_.take(endOfFirst, end)) {
     sums_.errors += square(to.q, window_.end());
     sums_.moved += most_;
-    sums_.sizes += norm_.square(to.q);
+    sums_.sizes += norm_.squares(to.q);
     ++sums_.windows;
   }
   end_ = -1;
 }
 
 double StepError::value() const {
-  const auto& [windows, errors, moved, sizes, speeds, offsets, duration] = sums_;
-  if (windows < fewestSaying || !(moved > 0)) return 0.0;
-  const double noise = 1e-12 * std::sqrt(windows) + 1e-9 * std::sqrt(sizes);
-  if (std::sqrt(errors) <= noise) return 0.0;
-  const double offset = duration > 0 ? offsets / duration : 0.0;
-  const double least = negligibleMotion * negligibleMotion * offset * windows;
-  const double turns = offsets > 0 ? turning_ * std::sqrt(speeds / offsets) : 1.0;
-  return std::max(1.0, turns) * std::sqrt(errors / std::max(moved, least));
+  if (sums_.windows < fewestSaying) return 0.0;
+  return std::max(of(0), of(1));
+}
+
+double StepError::of(int norm) const {
+  const double error = sums_.errors[norm], moved = sums_.moved[norm], speed = sums_.speeds[norm],
+               offset = sums_.offsets[norm];
+  if (!(moved > 0)) return 0.0;
+  const double noise = 1e-12 * std::sqrt(sums_.windows) + 1e-9 * std::sqrt(sums_.sizes[norm]);
+  if (std::sqrt(error) <= noise) return 0.0;
+  const double mean = sums_.duration > 0 ? offset / sums_.duration : 0.0;
+  const double least = negligibleMotion * negligibleMotion * mean * sums_.windows;
+  const double turns = offset > 0 ? turning_ * std::sqrt(speed / offset) : 1.0;
+  return std::max(1.0, turns) * std::sqrt(error / std::max(moved, least));
 }
 
 double StepError::damped() const {
-  if (sums_.windows < fewestSaying || !(std::sqrt(sums_.moved) > quiet * std::sqrt(sums_.sizes)))
+  if (sums_.windows < fewestSaying ||
+      !(std::sqrt(sums_.moved[0]) > quiet * std::sqrt(sums_.sizes[0])))
     return 0.0;
   return damping_.damped(norm_, turning_);
 }
 
 void StepError::save(std::vector<double>& memory) const {
-  const auto& [windows, errors, moved, sizes, speeds, offsets, duration] = sums_;
-  memory.insert(memory.end(), {static_cast<double>(seen_), static_cast<double>(end_), most_,
-                               windows, errors, moved, sizes, speeds, offsets, duration});
+  memory.insert(memory.end(), {static_cast<double>(seen_), static_cast<double>(end_), sums_.windows,
+                               sums_.duration, level_});
+  for (const Norms* norms :
+       {&most_, &sums_.errors, &sums_.moved, &sums_.sizes, &sums_.speeds, &sums_.offsets})
+    memory.insert(memory.end(), norms->begin(), norms->end());
+  last_.save(memory);
+  calm_.save(memory);
   damping_.save(memory);
   window_.save(memory, end_ >= 0);
 }
@@ -113,10 +140,12 @@ void StepError::save(std::vector<double>& memory) const {
 void StepError::restore(const double*& memory) {
   seen_ = static_cast<long>(*memory++);
   end_ = static_cast<long>(*memory++);
-  most_ = *memory++;
-  auto& [windows, errors, moved, sizes, speeds, offsets, duration] = sums_;
-  for (double* sum : {&windows, &errors, &moved, &sizes, &speeds, &offsets, &duration})
-    *sum = *memory++;
+  for (double* each : {&sums_.windows, &sums_.duration, &level_}) *each = *memory++;
+  for (Norms* norms :
+       {&most_, &sums_.errors, &sums_.moved, &sums_.sizes, &sums_.speeds, &sums_.offsets})
+    for (double& each : *norms) each = *memory++;
+  last_.restore(memory);
+  calm_.restore(memory);
   damping_.restore(memory);
   plan();
   window_.restore(memory, end_ >= 0);

@@ -6,7 +6,8 @@
 ///
 ///     S = N sqrt(<|e|^2> / <max_k |q_k - q_0|^2>)
 ///
-/// Means are over the windows, |.| is the norm over the translations of the nodes. A phase error
+/// Means are over the windows, |.| is the norm over the translations of the nodes, and that of the
+/// mass (MotionNorm.hpp): S is the larger of both. A phase error
 /// grows with the time: N = T sqrt(<|v|^2> / <|q - q(0)|^2>), but at least 1, is about how many
 /// radians the motion turns through in T, the duration of the run but at most 3 s. S does not see
 /// what steps and halves damp alike: DampingSamples do.
@@ -16,7 +17,7 @@
 #include <vector>
 
 #include "transient/Integrator.hpp"
-#include "transient/accuracy/TranslationNorm.hpp"
+#include "transient/accuracy/MotionNorm.hpp"
 #include "transient/verdict/DampingSamples.hpp"
 #include "transient/verdict/RetakenWindow.hpp"
 
@@ -40,15 +41,20 @@ class StepError {
   /// Of a scheme that damps.
   const DampingSamples& damping() const { return damping_; }
   double span() const { return turning_; }  ///< T [s]
+  /// From where the motion is worth comparing: the start of the run, or, where the motion begins
+  /// after half of T, its state at the last window before.
+  const State& beginning() const { return calm_; }
 
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
  private:
   void plan();
+  void watchCalm(const State& from);
+  double of(int norm) const;
   double time(long step) const { return begin_ + static_cast<double>(step) * h_; }
 
-  TranslationNorm norm_;
+  MotionNorm norm_;
   RetakenWindow window_;
   DampingSamples damping_;
   double begin_, h_, turning_;  ///< start of the run, step, T [s]
@@ -57,15 +63,19 @@ class StepError {
   long steps_;   ///< in the run
   long stride_;  ///< mean distance of windows in steps
 
-  long seen_ = 0;    ///< windows begun
-  long next_ = 0;    ///< first step of the next one
-  long end_ = -1;    ///< last step of the one under way, -1 for none
-  double most_ = 0;  ///< max_k |q_k - q_0|^2 in it
+  long seen_ = 0;     ///< windows begun
+  long next_ = 0;     ///< first step of the next one
+  long end_ = -1;     ///< last step of the one under way, -1 for none
+  Norms most_{0, 0};  ///< max_k |q_k - q_0|^2 in it
   struct Sums {
-    double windows = 0, errors = 0, moved = 0;     ///< 1, |e|^2, max_k |q_k - q_0|^2
-    double sizes = 0;                              ///< |q|^2 at their ends
-    double speeds = 0, offsets = 0, duration = 0;  ///< integrals of |v|^2, |q - q(0)|^2 and 1
-  } sums_;                                         ///< over windows
+    double windows = 0, duration = 0;   ///< 1, integral of 1
+    Norms errors{0, 0}, moved{0, 0};    ///< |e|^2, max_k |q_k - q_0|^2
+    Norms sizes{0, 0};                  ///< |q|^2 at their ends
+    Norms speeds{0, 0}, offsets{0, 0};  ///< integrals of |v|^2, |q - q(0)|^2
+  } sums_;                              ///< over windows
+  State last_;                          ///< at the start of the last window
+  State calm_;                          ///< where the motion begins
+  double level_ = 0;  ///< offset'M offset at the last window where the motion had risen
 };
 
 }  // namespace tooljoint::transient

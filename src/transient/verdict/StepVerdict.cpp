@@ -17,7 +17,7 @@ namespace {
 /// The motion is compared from this part of `Step Error Limit` on, and from this part of `Step
 /// Error Warning` that the scheme damps: what it holds down from the start has little to lose.
 constexpr double comparedError = 0.5, comparedDamping = 0.2;
-/// Step error as large as the motion, which no comparison saves.
+/// Step error as large as the motion, which a comparison saves only of all of the motion.
 constexpr double lostMotion = 1;
 /// Sensitivity over D from which the motion is chaotic.
 constexpr double chaoticShare = 0.25;
@@ -39,23 +39,33 @@ std::string percent(double part) {
 
 /// What is known of the steps of a run.
 struct Findings {
-  double error = 0;        ///< S
-  double damped = 0;       ///< part of the amplitude that the scheme takes
-  bool rests = false;      ///< contact, on walls too stiff for the step
-  double shorterStep = 0;  ///< [s]
+  double limit = 0, warning = 0;  ///< of the deck
+  double error = 0;               ///< S
+  double damped = 0;              ///< part of the amplitude that the scheme takes
+  bool rests = false;             ///< contact, on walls too stiff for the step
+  double shorterStep = 0;         ///< [s]
   std::optional<StepComparison::Difference> shorter;
   std::optional<StepComparison::Difference> neighbour;  ///< of the shorter steps
 
-  /// Means that are far from those of the shorter steps.
-  bool isSlow(double limit) const {
-    return shorter && shorter->speeds * (1 + speedTolerance * limit) < 1;
+  /// Means that are far from those of the shorter steps, of motion that is not theirs: what
+  /// chatters on after a landing says nothing.
+  bool isSlow() const {
+    return shorter && shorter->size > warning && shorter->speeds * (1 + speedTolerance * limit) < 1;
   }
-  bool isFast(double limit) const {
-    return shorter && shorter->speeds > 1 + speedTolerance * limit;
+  bool isFast() const {
+    return shorter && shorter->size > warning && shorter->speeds > 1 + speedTolerance * limit;
   }
-  /// Neighbours part as far as steps and shorter steps do.
-  bool isChaos() const { return neighbour && neighbour->size > chaoticShare * shorter->size; }
-  bool isRight(double warning) const {
+  /// S is as large as the motion, and the motion not found within the limit in all its length.
+  bool isLost() const {
+    return error > std::max(lostMotion, limit) &&
+           !(shorter && shorter->whole && shorter->size <= limit);
+  }
+  /// Of what parts by more than the limit, neighbours part as far as steps and shorter steps do.
+  bool isChaos() const {
+    return neighbour &&
+           (shorter->sizes <= limit || neighbour->sizes > chaoticShare * shorter->sizes).all();
+  }
+  bool isRight() const {
     return shorter && !isUnknown() && shorter->size <= warning &&
            std::abs(shorter->speeds - 1) <= warning &&
            shorter->velocities <= velocityTolerance * warning;
@@ -63,30 +73,26 @@ struct Findings {
   /// Contact that neither the steps nor what they are compared with resolve.
   bool isUnknown() const { return rests && shorterStep > 0 && (!shorter || shorter->unresolved); }
   /// The step error: D where the comparison finds the motion right, else the larger of S and D.
-  double stepError(double warning) const {
+  double stepError() const {
     if (!shorter) return error;
-    return isRight(warning) ? shorter->size : std::max(error, shorter->size);
+    return isRight() ? shorter->size : std::max(error, shorter->size);
   }
-  bool isWide(double warning) const { return stepError(warning) > warning || isUnknown(); }
+  bool isWide() const { return stepError() > warning || isUnknown(); }
   /// What the summary holds: 0 where a step error within the warning is not known to be all.
-  double reported(double warning) const {
-    return isUnknown() && stepError(warning) <= warning ? 0.0 : stepError(warning);
-  }
-  bool isTooLarge(double limit) const {
-    return isSlow(limit) || isFast(limit) || (neighbour && !isChaos());
-  }
+  double reported() const { return isUnknown() && stepError() <= warning ? 0.0 : stepError(); }
+  bool isTooLarge() const { return isLost() || isSlow() || isFast() || (neighbour && !isChaos()); }
 };
 
-std::string describe(const Findings& found, double span, double warning) {
+std::string describe(const Findings& found, const StepError& error) {
   std::ostringstream text;
-  text << "step error " << (found.isUnknown() ? "at least " : "")
-       << percent(found.stepError(warning));
+  text << "step error " << (found.isUnknown() ? "at least " : "") << percent(found.stepError());
   if (found.shorter)
-    text << std::setprecision(2) << ": estimated " << percent(found.error) << "; in its first "
-         << span << " s the motion differs by " << percent(found.shorter->size)
-         << ", and its velocities by " << percent(found.shorter->velocities)
-         << ", from that in steps of " << found.shorterStep << " s without numerical damping, at "
-         << percent(found.shorter->speeds) << " of its speed";
+    text << std::setprecision(2) << ": estimated " << percent(found.error) << "; in the "
+         << error.span() << " s from t = " << error.beginning().t << " s the motion differs by "
+         << percent(found.shorter->size) << ", and its velocities by "
+         << percent(found.shorter->velocities) << ", from that in steps of " << found.shorterStep
+         << " s without numerical damping, at " << percent(found.shorter->speeds)
+         << " of its speed";
   if (found.neighbour)
     text << ", and a disturbance of 0.1 % changes that by " << percent(found.neighbour->size);
   if (found.isUnknown())
@@ -97,14 +103,17 @@ std::string describe(const Findings& found, double span, double warning) {
 }
 
 /// Beside steps short enough for contact that rests on walls.
-void compare(StepComparison motions, double limit, Findings& found) {
+void compare(StepComparison motions, Findings& found) {
   do {
     found.shorterStep = motions.shorterStep();
     found.shorter = motions.withShorter();
     found.neighbour.reset();
-    if (found.shorter && found.shorter->size > limit) found.neighbour = motions.withDisturbed();
-  } while (found.shorter && found.shorter->unresolved && !found.isTooLarge(limit) &&
-           motions.shorten());
+    if (found.shorter && found.shorter->size > found.limit && !found.isLost())
+      found.neighbour = motions.withDisturbed();
+  } while (found.shorter && found.shorter->unresolved && !found.isTooLarge() && motions.shorten());
+  if (!found.shorter || !found.shorter->still || found.shorter->unresolved) return;
+  found.shorter.reset();  // nothing moves that could be compared
+  found.rests = false;
 }
 
 void warnOfDamping(const Findings& found, const StepError& error, double step) {
@@ -119,32 +128,32 @@ void warnOfDamping(const Findings& found, const StepError& error, double step) {
 
 double judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
                   const std::function<StepComparison()>& comparison) {
-  const double limit = options.stepErrorLimit, warning = options.stepErrorWarning;
   Findings found;
+  found.limit = options.stepErrorLimit;
+  found.warning = options.stepErrorWarning;
   found.error = error.value();
   found.damped = error.damped();
-  const bool lost = found.error > std::max(lostMotion, limit);
   found.rests = error.damping().hasUnresolvedContact();
-  const bool due = found.error > comparedError * limit ||
-                   found.damped > comparedDamping * warning || found.rests;
-  if (due && !lost && limit < lostMotion) {
-    compare(comparison(), limit, found);
-    log::info("accuracy    " + describe(found, error.span(), warning));
+  const bool due = found.error > comparedError * found.limit ||
+                   found.damped > comparedDamping * found.warning || found.rests;
+  if (due && found.limit < lostMotion) {
+    compare(comparison(), found);
+    log::info("accuracy    " + describe(found, error));
   }
-  const bool tooLarge = lost || found.isTooLarge(limit);
-  if (!tooLarge && found.isRight(warning)) return found.reported(warning);
+  const bool tooLarge = found.isTooLarge();
+  if (!tooLarge && found.isRight()) return found.reported();
   const double step = run.equalStep();
-  if (found.damped > warning) warnOfDamping(found, error, step);
-  if (!tooLarge && !found.isWide(warning)) return found.reported(warning);
+  if (found.damped > found.warning) warnOfDamping(found, error, step);
+  if (!tooLarge && !found.isWide()) return found.reported();
   std::ostringstream text;
   text << "The time step (" << step << " s) is " << (tooLarge ? "too large" : "coarse") << ": "
-       << describe(found, error.span(), warning) << ". "
-       << (found.isSlow(limit) && !found.rests && error.damping().scheme() != nullptr
+       << describe(found, error) << ". "
+       << (found.isSlow() && !found.rests && error.damping().scheme() != nullptr
                ? error.damping().scheme()->dampingAdvice()
                : run.stepAdvice());
   if (tooLarge) throw ConvergenceError(text.str());
   log::warn(text.str());
-  return found.reported(warning);
+  return found.reported();
 }
 
 }  // namespace tooljoint::transient

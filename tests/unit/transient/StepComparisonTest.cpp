@@ -3,6 +3,7 @@
 /// The motion of a run beside that in half the step, and beside its neighbours.
 #include "transient/verdict/StepComparison.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -157,6 +158,74 @@ TEST(StepComparison, seesContactThatHalvesHoldDownToo) {
   EXPECT_NE(refused.find("from that in steps of 0.00063 s"), std::string::npos) << refused;
   EXPECT_EQ(said(-20, 1e3), "");  // the floor takes more than the damper makes
   EXPECT_EQ(said(0, 0), "");
+}
+
+/// What a run of generalized-alpha with a spectral radius of 1 says: the error it ends with, or
+/// else its warning.
+std::string saidOf(const model::SecondOrderModel& model, double end, double step) {
+  auto o = options("Generalized-alpha", end, step, step);
+  o.own.set("Spectral Radius", 1.0);
+  Keep samples;
+  log::clearWarnings();
+  try {
+    integrate(model, o, samples);
+  } catch (const ConvergenceError& error) {
+    return error.what();
+  }
+  return log::warnings().empty() ? "" : log::warnings().front();
+}
+
+/// A mass that rests until a load takes it to another place in 50 ms: its vibration is compared,
+/// not its rest. The steps have half a radian of it.
+TEST(StepComparison, beginsWhereTheMotionDoes) {
+  auto model = oscillator(1.0, 0.0, 50 * w * w, 0.0, 0.0);
+  const int ramp = model.lawIndex(
+      {"ramp", [](double t) { return std::min(std::max((t - 5) / 0.05, 0.0), 1.0); }});
+  model.loads.push_back({"late", Vector::Constant(1, 50.0), ramp});
+  const auto said = saidOf(model, 8, 8e-3);
+  EXPECT_NE(said.find("in the 3 s from t = 4"), std::string::npos) << said;
+  EXPECT_EQ(saidOf(model, 8, 1e-3), "");
+}
+
+/// A fast rotation beside a slow translation, in one model: lost where it has the energy, and of no
+/// weight as a trifle.
+TEST(StepComparison, seesRotationsBesideTranslations) {
+  Matrix K = Matrix::Zero(2, 2);
+  K.diagonal() << 0.25 * w * w, 900 * w * w;
+  auto model = denseModel(Matrix::Identity(2, 2), Matrix(), K, 2);
+  model.componentNames = {"u", "theta_z"};
+  model.recovery = Matrix(Matrix::Identity(2, 2)).sparseView();
+  const auto said = [&](double angle) {
+    model.initialDisplacement << 0.01, angle;
+    return saidOf(model, span, 4e-3);
+  };
+  EXPECT_NE(said(0.3).find("is too large"), std::string::npos) << said(0.3);
+  EXPECT_EQ(said(1e-6), "");
+}
+
+/// A ball that comes to rest on a floor: what chatters there has no share in the motion.
+TEST(StepComparison, takesALandingForRight) {
+  auto model = oscillator(11.0, 2e3, 0.0, 0.12, 0.0);
+  model.damping.clear();
+  model.loads.push_back({"weight", Vector::Constant(1, -11 * 9.81), 0});
+  addFloor(model, 2e6, 2e3, 7e11);
+  for (const double step : {1e-3, 2e-3, 2.5e-3})
+    for (const double end : {1.0, 1.5, 3.0}) {
+      const auto said = saidOf(model, end, step);
+      EXPECT_EQ(said.find("too large"), std::string::npos) << step << ", " << end << ": " << said;
+    }
+}
+
+/// Vibration of many radians in a step that is a thousandth of the motion: S is above 1, D is not,
+/// and only a motion that is compared in all its length passes.
+TEST(StepComparison, savesAMotionOfWhichSSaysTooMuch) {
+  Matrix K = Matrix::Zero(2, 2);
+  K.diagonal() << w * w, 1e5 * w * w;
+  auto model = denseModel(Matrix::Identity(2, 2), Matrix(), K);
+  model.initialDisplacement << 0.3, 0.003;
+  const auto brief = saidOf(model, span, 5e-4), whole = saidOf(model, 4 * span, 5e-4);
+  EXPECT_NE(brief.find("is coarse"), std::string::npos) << brief;
+  EXPECT_NE(whole.find("is too large"), std::string::npos) << whole;
 }
 
 TEST(StepComparison, endsWhenItIsStopped) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/accuracy/TranslationNorm.hpp"
+#include "transient/accuracy/MotionNorm.hpp"
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "common/Index.hpp"
@@ -42,7 +44,15 @@ double inertiaOf(const CompiledModel& model, bool translated) {
 
 }  // namespace
 
-TranslationNorm::TranslationNorm(const CompiledModel& model)
+Norms rootRatio(const Norms& a, const Norms& b) {
+  const auto one = [](double x, double y) {
+    if (y > 0) return std::sqrt(x / y);
+    return x > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  };
+  return {one(a[0], b[0]), one(a[1], b[1])};
+}
+
+MotionNorm::MotionNorm(const CompiledModel& model)
     : model_(&model),
       translations_(translationsOf(model)),
       translated_(model.cut().any(translations_.rows() > 0)),
@@ -50,10 +60,14 @@ TranslationNorm::TranslationNorm(const CompiledModel& model)
   product_.setZero(translations_.rows());
 }
 
-double TranslationNorm::square(const Vector& q) const {
+double MotionNorm::translations(const Vector& q) const {
   if (!translated_) return model_->squaredNorm(q);
   product_.noalias() = translations_ * q;
   return model_->cut().sum(product_.squaredNorm());
+}
+
+Norms MotionNorm::squares(const Vector& q) const {
+  return {translations(q), model_->massForm(q.data())};
 }
 
 }  // namespace tooljoint::transient
