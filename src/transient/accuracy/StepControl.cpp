@@ -50,9 +50,10 @@ double MassNorm::operator()(const Vector& e) const {
   return std::sqrt(std::max(0.0, model_->massForm(e.data()) / mass_));
 }
 
-void StepControl::set(double tolerance, int deepest) {
+void StepControl::set(double tolerance, int deepest, int finest) {
   tolerance_ = tolerance;
   deepest_ = deepest;
+  finest_ = finest;
   patience_ = shortestPatience;
   tried_ = false;
   since_ = 0;
@@ -87,7 +88,7 @@ int StepControl::next(double error, int level, long done) {
     return level;
   }
   const int target = level - jump;
-  if (done % (1L << (deepest_ - target)) != 0) return level;
+  if (done % (1L << (finest_ - target)) != 0) return level;
   tried_ = true;
   since_ = 0;
   forget();

@@ -33,13 +33,14 @@ class MassNorm {
 
 class StepControl {
  public:
-  /// Errors up to `tolerance` are accepted; halvings up to `deepest`.
-  void set(double tolerance, int deepest);
+  /// Errors up to `tolerance` are accepted; halvings up to `deepest`, on a grid of `finest`
+  /// halvings.
+  void set(double tolerance, int deepest, int finest);
 
   /// Halvings the step has to be tried with after one of this error at this level; beyond deepest()
   /// when nothing helps.
   int shorter(double error, int level);
-  /// Level of the next step after an accepted one; `done` sub-steps of 2^-deepest of the longest
+  /// Level of the next step after an accepted one; `done` sub-steps of 2^-finest of the longest
   /// step lie behind, so that longer steps start at multiples of themselves.
   int next(double error, int level, long done);
   /// The level was changed for another reason.
@@ -52,7 +53,7 @@ class StepControl {
 
  private:
   double tolerance_ = 0;
-  int deepest_ = 0;
+  int deepest_ = 0, finest_ = 0;
   int patience_ = 0;    ///< steps in a row that have to be calm
   int calm_ = 0;        ///< steps since the level changed or the error was large
   double largest_ = 0;  ///< error of these

@@ -34,6 +34,7 @@ void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double
   model_ = &model;
   radius_ = radius;
   norm_.bind(model);
+  share_ = norm_.mass() / static_cast<double>(model.wholeSize());
   sets_.clear();
   met_.bind(model);
   for (const auto& batch : model.points()) {
@@ -102,11 +103,12 @@ bool ImpactResolution::losesMuch(const MetWall& wall, double change, double h) c
          matters(reboundLoss(wall.frequency() * h, radius_) * change * change);
 }
 
-/// scatter dv^2 / W.
+/// scatter dv^2 max(1/W, m/n). A point lighter than a coordinate of the model is on average counts
+/// as one: else a heavy part that moves beside it hides what it does.
 double ImpactResolution::misplaced(const MetWall& wall, double change, double h) const {
   if (!isFast(wall, change, h)) return 0;
-  return scatter(wall.frequency() * h, wall.damping(0.5 * change * h) * h) * change * change /
-         wall.mobility();
+  const double mass = std::max(1.0 / wall.mobility(), share_);
+  return scatter(wall.frequency() * h, wall.damping(0.5 * change * h) * h) * change * change * mass;
 }
 
 double ImpactResolution::mostMisplaced() const { return 4 * Tuned::mostMisplaced * square(); }

@@ -14,6 +14,7 @@
 ///
 /// with means over the run so far, or those of the step where they are larger: what one loses is
 /// small beside what a point of the string has, and what all misplace beside what the whole has.
+/// 1/W is there at least the mass of a coordinate of the model on average.
 #pragma once
 
 #include <array>
@@ -79,6 +80,7 @@ class ImpactResolution {
   double radius_ = 1;
   std::vector<Set> sets_;
   MassNorm norm_;
+  double share_ = 0;               ///< mass of a coordinate on average [kg]
   double squares_ = 0, time_ = 0;  ///< integral of v'M v over the time looked at [J s]
   double unseen_ = 0;              ///< time since the last look
   double current_ = 0;             ///< v'M v of the step looked at, once it is asked for

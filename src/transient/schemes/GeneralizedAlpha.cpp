@@ -105,9 +105,9 @@ deck::ListSpec generalizedAlphaParameters() {
                "third more work per step.")
       .boolean(
           "Resolve Impacts", true,
-          "Of fixed steps: halve those in which a point meets a wall, until its rebound is that "
-          "of the wall. Without, impacts on walls too stiff for the step have no rebound. Steps "
-          "with a Step Tolerance resolve impacts by their error.")
+          "Halve steps in which a point meets a wall, until its rebound is that of the wall, also "
+          "where Step Tolerance would allow longer ones. Without, impacts on walls too stiff for "
+          "the step have no rebound.")
       .expert()
       .textArray("Leave Out", deck::Optional{}, strategyTitles(),
                  "Strategies of a step that are not used: what each wins is measured so.")
@@ -217,13 +217,10 @@ void GeneralizedAlpha::bind(CompiledModel& model, const Window& window, double t
   model_ = &model;
   const double step = fittedStep(window, window.step > 0 ? window.step : defaultAlphaStep);
   scheme_->prepare(step, t);
-  resolveImpacts_ =
-      resolveImpacts_ && !controlled_ && !model.points().empty() && scheme_->mass().regular();
-  grid_.set(window, step,
-            controlled_       ? deepestLevel(step)
-            : resolveImpacts_ ? Tuned::mostHalvings
-                              : maxHalvings_);
-  if (controlled_) control_.set(stepTolerance_, grid_.deepest());
+  resolveImpacts_ = resolveImpacts_ && !model.points().empty() && scheme_->mass().regular();
+  const int deepest = controlled_ ? deepestLevel(step) : maxHalvings_;
+  grid_.set(window, step, resolveImpacts_ ? std::max(deepest, Tuned::mostHalvings) : deepest);
+  if (controlled_) control_.set(stepTolerance_, deepest, grid_.deepest());
   length_.bind(model);
   if (!resolveImpacts_) return;
   scheme_->invertMass();
@@ -273,7 +270,7 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
     h = grid_.nextLength(from.t);
     const bool last = grid_.level() >= grid_.deepest() || failures >= maxHalvings_;
     if (scheme_->take(from, to, h, last && acceptUnconverged_, counters_)) {
-      if (controlled_ ? isAccurate(from, h) : resolvesImpacts(from, to, h)) break;
+      if ((!controlled_ || isAccurate(from, h)) && resolvesImpacts(from, to, h)) break;
       ++counters_.rejected;
       continue;
     }
@@ -287,9 +284,9 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   counters_.accept(h);
   grid_.advance();
   if (resolveImpacts_) impacts_.keep(to, h);
-  grid_.setLevel(controlled_       ? control_.next(error_, grid_.level(), grid_.done())
-                 : resolveImpacts_ ? impacts_.nextLevel(to, h, grid_)
-                                   : grid_.lowest(0));
+  const int accurate =
+      controlled_ ? control_.next(error_, grid_.level(), grid_.done()) : grid_.lowest(0);
+  grid_.setLevel(resolveImpacts_ ? std::max(accurate, impacts_.nextLevel(to, h, grid_)) : accurate);
 }
 
 /// False, with a deeper level, when the error of the step just taken is too large.
@@ -297,7 +294,7 @@ bool GeneralizedAlpha::isAccurate(const State& from, double h) {
   error_ = length_(scheme_->localError(h, true));
   if (control_.accepts(error_)) return true;
   const int level = control_.shorter(error_, grid_.level());
-  if (level > grid_.deepest()) giveUpAccuracy(from, h);
+  if (level > control_.deepest()) giveUpAccuracy(from, h);
   grid_.setLevel(level);
   return false;
 }
@@ -308,6 +305,7 @@ bool GeneralizedAlpha::resolvesImpacts(const State& from, const State& to, doubl
   if (missing == 0) return true;
   if (grid_.level() + missing > grid_.deepest()) giveUpImpacts(from, std::ldexp(h, -missing));
   grid_.setLevel(grid_.level() + std::min(missing, Tuned::atATime));
+  control_.forget();
   return false;
 }
 

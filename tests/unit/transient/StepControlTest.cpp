@@ -67,7 +67,7 @@ TEST(StepGrid, theLastStepEndsWhereTheMotionDoes) {
 
 TEST(StepControl, halvesAsOftenAsAnErrorOfThirdOrderAsksFor) {
   StepControl control;
-  control.set(1e-6, 10);
+  control.set(1e-6, 10, 10);
   EXPECT_TRUE(control.accepts(1e-6));
   EXPECT_FALSE(control.accepts(1.01e-6));
   EXPECT_EQ(control.shorter(2e-6, 3), 4);    // to an eighth, half of the tolerance being aimed at
@@ -81,7 +81,7 @@ TEST(StepControl, halvesAsOftenAsAnErrorOfThirdOrderAsksFor) {
 
 TEST(StepControl, lengthensOnlyWhatWasCalmForAWhileAndAtMultiplesOfTheLongerStep) {
   StepControl control;
-  control.set(1e-6, 4);
+  control.set(1e-6, 4, 4);
   EXPECT_FALSE(control.accepts(2e-6));
   int level = control.shorter(2e-6, 0);
   ASSERT_EQ(level, 1);  // sub-steps of 8 sixteenths
@@ -100,7 +100,7 @@ TEST(StepControl, lengthensOnlyWhatWasCalmForAWhileAndAtMultiplesOfTheLongerStep
 
 TEST(StepControl, isMorePatientAfterALongerStepThatFailed) {
   StepControl control;
-  control.set(1e-6, 4);
+  control.set(1e-6, 4, 4);
   int level = control.shorter(2e-6, 0);
   long done = 0;
   std::vector<int> waits;
