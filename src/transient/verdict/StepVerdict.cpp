@@ -65,6 +65,8 @@ struct Findings {
     return neighbour &&
            (shorter->sizes <= limit || neighbour->sizes > chaoticShare * shorter->sizes).all();
   }
+  /// By the damping of the scheme, and by nothing else that is known.
+  bool isHeldDown() const { return isSlow() && !isLost() && !rests; }
   bool isRight() const {
     return shorter && !isUnknown() && shorter->size <= warning &&
            std::abs(shorter->speeds - 1) <= warning &&
@@ -148,7 +150,7 @@ double judgeSteps(const Integrator& run, const StepError& error, const Transient
   std::ostringstream text;
   text << "The time step (" << step << " s) is " << (tooLarge ? "too large" : "coarse") << ": "
        << describe(found, error) << ". "
-       << (found.isSlow() && !found.rests && error.damping().scheme() != nullptr
+       << (found.isHeldDown() && error.damping().scheme() != nullptr
                ? error.damping().scheme()->dampingAdvice()
                : run.stepAdvice());
   if (tooLarge) throw ConvergenceError(text.str());
