@@ -10,6 +10,7 @@ were interrupted or damaged, and the end of a run.
 import base64
 import contextlib
 import csv
+import html
 import json
 import math
 import os
@@ -32,9 +33,10 @@ sys.path.insert(0, str(ROOT / "tests" / "support"))
 from checks import TIME_FACTOR, expect, finish, tooljoint  # noqa: E402
 
 STRING, FRAME, STUDY, MAP = (str(ROOT / path) for path in ("tests/effects/scene.xml", "xml/frame.xml", "tests/study/study.xml", "xml/map_helical_170m.xml"))
+EFFECTS = ROOT / "tests" / "effects"
 LARGEST, SECONDS = 5_000_000, 10.0
 NAMESPACES = ("http://www.w3.org/",)
-RUN = {"section", "map", "axial", "torque", "side", "radial", "stress", "curvature", "bit-speed", "contact", "duty", "largest", "rms", "twist", "orbit-1", "lateral-spectrum",
+RUN = {"section", "map", "axial", "torque", "side", "radial", "stress", "curvature", "bit-speed", "torques", "hook-loads", "contact", "duty", "largest", "rms", "twist", "orbit-1", "lateral-spectrum",
        "bit-spectrum"}
 WITHOUT_MOTION = {"section", "map", "axial", "torque", "side", "radial", "stress", "curvature"}
 PIXELS = """(() => {
@@ -147,6 +149,11 @@ def look(title, path, chromium, view=True, moves=True):
         texts = chromium.value(TEXTS)
         expect(f"{title}, {width} px: no text of a plot is cut off or lies on another", not texts, texts[:8])
         expect(f"{title}, {width} px: the console is empty", not chromium.faults(), chromium.faults())
+    if "bit-speed" in figures(path.read_text(encoding="utf-8")):
+        chromium.call("Emulation.setEmulatedMedia", media="print")
+        tops = chromium.value('["bit-speed", "torques"].map((name) => document.getElementById(name)).filter((one) => one).map((one) => one.getBoundingClientRect().top)')
+        chromium.call("Emulation.setEmulatedMedia", media="")
+        expect(f"{title}: two wide figures fill a row in print", len(set(tops)) == 1, tops)
     pages = len(base64.b64decode(chromium.call("Page.printToPDF", preferCSSPageSize=True)["data"]))
     expect(f"{title}: it prints", pages > 20_000, pages)
 
@@ -306,16 +313,60 @@ def maps(chromium):
         refuse(what, "map", "map/summary.json is not that of a map that has ended")
 
 
-def tables_alone():
-    shutil.rmtree("tables", ignore_errors=True)
-    tooljoint("torque-drag", STRING, "--output", "tables", "--set", "Torque and Drag/Depths={40, 42}")
-    page("torque and drag alone", "tables", {"hook-load", "surface-torque", "buckling-1"})
-    shutil.rmtree("assembly", ignore_errors=True)
-    tooljoint("bha", str(pathlib.Path(__file__).resolve().parent.parent / "effects/bottom_hole.xml"), "--output", "assembly")
-    page("a bottom-hole assembly", "assembly", {"bha-high", "bha-right", "bha-moment"})
-    shutil.rmtree("buckled", ignore_errors=True)
-    tooljoint("buckling", str(pathlib.Path(__file__).resolve().parent.parent / "effects/buckling.xml"), "--output", "buckled")
-    page("a string that buckles", "buckled", {"buckling-path", "buckling-contact", "buckling-shape"})
+def analysis(title, command, deck, wanted, *arguments):
+    """The report of an analysis: what it is of, warnings first, headline figures before the sections, the deck; its text and its summary, {} where there is none."""
+    folder = f"analysis_{command}"
+    shutil.rmtree(folder, ignore_errors=True)
+    done = tooljoint(command, deck, "--output", folder, *arguments)
+    expect(f"{command} succeeds", done.returncode == 0, done.stderr[-300:])
+    _, text = page(command, folder, wanted)
+    path = pathlib.Path(folder, "summary.json")
+    summary = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    expect(f"{command}: the title says what it is", f"<h1>{title}: " in text, re.findall("<h1>.*?</h1>", text))
+    order = [section for section in re.findall(r'<section id="([^"]+)"', text) if section != "numerics"]
+    expect(f"{command}: figures come first, the deck last", order[0] == "figures" and (order[-1] == "deck" or not summary), order)
+    if summary:
+        first = re.search(r'<ul class="notes"><li[^>]*>(.*?)</li>', text).group(1)
+        expect(f"{command}: warnings come first", html.unescape(first) == (summary["warnings"] or ["No warnings."])[0], first)
+    expect(f"{command}: no number is minus zero", not re.search(r">-0(\.0+)?( [^<]*)?<", text), re.findall(r".{20}>-0(?:\.0+)?(?: [^<]*)?<", text)[:3])
+    return text, summary
+
+
+def card(name, value):
+    return f'<div class="name">{name}</div><div class="value">{value}</div>'
+
+
+def cells(text, column):
+    """Texts of a column of the first table that is no list of pairs."""
+    rows = re.findall(r"<tr>(.*?)</tr>", re.search(r"<table><caption>.*?</table>|<table><thead>.*?</table>", text, re.S).group(), re.S)
+    return [re.findall(r"<td[^>]*>(.*?)</td>", row)[column] for row in rows[1:]]
+
+
+def analyses():
+    text, summary = analysis("Torque and drag", "torque-drag", STRING, {"hook-load", "surface-torque", "buckling-1", "broomstick-hook-load"}, "--set", "Torque and Drag/Depths={40, 42}",
+                             "--set", "Torque and Drag/Broomstick={0.1, 0.3}", "--set", "Torque and Drag/Yield Strength=931 MPa")
+    rows = summary["torque_drag"]["rows"]
+    expect("torque-drag: its largest hook load", card("Largest hook load", f"{max(row['hook_load'] for row in rows) / 1e3:.1f} kN") in text)
+    expect("torque-drag: conditions", re.search(r'class="conditions">string of 42 m, up to 120 rpm, WOB 10 kN, .*mud 1200 kg/m3, bore radius 108 mm, static friction 0.3', text) is not None, re.findall('class="conditions">.*', text))
+    expect("torque-drag: tensions under the same limits share a figure", "buckling-2" not in figures(text), sorted(figures(text)))
+    broom = re.search(r'<figure id="broomstick-hook-load".*?</figure>', text, re.S).group()
+    expect("torque-drag: a broomstick names operations and friction", all(f">{name}<" in broom for name in ("Trip out", "Drill rotating", "friction 0.1", "friction 0.3")) and "measured" not in broom)
+    margins = [value for value in cells(text, 5) if value != "-"]
+    expect("torque-drag: margins have two decimals", margins and all(re.fullmatch(r"\d+\.\d\d", value) for value in margins), margins)
+    text, summary = analysis("Bottom-hole assembly", "bha", str(EFFECTS / "bottom_hole.xml"), {"bha-high", "bha-right", "bha-moment"})
+    expect("bha: headline figures in both units", all(f'<div class="name">{name}</div>' in text for name in ("Side force, high side", "Tangency", "Unstable states")) and "klbf)" in text and " lbf<" in text)
+    marked = sum("UNSTABLE" in state for state in cells(text, 0))
+    expect("bha: unstable states are marked", marked == sum(not row["stable"] for row in summary["bha"]["rows"]) and card("Unstable states", marked) in text, marked)
+    text, summary = analysis("Buckling", "buckling", str(EFFECTS / "buckling.xml"), {"buckling-path", "buckling-contact", "buckling-shape"})
+    expect("buckling: its last weight on bit", card("Last weight on bit", f"{summary['buckling']['last_weight_on_bit'] / 1e3:.1f} kN") in text)
+    text, summary = analysis("Campbell diagram", "campbell", STRING, {"campbell", "campbell-shapes"}, "--set", "Campbell/Highest Speed=200 rpm", "--set", "Campbell/Modes=4", "--set", "Campbell/Points=5")
+    ratios = [one["damping"] for one in summary["campbell"]["crossings"]]
+    expect("campbell: the diagram stands before the critical speeds", 0 < text.index('<figure id="campbell"') < text.index(f"<summary>{len(ratios)} critical speeds"))
+    expect("campbell: damping ratios have four decimals, negative ones are marked", cells(text, 4) == [f"{ratio:.4f}" + (" UNSTABLE" if ratio < -1e-9 else "") for ratio in ratios], cells(text, 4)[:3])
+    analysis("Harmonic response", "response", str(EFFECTS / "rotor.xml"), {"response"})
+    text, _ = analysis("Modes", "modes", STRING, {"modes-frequencies", "damped-modes-frequencies", "mode-damping", "mode-errors"}, "--count", "6")
+    expect("modes: frequencies have the same decimals", len({len(value.partition(".")[2]) for value in cells(text, 1)}) == 1 and max(map(len, cells(text, 1))) <= 7, cells(text, 1))
+    expect("modes: the lowest frequency", '<div class="name">Lowest frequency</div>' in text)
 
 
 def end_of_run():
@@ -340,7 +391,7 @@ def end_of_run():
     os.environ["TOOLJOINT_REPORT"] = "off"
     run("ended", STRING)
     expect("TOOLJOINT_REPORT=off: no report", not path.exists())
-    done = tooljoint("report", "assembly", "--output", "two.html", ranks=2)
+    done = tooljoint("report", "analysis_bha", "--output", "two.html", ranks=2)
     expect("two ranks write one report", done.returncode == 0 and pathlib.Path("two.html").is_file() and done.stdout.count("report  ") == 1, done.stderr)
     done = tooljoint("report", "nowhere", ranks=2)
     expect("and end alike", done.returncode == 5 and done.stderr.count("is no folder") == 1, f"({done.returncode}) {done.stderr}")
@@ -374,7 +425,7 @@ def refusals():
     refuse("no summary", "damaged", "damaged/summary.json cannot be read")
     pathlib.Path("damaged/results.h5").rename("damaged/results.h5.part")
     refuse("a run that has not ended", "damaged", "results of a run that has not ended")
-    refuse("a file that cannot be written", "assembly", "cannot be written", "--output", "nowhere/page.html")
+    refuse("a file that cannot be written", "analysis_bha", "cannot be written", "--output", "nowhere/page.html")
     done = tooljoint("report")
     expect("no folder named: exit code 1", done.returncode == 1 and "DIR" in done.stderr, done.stderr)
 
@@ -416,7 +467,7 @@ def pages():
 
 def main():
     os.environ["TOOLJOINT_REPORT"] = "off"
-    for part in [pages] if sys.argv[3] == "pages" else [lesser_strings, tables_alone, old_results, end_of_run, refusals, failed, interrupted]:
+    for part in [pages] if sys.argv[3] == "pages" else [lesser_strings, analyses, old_results, end_of_run, refusals, failed, interrupted]:
         part()
     return finish()
 

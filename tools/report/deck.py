@@ -13,6 +13,7 @@ CONDITIONS = (
 )
 OF_ANALYSES = (  # and of an analysis besides
     ("Well/Bore Diameter", "bore ", "mm", 1e3),
+    ("Well/Bore Radius", "bore radius ", "mm", 1e3),
     ("Contact/Friction/Static", "static friction ", "", 1.0),
     ("Contact/Friction/Dynamic", "dynamic friction ", "", 1.0),
 )

@@ -1,13 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a run: of a string in its well, or of imported parts."""
-import pathlib
-
-from report import checks, deck, figures, figures_measured, figures_parts, of_tables, results, scene3d, tables
+from report import checks, deck, figures, figures_measured, figures_parts, frame, modal, results, scene3d, tables, torque_drag
 from report.page import Page, cards
 from report.quantities import both, fixed, percent
-
-ENDS = {"failed": "The run failed", "interrupted": "The run was interrupted"}
-
 
 def headline(run):
     """Cards of what is asked first."""
@@ -36,21 +31,6 @@ def headline(run):
     return cards(found) if found else ""
 
 
-def notes(page, run):
-    """What a reader must know first."""
-    status = run.value("status")
-    if status != "finished":
-        page.note(f"{ENDS.get(status, 'The run did not finish')}: {run.value('message') or 'its results are incomplete.'}")
-    for name, value, bound in checks.measured(run.summary):
-        if value > bound:
-            page.note(f"Not met: {name} is {value:.1e}, its bound {bound:.0e}.")
-    warnings = run.value("warnings") or []
-    for warning in warnings:
-        page.note(warning)
-    if not page.notes:
-        page.note("No warnings; all checks are met.", good=True)
-
-
 def conditions(run, scene):
     words = []
     if run.is_string:
@@ -76,7 +56,7 @@ def string_sections(page, run):
     page.view(*scene3d.of_string(run))
     page.plots("well", "Well", figures.well(run))
     page.plots("static", "Static state", figures.static_profiles(run))
-    of_tables.add_torque_drag(page, run.folder)
+    torque_drag.add(page, run.folder)
     if run.records:
         motion = results.Motion(run)
         chosen = results.chosen_nodes(run, motion.lateral_rms())
@@ -101,23 +81,18 @@ def part_sections(page, run):
 
 def page_of(folder):
     run = results.Run(folder)
-    scene = deck.read(run.attribute("deck_text"), run.attribute("overrides"))
-    name = pathlib.Path(run.value("deck.file") or run.attribute("deck_file") or folder.name).stem
-    page = Page(name, conditions(run, scene))
-    notes(page, run)
+    page = Page(run.name, conditions(run, frame.scene_of(run)))
+    frame.notes(page, run)
     page.add("figures", "Figures", headline(run))
     if run.is_string and "/static/displacement" in run.file:
         string_sections(page, run)
     elif "/model/part" in run.file:
         part_sections(page, run)
     page.plots("measured", "Measured log", figures_measured.beside(run), figures_measured.overview(run))
-    page.add("reduction", "Reduction and errors", tables.of_reduction(run) + of_tables.basis_table(folder))
+    page.add("reduction", "Reduction and errors", tables.of_reduction(run) + modal.basis_table(folder))
     measured = checks.measured(run.summary)
     page.add("checks", "Checks", tables.of_checks(measured) if measured else "")
     page.add("numerics", "Computation", tables.of_numerics(run))
-    of_tables.add_modes(page, folder)
-    rows = list(deck.rows(scene))
-    page.add("deck", "Deck", f"<details open><summary>{len(rows)} lines, with the overrides of the command line</summary>{tables.of_deck(rows)}</details>" if rows else "")
-    page.footer = (f"Written by tooljoint report from {folder}: program {run.attribute('program_version')} ({run.attribute('git_hash')}), "
-                   f"results of {run.attribute('date')}, deck SHA-256 {run.attribute('deck_sha256')}.")
+    modal.add(page, folder)
+    frame.close(page, run)
     return page

@@ -1,168 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sections and reports of tables: torque_drag.csv, bha.csv, buckling.csv, campbell.h5, response.h5, modes.csv, basis.csv."""
+"""Reports of analyses: torque-drag, bha, buckling, campbell, response, modes."""
 import math
 
 import h5py
 
 import plots
-from plots import COLOURS, GREY, rotating
-from report import tables
+from plots import COLOURS, rotating
+from report import deck, frame, modal, results, tables, torque_drag
 from report.figures import Figure
-from report.page import Page
-from report.quantities import FOOT, POUND, percent, plain
-from report.results import read_table
+from report.page import Page, cards
+from report.quantities import POUND, both, fixed, percent
+from report.results import numbers, read_table
 
 BUCKLING_ROWS = 40  # of a page; buckling.csv has all
-BASIS_ROWS = 60  # of a page; basis.csv has all
-
-
-def numbers(rows, name):
-    return [row[name] if isinstance(row[name], float) else math.nan for row in rows]
-
-
-def by_operation(rows):
-    found = {}
-    for row in rows:
-        found.setdefault(row["operation"], []).append(row)
-    return found
-
-
-def against_depth(name, label, caption, rows, value, scale):
-    made, axes = plots.profile(label, (0, max(numbers(rows, "bit_depth"))))
-    axes.set_ylabel("depth of the bit [m]")
-    for number, (operation, own) in enumerate(by_operation(rows).items()):
-        axes.plot([scale * x for x in numbers(own, value)], numbers(own, "bit_depth"), color=COLOURS[number], marker=plots.MARKERS[number], markersize=3, linewidth=1.2,
-                  label=operation)
-        stiff = numbers(own, f"stiff_{value}") if f"stiff_{value}" in own[0] else []
-        if any(math.isfinite(x) for x in stiff):
-            axes.plot([scale * x for x in stiff], numbers(own, "bit_depth"), color=COLOURS[number], marker="o", markersize=6, markerfacecolor="none", linestyle="none")
-    plots.legend_above(axes, 2, -0.4)
-    return Figure(name, made, caption)
-
-
-def least_around(values, reach=7):
-    """The least of each value and its `reach` neighbours on both sides: of tool joint and pipe body in turn, that of the one that buckles first."""
-    return [min(values[max(0, i - reach):i + reach + 1]) for i in range(len(values))]
-
-
-def limits_of(operation, rows, number):
-    """Tension of one operation along the string, and where it would buckle."""
-    depth = numbers(rows, "depth")
-    made, axes = plots.profile("effective tension [kN]", (0, max(depth)))
-    axes.plot([x / 1e3 for x in numbers(rows, "tension")], depth, color=COLOURS[0], linewidth=1.4, label="tension")
-    low, high = axes.get_xlim()
-    for name, colour, dashes in (("sinusoidal", COLOURS[1], "--"), ("helical", COLOURS[4], ":")):
-        axes.plot([-x / 1e3 for x in least_around(numbers(rows, f"{name}_limit"))], depth, color=colour, linewidth=1.1, linestyle=dashes, label=f"{name} limit")
-    reach = max(high - low, 1.0)
-    axes.set_xlim(min(low, -0.35 * reach), high)
-    axes.axvline(0, color=GREY, linewidth=0.6)
-    plots.legend_above(axes, 2, -0.4)
-    return Figure(f"buckling-{number + 1}", made, f"{operation}, bit at {max(depth):.0f} m: tension, and the compressions at which pipe or tool joint buckles.")
-
-
-def add_torque_drag(page, folder):
-    """Hook load and surface torque against the depth of the bit, and tension with buckling limits at the deepest bit."""
-    if not (folder / "torque_drag.csv").is_file():
-        return
-    rows = read_table(folder / "torque_drag.csv")
-    if not rows:
-        return
-    found = [against_depth("hook-load", "hook load [kN]", "Hook load against the depth of the bit; rings: the string with bending stiffness.", rows, "hook_load", 1e-3),
-             against_depth("surface-torque", "surface torque [kN m]", "Surface torque against the depth of the bit; rings: the string with bending stiffness.", rows, "surface_torque", 1e-3)]
-    if (folder / "torque_drag_profile.csv").is_file():
-        profiles = by_operation(read_table(folder / "torque_drag_profile.csv"))
-        found += [limits_of(operation, own, number) for number, (operation, own) in enumerate(profiles.items())]
-    found += broomsticks(folder, rows)
-    deepest = max(numbers(rows, "bit_depth"))
-    last = [row for row in rows if row["bit_depth"] == deepest]
-    table = tables.table(("operation", "hook load [kN]", "[klbf]", "torque [kN m]", "[kft lbf]", "yield", "sinusoidal", "helical", "lock-up [m]"),
-                         [(row["operation"], *scaled(row["hook_load"], 1e-3, 1e-3 / POUND), *scaled(row["surface_torque"], 1e-3, 1e-3 / (FOOT * POUND)),
-                           *(plain(row[f"{name}_margin"], 3) for name in ("yield", "sinusoidal", "helical")), plain(row["lock_up_depth"])) for row in last],
-                         range(1, 9), f"Bit at {deepest:.0f} m; margins are allowed over present load, above 1 there is reserve")
-    page.plots("torque-drag", "Torque and drag", found, table)
-
-
-def broomsticks(folder, rows):
-    """Curves of one friction coefficient each and what was measured, where the folder has them."""
-    broom, measured = (read_table(folder / f"torque_drag_{name}.csv") if (folder / f"torque_drag_{name}.csv").is_file() else [] for name in ("broomstick", "measured"))
-    if not broom and not measured:
-        return []
-    found = []
-    deepest = max(numbers(broom + measured + rows, "bit_depth"))
-    for value, label, title in (("hook_load", "hook load [kN]", "Hook load"), ("surface_torque", "surface torque [kN m]", "Surface torque")):
-        made, axes = plots.profile(label, (0, deepest))
-        axes.set_ylabel("depth of the bit [m]")
-        frictions = sorted({row["friction"] for row in broom})
-        for operation, own in by_operation(broom).items():
-            for friction in frictions:
-                curve = [row for row in own if row["friction"] == friction]
-                axes.plot([x / 1e3 for x in numbers(curve, value)], numbers(curve, "bit_depth"), color=COLOURS[frictions.index(friction) % len(COLOURS)], linewidth=0.9,
-                          label=f"friction {friction:g}" if operation == broom[0]["operation"] else None)
-        for number, (operation, own) in enumerate(by_operation(measured).items()):
-            axes.plot([x / 1e3 for x in numbers(own, value)], numbers(own, "bit_depth"), color="black", marker=plots.MARKERS[number], markersize=4, linestyle="none",
-                      label=f"{operation}, measured")
-        plots.legend_above(axes, 2, -0.4)
-        found.append(Figure(f"broomstick-{value.replace('_', '-')}", made, f"{title}: one friction coefficient in the whole hole for each curve; dots: measured."))
-    return found
-
-
-def scaled(value, *factors):
-    return [f"{value * factor:.1f}" if isinstance(value, float) else "-" for factor in factors]
-
-
-def basis_table(folder):
-    """The first BASIS_ROWS vectors of the bases, in the order of basis.csv."""
-    if not (folder / "basis.csv").is_file():
-        return ""
-    rows = read_table(folder / "basis.csv")
-    if not rows:
-        return ""
-    shown = rows[:BASIS_ROWS]
-    more = f", the first {BASIS_ROWS} of {len(rows)}; basis.csv has all" if len(rows) > BASIS_ROWS else ""
-    table = tables.table(("part", "kind", "vector", "frequency [Hz]", "residual", "kept", "why"),
-                         [(row["part"], row["kind"], plain(row["vector"]), plain(row["frequency"]), plain(row["residual"], 2), row["kept"], row["why"]) for row in shown], (3, 4))
-    return f"<details><summary>Vectors of the bases{more}</summary>{table}</details>"
-
-
-def modes_figure(rows):
-    made, axes = plots.figure(plots.WIDE, 2.8)
-    made_of = [row for row in rows if isinstance(row.get("error"), float) and row["error"] != 0]
-    if not made_of:
-        plots.plt.close(made)
-        return []
-    axes.set_yscale("log")
-    axes.plot(numbers(made_of, "mode"), [abs(x) for x in numbers(made_of, "error")], "o", color=COLOURS[0], markersize=4, label="error")
-    estimated = [row for row in made_of if isinstance(row.get("estimate"), float) and row["estimate"] > 0]
-    if estimated:
-        axes.plot(numbers(estimated, "mode"), numbers(estimated, "estimate"), "s", markersize=4, markerfacecolor="none", color=COLOURS[1], label="estimate")
-    plots.logarithmic(axes.yaxis)
-    axes.set_xlabel("mode"), axes.set_ylabel("relative error of the frequency [1]")
-    plots.legend_above(axes)
-    return [Figure("mode-errors", made, "Errors of the coupled frequencies, and their estimates without the full model.", True)]
-
-
-def add_modes(page, folder):
-    for file, title in (("modes.csv", "Eigenfrequencies"), ("damped_modes.csv", "Damped modes")):
-        if not (folder / file).is_file():
-            continue
-        rows = read_table(folder / file)
-        if not rows:
-            continue
-        names = list(rows[0])
-        units = {"full": " [Hz]", "coupled": " [Hz]", "full_im": " [Hz]", "coupled_im": " [Hz]"}
-        cells = [[percent(row[name]) if name in ("error", "estimate") and isinstance(row[name], float) else plain(row[name], 6) for name in names] for row in rows]
-        table = tables.table([name.replace("_", " ") + units.get(name, "") for name in names], cells, range(len(names)))
-        figures = modes_figure(rows) if file == "modes.csv" else []
-        if figures:
-            page.plots(file.split(".")[0].replace("_", "-"), title, figures, table)
-        else:
-            page.add(file.split(".")[0].replace("_", "-"), title, table)
+MOST_PEAKS = 4  # of the headline figures of a response
 
 
 def state_name(row):
-    """Weight, hole and tool face of a row of bha.csv."""
+    """Weight, hole and tool face of a row of bha.csv, and whether the string buckles."""
     face = "rotating" if row["mode"] == "rotating" else f"tool face {math.degrees(row['tool_face']):.0f} deg"
-    return f"{row['weight_on_bit'] / 1e3:.0f} kN, {math.degrees(row['inclination']):.0f} deg, {face}"
+    return f"{row['weight_on_bit'] / 1e3:.0f} kN ({1e-3 * row['weight_on_bit'] / POUND:.0f} klbf), {math.degrees(row['inclination']):.0f} deg, {face}{', UNSTABLE' if unstable(row) else ''}"
 
 
 def along_assembly(name, label, caption, states, value):
@@ -175,24 +32,50 @@ def along_assembly(name, label, caption, states, value):
     return Figure(name, made, caption, True)
 
 
+def unstable(row):
+    return row.get("stable") == 0  # of bha.csv a number, of the summary a truth value
+
+
+def bha_headline(results):
+    """Cards of the state of the largest weight under which the string is stable, and of those under which it is not."""
+    rows = results.value("bha.rows") or []
+    found = []
+    lost = sum(map(unstable, rows))
+    if rows:
+        row = max(rows, key=lambda row: (not unstable(row), row["weight_on_bit"]))
+        state = state_name(row)
+        found = [("Side force, high side", *both(row["side_force_high"], "side force"), state, False), ("Side force, right side", *both(row["side_force_right"], "side force"), state, False)]
+        if row["sag_high"] is not None:
+            found.append(("Sag of the survey tool", f"{fixed(math.degrees(row['sag_high']), 3)} deg", "to the high side", f"{fixed(math.degrees(row['sag_right']), 3)} deg to the right; {state}", False))
+        if row["tangency"] is not None:
+            found.append(("Tangency", *both(row["tangency"], "length"), f"from the bit; {state}", False))
+        found += [("Largest bending moment", *both(row["largest_moment"], "torque"), f"at {row['largest_moment_from_bit']:.1f} m from the bit; {state}", False),
+                  ("Unstable states", str(lost), f"of {len(rows)}", "the string buckles under that weight" if lost else "", lost > 0)]
+    return cards(found) if found else ""
+
+
 def add_bha(page, folder):
     """Forces and tilt at the bit, and the assembly in the hole under the largest weight."""
     if not ((folder / "bha.csv").is_file() and (folder / "bha_profile.csv").is_file()):
         return
     rows, states = read_table(folder / "bha.csv"), {}
-    largest = max(numbers(rows, "weight_on_bit"))
+    names = {(row["weight_on_bit"], row["inclination"], row["mode"], row["tool_face"]): state_name(row) for row in rows}
+    stable = [row["weight_on_bit"] for row in rows if not unstable(row)]
+    largest = max(stable or numbers(rows, "weight_on_bit"))
     for row in read_table(folder / "bha_profile.csv"):
-        if row["weight_on_bit"] == largest and row["inclination"] == rows[0]["inclination"]:
-            states.setdefault(state_name(row), []).append(row)
+        if row["weight_on_bit"] >= largest and row["inclination"] == rows[0]["inclination"]:
+            states.setdefault(names[row["weight_on_bit"], row["inclination"], row["mode"], row["tool_face"]], []).append(row)
     found = [along_assembly("bha-high", "to the high side [mm]", "Deflection of the assembly from the axis of the hole.", states, lambda row: 1e3 * row["deflection_high"]),
              along_assembly("bha-right", "to the right side [mm]", "The same to the right, looking down the hole.", states, lambda row: 1e3 * row["deflection_right"]),
              along_assembly("bha-moment", "bending moment [kN m]", "Bending moment.", states, lambda row: math.hypot(row["moment_high"], row["moment_right"]) / 1e3)]
     degree = 180 / math.pi
-    table = tables.table(("state", "side force, high [kN]", "right [kN]", "tilt, high [deg]", "right [deg]", "largest moment [kN m]", "stress [MPa]"),
-                         [(state_name(row), *(f"{row[name] * factor:.3f}" for name, factor in (("side_force_high", 1e-3), ("side_force_right", 1e-3), ("tilt_high", degree), ("tilt_right", degree),
-                                                                                                ("largest_moment", 1e-3), ("largest_von_mises", 1e-6)))) for row in rows],
-                         range(1, 7), "Side force of the bit on the rock, to the high side and to the right side of the hole")
-    page.plots("bha", "Bottom-hole assembly", found, table)
+    shown = (("side force, high [kN]", "side_force_high", 1e-3, 3), ("[lbf]", "side_force_high", 1 / POUND, 0), ("right [kN]", "side_force_right", 1e-3, 3), ("[lbf]", "side_force_right", 1 / POUND, 0),
+             ("tilt, high [deg]", "tilt_high", degree, 3), ("right [deg]", "tilt_right", degree, 3), ("sag [deg]", "sag_high", degree, 3), ("tangency [m]", "tangency", 1.0, 1),
+             ("largest moment [kN m]", "largest_moment", 1e-3, 3), ("stress [MPa]", "largest_von_mises", 1e-6, 1))
+    table = tables.table(("state", *(title for title, *_ in shown)),
+                         [(state_name(row), *(fixed(row[name] * factor, decimals) if isinstance(row.get(name), float) else "-" for _, name, factor, decimals in shown)) for row in rows],
+                         range(1, len(shown) + 1), "Side force of the bit on the rock, to the high side and to the right side of the hole; tangency and sag as far from the bit as they are computed")
+    page.plots("bha", "Bottom-hole assembly", found, after=table)
 
 
 def against_weight(name, label, caption, rows, lines, scale):
@@ -233,7 +116,17 @@ def add_buckling(page, folder):
                          [tuple(f"{row[name] * factor:.{digits}f}" for name, factor, digits in (("weight_on_bit", 1e-3, 2), ("bit_advance", 1e3, 3), ("largest_contact_force", 1e-3, 3), ("negative_pivots", 1, 0),
                                                                                                ("half_waves", 1, 0), ("contact_force", 1, 1), ("helical_contact_force", 1, 1), ("branch", 1, 0))) for row in shown],
                          range(8), "States of the path; buckling.csv has all")
-    page.plots("buckling", "Buckling", found, table)
+    page.plots("buckling", "Buckling", found, after=table)
+
+
+def buckling_headline(results):
+    """Cards of the weights on bit at which something happens."""
+    found = [(name, *both(weight, "hook load"), remark, False) for name, weight, remark in (
+        ("Last weight on bit", results.value("buckling.last_weight_on_bit"), results.value("buckling.explanation") or ""),
+        ("Limit of the straight string", results.value("buckling.limit"), "first negative pivot"),
+        ("Sinusoidal buckling", results.value("buckling.theory.sinusoidal"), "closed form"), ("Helical buckling", results.value("buckling.theory.helical"), "closed form"),
+        ("Unstable from", results.value("buckling.unstable_from"), "first unstable state of the crooked string")) if weight is not None]
+    return cards(found) if found else ""
 
 
 def of_rotation(results, pictures):
@@ -241,38 +134,99 @@ def of_rotation(results, pictures):
     return [Figure(name, made, caption, True, large=True) for name, (function, caption) in pictures.items() if (made := function(results)) is not None]
 
 
+def rotation_error(results, analysis):
+    """The card of the largest error of a reduced model, if there is one."""
+    error = results.value(f"{analysis}.largest_error")
+    return [] if error is None else [("Largest error", percent(error), "", "of the reduced model, by spot checks", False)]
+
+
+def campbell_headline(results):
+    """Cards of critical speeds and of damping."""
+    crossings = results.value("campbell.crossings") or []
+    found = [("Critical speeds", str(len(crossings)), "", "crossings with lines of excitations", False)]
+    once = sorted(one["speed_rpm"] for one in crossings if one["order"] == 1)
+    if once:
+        found.append(("Lowest at the rotary speed", f"{fixed(once[0], 1)} rpm", f"highest {fixed(once[-1], 1)} rpm", "of the excitation of order 1", False))
+    least = results.value("campbell.least_damping")
+    if least is not None:
+        grows = least < -rotating.ROUNDING
+        found.append(("Least damping ratio", f"{least:.2g}", "", "modes grow where it is negative" if grows else "no mode grows", grows))
+    return cards(found + rotation_error(results, "campbell"))
+
+
 def add_campbell(page, folder):
     """Campbell diagram, modes in the hole, critical speeds."""
     if not (folder / "campbell.h5").is_file():
         return
-    with h5py.File(folder / "campbell.h5", "r") as results:
-        found = of_rotation(results, {"campbell": (rotating.campbell_figure, "Damped modes against the rotary speed, lines of the excitations, critical speeds."),
-                                      "campbell-shapes": (rotating.shapes_figure, "Modes in the hole: at critical speeds, and at one speed of the diagram.")})
-        crossings = rotating.columns(results, "crossings")
-        names = {(order, offset): name for name, order, offset in zip(rotating.texts(results["excitations"]), results["orders"][:], results["offsets"][:])}
-    rows = [] if crossings is None else [(names[crossings["order"][i], crossings["offset"][i]], f"{crossings['mode'][i]:.0f}", f"{plots.RPM * crossings['speed'][i]:.2f}", f"{crossings['frequency'][i]:.4f}",
-                                          f"{crossings['damping'][i]:.3g}", rotating.whirl_word(crossings["whirl"][i])) for i in range(len(crossings["order"]))]
-    page.plots("campbell", "Campbell diagram", found, tables.table(("excitation", "mode", "speed [rpm]", "frequency [Hz]", "damping ratio", "whirl"), rows, range(1, 5), "Critical speeds") if rows else "")
+    with h5py.File(folder / "campbell.h5", "r") as results_:
+        grow = "; crosses: modes that grow" if "campbell" in results_ and (results_["campbell/damping"][:] < -rotating.ROUNDING).any() else ""
+        found = of_rotation(results_, {"campbell": (rotating.campbell_figure, f"Damped modes against the rotary speed, lines of the excitations, critical speeds{grow}."),
+                                       "campbell-shapes": (rotating.shapes_figure, "Modes in the hole: at critical speeds, and at one speed of the diagram.")})
+        crossings = rotating.columns(results_, "crossings")
+        names = {(order, offset): name for name, order, offset in zip(rotating.texts(results_["excitations"]), results_["orders"][:], results_["offsets"][:])}
+    rows = [] if crossings is None else [(names[crossings["order"][i], crossings["offset"][i]], f"{crossings['mode'][i]:.0f}", fixed(plots.RPM * crossings["speed"][i], 2), fixed(crossings["frequency"][i], 4),
+                                          fixed(crossings["damping"][i], 4) + (" UNSTABLE" if crossings["damping"][i] < -rotating.ROUNDING else ""), rotating.whirl_word(crossings["whirl"][i]))
+                                         for i in range(len(crossings["order"]))]
+    table = tables.table(("excitation", "mode", "speed [rpm]", "frequency [Hz]", "damping ratio", "whirl"), rows, range(1, 5)) if rows else ""
+    page.plots("campbell", "Campbell diagram", found, after=f"<details open><summary>{len(rows)} critical speeds</summary>{table}</details>" if rows else "")
+
+
+def response_headline(results):
+    """Cards of the largest amplitudes."""
+    largest = {}
+    for peak in results.value("response.peaks") or []:
+        if peak["amplitude"] > largest.get(peak["output"], peak)["amplitude"] or peak["output"] not in largest:
+            largest[peak["output"]] = peak
+    found = [(f"Largest amplitude, {output}", f"{peak['amplitude']:.3g} {peak['unit']}", f"{peak['hz']:.4g} Hz", f"at {fixed(peak['speed_rpm'], 1)} rpm, load {peak['load']}", False)
+             for output, peak in list(largest.items())[:MOST_PEAKS]]
+    moment = results.value("response.bending_moment")
+    if moment is not None:
+        found.append(("Bending moment", *both(moment, "torque"), f"beside that at rest, at {both(results.value('response.bending_depth'), 'length')[0]} and {fixed(results.value('response.bending_speed_rpm'), 1)} rpm", False))
+    touch = results.value("response.contact_speed_rpm")
+    if touch is not None:
+        found.append(("Wall reached", f"{fixed(touch, 1)} rpm", f"{results.value('response.contact_hz'):.4g} Hz", f"node {results.value('response.contact_node')}, open at rest", True))
+    found += rotation_error(results, "response")
+    return cards(found) if found else ""
 
 
 def add_response(page, folder):
     """Amplitudes over speed or frequency, and along a string."""
     if not (folder / "response.h5").is_file():
         return
-    with h5py.File(folder / "response.h5", "r") as results:
-        found = of_rotation(results, {"response": (rotating.response_figure, "Amplitudes and phases; circles: largest amplitudes."),
-                                      "response-profile": (rotating.profile_figure, "Bending moment beside that at rest, and distance left to the wall.")})
+    with h5py.File(folder / "response.h5", "r") as results_:
+        found = of_rotation(results_, {"response": (rotating.response_figure, "Amplitudes and phases; circles: largest amplitudes."),
+                                       "response-profile": (rotating.profile_figure, "Bending moment beside that at rest, and distance left to the wall.")})
     page.plots("response", "Harmonic response", found)
 
 
+# Of a name: tables that tell of it, title, headline figures, sections.
+ANALYSES = (("torque_drag", ("torque_drag.csv",), "Torque and drag", torque_drag.headline, torque_drag.add),
+            ("bha", ("bha.csv",), "Bottom-hole assembly", bha_headline, add_bha),
+            ("buckling", ("buckling.csv",), "Buckling", buckling_headline, add_buckling),
+            ("campbell", ("campbell.h5",), "Campbell diagram", campbell_headline, add_campbell),
+            ("response", ("response.h5",), "Harmonic response", response_headline, add_response),
+            ("modes", ("modes.csv", "damped_modes.csv"), "Modes", modal.headline, modal.add))
+
+
+def conditions(found, scene, names):
+    """The string and what the deck says of the case."""
+    length = found.value("model.length")
+    said = deck.conditions(scene, more=deck.OF_ANALYSES + ((deck.BLOCK,) if "torque_drag" in names else ()))
+    return ", ".join(filter(None, (f"string of {length:.0f} m" if length else "", said)))
+
+
 def page_of(folder):
-    """Of a folder that holds tables alone."""
-    page = Page(folder.resolve().name, "tables of " + " and ".join(name for name, file in (("torque-drag", "torque_drag.csv"), ("bha", "bha.csv"), ("buckling", "buckling.csv"), ("campbell", "campbell.h5"), ("response", "response.h5"), ("modes", "modes.csv"), ("damped modes", "damped_modes.csv"))
-                                                                if (folder / file).is_file()))
-    add_torque_drag(page, folder)
-    add_bha(page, folder)
-    add_buckling(page, folder)
-    add_campbell(page, folder)
-    add_response(page, folder)
-    add_modes(page, folder)
+    """Of a folder that holds results of analyses alone."""
+    present = [one for one in ANALYSES if any((folder / file).is_file() for file in one[1])]
+    files = [path for name, *_ in present if (path := folder / f"{name}.h5").is_file()]
+    file = results.open_results(files[0]) if files else None
+    found = results.Folder(folder, results.read_summary(folder) if (folder / "summary.json").is_file() else {}, file)
+    titles = " and ".join(title for _, _, title, _, _ in present)
+    page = Page(f"{titles}: {found.name}", conditions(found, frame.scene_of(found), [name for name, *_ in present]))
+    frame.notes(page, found, "analysis")
+    page.add("figures", "Figures", "".join(headline(found) for _, _, _, headline, _ in present))
+    for _, _, _, _, add in present:
+        add(page, folder)
+    page.add("numerics", "Computation", tables.of_numerics(found) if found.summary else "")
+    frame.close(page, found)
     return page

@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import pathlib
 
 import h5py
 import numpy as np
@@ -52,17 +53,43 @@ def read_table(path):
         return [{name.split(" [")[0]: value(text) for name, text in row.items() if name is not None} for row in csv.DictReader(file)]
 
 
+def numbers(rows, name):
+    """A column of rows of read_table(); nan where a cell is no number."""
+    return [row[name] if isinstance(row[name], float) else math.nan for row in rows]
+
+
 def texts(dataset):
     return [value.decode() if isinstance(value, bytes) else str(value) for value in dataset[:]]
 
 
-class Run:
+class Folder:
+    """What a command left in its folder: summary.json and an HDF5 file, {} and None where there is none."""
+
+    def __init__(self, folder, summary, file):
+        self.folder, self.summary, self.file = folder, summary, file
+
+    def attribute(self, name, default=""):
+        value = default if self.file is None else self.file.attrs.get(name, default)
+        return value.decode() if isinstance(value, bytes) else value
+
+    def value(self, path):
+        """Of the summary by keys joined by dots; None where a stage did not run."""
+        found = self.summary
+        for key in path.split("."):
+            found = found.get(key) if isinstance(found, dict) else None
+        return found
+
+    @property
+    def name(self):
+        """Of the deck."""
+        return pathlib.Path(self.value("deck.file") or self.attribute("deck_file") or self.folder.resolve().name).stem
+
+
+class Run(Folder):
     """results.h5 and summary.json of a run. Arrays have the shapes of docs/file-formats.md; None for what is not there."""
 
     def __init__(self, folder):
-        self.folder = folder
-        self.summary = read_summary(folder)
-        self.file = open_results(folder / "results.h5")
+        super().__init__(folder, read_summary(folder), open_results(folder / "results.h5"))
         self.is_string = "/model/s" in self.file
         missing = [name for name in (NEEDED if self.is_string else ()) if name not in self.file and (name.startswith("/model") or "/static" in self.file)]
         if missing:
@@ -77,17 +104,6 @@ class Run:
     def get(self, path):
         dataset = self.file.get(path)
         return None if dataset is None else dataset[()]
-
-    def attribute(self, name, default=""):
-        value = self.file.attrs.get(name, default)
-        return value.decode() if isinstance(value, bytes) else value
-
-    def value(self, path):
-        """Of the summary by keys joined by dots; None where a stage did not run."""
-        found = self.summary
-        for key in path.split("."):
-            found = found.get(key) if isinstance(found, dict) else None
-        return found
 
     @property
     def middles(self):

@@ -87,7 +87,7 @@ def of_numerics(run):
     rows = [("Program", f"{run.value('program.version')} ({run.value('program.git')})", ""), ("Deck", run.value("deck.file") or "-", f"SHA-256 {str(run.value('deck.sha256'))[:16]}"),
             ("Date", run.attribute("date"), ""), ("Ranks", plain(run.value("ranks")), ""),
             ("Model", f"{plain(run.value('model.nodes'))} nodes, {plain(run.value('model.free_dofs'))} free dofs", ""),
-            ("Wall time", f"{plain(run.value('wall_s'), 3)} s", f"{plain(run.value('peak_memory_mb'), 3)} MB")]
+            ("Wall time", f"{plain(run.value('wall_s'), 3)} s", "" if run.value("peak_memory_mb") is None else f"{plain(run.value('peak_memory_mb'), 3)} MB")]
     if t.get("integrator"):
         rows += [("Integrator", t["integrator"], f"{t['model']} model"),
                  ("Motion", f"{plain(t['start'])} to {plain(t['end'])} s", f"{plain(t['steps'])} steps of {' to '.join(dict.fromkeys(plain(t[key], 3) for key in ('min_step', 'max_step')))} s"),

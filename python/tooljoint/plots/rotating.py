@@ -9,6 +9,7 @@ import numpy as np
 from .style import COLOURS, GREY, MAP, PALE, RPM, depth_axis, label, legend_above, plt, whole_ticks
 
 FORWARD, BACKWARD = COLOURS[:2]
+UNSTABLE = "#B00020"  # of modes that grow
 CLEAR_WHIRL = 0.1  # of a circle; less is drawn grey
 MOST_SHAPES = 8  # of a picture
 ROUNDING = 1e-9  # of a damping ratio
@@ -39,26 +40,35 @@ def campbell_figure(results: Any) -> Any:
     if rows is None:
         return None
     made, (frequencies, damping) = plt.subplots(2, 1, figsize=(8, 8), sharex=True, height_ratios=[2.2, 1], constrained_layout=True)
+    grows = rows["damping"] < -ROUNDING
+    words = set()
     for mode in np.unique(rows["mode"]):
         here = rows["mode"] == mode
-        look = {"color": whirl_colour(np.median(rows["whirl"][here])), "linewidth": 1.1, "marker": "." if np.sum(here) == 1 else ""}
+        whirl = np.median(rows["whirl"][here])
+        words.add(whirl_word(whirl))
+        look = {"color": whirl_colour(whirl), "linewidth": 1.1, "marker": "." if np.sum(here) == 1 else ""}
         frequencies.plot(RPM * rows["speed"][here], rows["frequency"][here], **look)
         damping.plot(RPM * rows["speed"][here], rows["damping"][here], **look)
+    for axes, name in ((frequencies, "frequency"), (damping, "damping")):
+        axes.plot(RPM * rows["speed"][grows], rows[name][grows], "x", color=UNSTABLE, markersize=4)
     first, last = RPM * rows["speed"].min(), RPM * rows["speed"].max()
     low, top = rows["frequency"].min(), rows["frequency"].max()
     room = 0.05 * (top - low if top > low else top)
-    low, top = (0.0 if low < 0.5 * top else low - room), top + room
+    low, top = (0.0 if low < 0.5 * top else low - room), top + 2 * room  # the names of the excitations stand above the modes
+    frequencies.set_xlim(first, last), frequencies.set_ylim(low, top)
     for name, order, offset in zip(texts(results["excitations"]), results["orders"][:], results["offsets"][:]):
         ends = np.array([first, last])
         frequencies.plot(ends, order * ends / 60 + offset, color="0.7", linewidth=0.8, linestyle="--")
         at = min(last, 60 * (top - offset) / order) if order > 0 else last
-        if at > first and low < order * at / 60 + offset <= top * (1 + 1e-9):
-            frequencies.annotate(name, (at, order * at / 60 + offset), fontsize=8, color="0.4", ha="right", va="bottom")
+        if at > first and low < order * at / 60 + offset <= top * (1 + 1e-9):  # upright beside a line that leaves through the top, else above its end
+            frequencies.annotate(name, (at, order * at / 60 + offset), fontsize=8, color="0.4", ha="right", **({"rotation": 90, "va": "top"} if at < last else {"va": "bottom"}))
     if crossings is not None:
         frequencies.plot(RPM * crossings["speed"], crossings["frequency"], "ko", markersize=4, fillstyle="none", label="critical speeds")
-    for text, colour in (("forward whirl", FORWARD), ("backward whirl", BACKWARD)):
-        frequencies.plot([], [], color=colour, label=text)
-    frequencies.set_xlim(first, last), frequencies.set_ylim(low, top)
+    for word, text, colour in (("forward", "forward whirl", FORWARD), ("backward", "backward whirl", BACKWARD), ("in a line", "in a line, axial, torsional", GREY)):
+        if word in words:
+            frequencies.plot([], [], color=colour, label=text)
+    if grows.any():
+        frequencies.plot([], [], "x", color=UNSTABLE, markersize=4, label="grows")
     frequencies.set_ylabel(label("frequency", "Hz"))
     legend_above(frequencies)
     damping.axhline(0, color="0.7", linewidth=0.6)
@@ -116,8 +126,9 @@ def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
             axes.set_ylabel(""), axes.tick_params(labelleft=False)
         met = names[int(group["excitation"][place])]
         damping = float(group["damping"][place])
-        axes.set_title(f"{group['frequency'][place]:.4g} Hz\n{RPM * group['speed'][place]:.6g} rpm{', ' + met if met else ''}\n{said}\ndamping {damping if abs(damping) > ROUNDING else 0:.2g}",
-                       fontsize=7.5, fontweight="normal")
+        grows = damping < -ROUNDING
+        axes.set_title(f"{format(group['frequency'][place], '#.4g').rstrip('.')} Hz\n{RPM * group['speed'][place]:.2f} rpm{', ' + met if met else ''}\n{said}\ndamping {damping if abs(damping) > ROUNDING else 0:.3f}{', grows' if grows else ''}",
+                       fontsize=7.5, fontweight="normal", color=UNSTABLE if grows else "black")
     made.supxlabel("displacement over the largest one; solid: u, dashed: v, grey: orbits; ticks on the left: nodes on the wall", fontsize=8)
     return made
 

@@ -146,6 +146,7 @@
   // Names first, each as near to the middle of its edge as there is room; then the numbers that have room.
   function placeLabels() {
     placed = [];
+    camera.updateMatrixWorld();
     const edges = axes.map(edgeOf);
     axes.forEach((axis, i) => {
       const {n, at} = edges[i] || {};

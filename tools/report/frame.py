@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What stands around the sections of every page: notes first, the deck and where the page comes from last."""
+from report import checks, deck, tables
+
+ENDS = {"failed": "failed", "interrupted": "was interrupted"}
+
+
+def notes(page, results, what="run"):
+    """What a reader must know first; nothing of a folder without a summary."""
+    if not results.summary:
+        return
+    status = results.value("status")
+    if status != "finished":
+        page.note(f"The {what} {ENDS.get(status, 'did not finish')}: {results.value('message') or 'its results are incomplete.'}")
+    measured = checks.measured(results.summary)
+    for name, value, bound in measured:
+        if value > bound:
+            page.note(f"Not met: {name} is {value:.1e}, its bound {bound:.0e}.")
+    for warning in results.value("warnings") or []:
+        page.note(warning)
+    if not page.notes:
+        page.note("No warnings; all checks are met." if measured else "No warnings.", good=True)
+
+
+def scene_of(results):
+    """The deck as it was run."""
+    return deck.read(results.attribute("deck_text"), results.attribute("overrides"))
+
+
+def close(page, results):
+    """Deck and origin of a page."""
+    rows = list(deck.rows(scene_of(results)))
+    page.add("deck", "Deck", f"<details open><summary>{len(rows)} lines, with the overrides of the command line</summary>{tables.of_deck(rows)}</details>" if rows else "")
+    origin = (f"program {results.attribute('program_version')} ({results.attribute('git_hash')}), results of {results.attribute('date')}, deck SHA-256 {results.attribute('deck_sha256')}"
+              if results.file is not None else "tables alone, without a summary and a deck")
+    page.footer = f"Written by tooljoint report from {results.folder}: {origin}."
