@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 from PIL import Image
 from tooljoint import plots
+from tooljoint.plots import rotating
 
 SOURCE = pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"])
 sys.path.insert(0, str(SOURCE / "tools"))
@@ -81,6 +82,11 @@ class Axes(Style):
             made = plots.plt.figure()
             axes = plots.space_axes(made, 111)
             plots.equal_axes(axes, points)
+            made.canvas.draw()
+            for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+                low, high = sorted(axis.get_view_interval())
+                self.assertGreaterEqual(sum(low <= tick <= high for tick in axis.get_ticklocs()), 2, "an axis has one number")
+            self.check(made)
             spans = np.abs([np.subtract(*axes.get_xlim()), np.subtract(*axes.get_ylim()), np.subtract(*axes.get_zlim())])
             np.testing.assert_allclose(axes._box_aspect / spans, (axes._box_aspect / spans)[0])
             self.assertGreater(axes.get_zlim()[0], axes.get_zlim()[1], "depth does not point downwards")
@@ -177,6 +183,22 @@ class Results(Style):
         with memory() as file:
             self.check(plot_results.draw(string(file, moves=False)))
 
+    def test_an_even_speed_is_no_picture_of_rounding(self):
+        with memory() as file:
+            whole = string(file)
+            del whole["/transient/motion"]
+            whole["/transient/motion"] = np.column_stack([np.linspace(0, 1, 12), np.full((12, 2), 4 * np.pi) + 1e-12 * np.sin(np.arange(24)).reshape(12, 2), np.zeros((12, 2))])
+            made = plot_results.draw(whole)
+        self.check(made)
+        self.assertGreater(np.ptp(made.axes[-1].get_ylim()), 1)
+
+    def test_lateral_directions_have_names(self):
+        with memory() as file:
+            whole = string(file)
+            self.assertEqual(plot_results.lateral_names(whole), ("displacement u", "displacement v"))
+            whole["/model/frame"] = np.tile(np.eye(3), (21, 1, 1))
+            self.assertEqual(plot_results.lateral_names(whole), ("u, north at the surface", "v, east at the surface"))
+
     def test_animations(self):
         with memory() as file:
             plot_results.animate(string(file), pathlib.Path("motion.gif"))
@@ -190,6 +212,29 @@ class Results(Style):
             plots.animate("motion.gif", made, lambda number: None, 0)
         with mock.patch.object(plots.plt.matplotlib.animation.FFMpegWriter, "isAvailable", return_value=False), self.assertRaisesRegex(ValueError, "ffmpeg"):
             plots.animate("motion.mp4", made, lambda number: None, 2)
+
+
+class Campbell(Style):
+    def draw(self, whirl, damping):
+        """A diagram of two modes over four speeds, with lines of excitations that leave it near to one another."""
+        with memory() as file:
+            speed = np.tile(np.linspace(0, 200, 4) / plots.RPM, 2)
+            rows = {"mode": np.repeat([1.0, 2.0], 4), "speed": speed, "frequency": np.repeat([0.1, 0.48], 4), "damping": np.repeat(damping, 4), "whirl": np.repeat(whirl, 4)}
+            for name, values in rows.items():
+                file[f"campbell/{name}"] = values
+            file["excitations"], file["orders"], file["offsets"] = ["1x", "2x", "3x", "blades"], [1.0, 2.0, 3.0, 5.0], np.zeros(4)
+            made = rotating.campbell_figure(file)
+        self.check(made)
+        return made.axes[0], [text.get_text() for text in made.axes[0].get_legend().get_texts()]
+
+    def test_the_legend_has_what_is_drawn(self):
+        self.assertEqual(self.draw([0.0, 0.0], [0.02, 0.03])[1], ["in a line, axial, torsional"])
+        self.assertEqual(self.draw([1.0, -1.0], [0.02, -0.03])[1], ["forward whirl", "backward whirl", "grows"])
+
+    def test_modes_that_grow_are_marked(self):
+        for damping, marked in (([0.02, -0.03], 4), ([0.02, 1e-12], 0)):
+            crosses = [line for line in self.draw([1.0, 1.0], damping)[0].lines if line.get_marker() == "x" and len(line.get_xdata())]
+            self.assertEqual(sum(len(line.get_xdata()) for line in crosses), marked)
 
 
 class Studies(Style):
