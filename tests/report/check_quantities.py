@@ -141,7 +141,7 @@ def rounding():
                == ["444.8 kN 100.0 klbf; 400.0 kN to 500.0 kN", "3.05 m/h 10.0 ft/h", "6.9 MPa 1.0 ksi"] and "Mean torque on bit" not in rows, rows)
     captions = [figure.caption for figure in figures.orbits(run, motion, {0: "top", 1: "middle"})]
     expect("an orbit says how it is seen and how it turns", all("looking down the hole; mean precession 95 rpm, 1.00 of the surface speed" in text for text in captions), captions)
-    expect("numbers that round to zero have no sign", [quantities.fixed(-0.04, 1), quantities.fixed(-1.26, 1), quantities.plain(-0.0)] == ["0.0", "-1.3", "0"])
+    expect("numbers that round to zero have no sign", [quantities.fixed(-0.04, 1), quantities.fixed(-1.26, 1), quantities.plain(-0.0), quantities.percent(-0.0)] == ["0.0", "-1.3", "0", "0 %"])
 
 
 def pictures():

@@ -45,4 +45,4 @@ def plain(value, digits=4):
 def percent(value):
     if value is None or not math.isfinite(value):
         return "-"
-    return f"{100 * value:.2g} %" if value == 0 or abs(value) >= SMALLEST else f"< {100 * SMALLEST:g} %"
+    return f"{100 * value + 0.0:.2g} %" if value == 0 or abs(value) >= SMALLEST else f"< {100 * SMALLEST:g} %"
