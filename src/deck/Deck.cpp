@@ -13,6 +13,7 @@
 #include "common/Text.hpp"
 #include "deck/reading/FileName.hpp"
 #include "deck/reading/Overrides.hpp"
+#include "deck/reading/Units.hpp"
 #include "deck/reading/Validator.hpp"
 #include "deck/reading/XmlReader.hpp"
 
@@ -152,8 +153,22 @@ bool Deck::gives(const std::string& path) const {
   return places_->places.count(relative(path)) != 0;
 }
 
-std::string Deck::where(const std::string& path) const {
+Given Deck::given(const std::string& path, const std::string& si) const {
   const std::string below = relative(path);
+  Given found{below.substr(below.rfind('/') + 1), si, 1.0};
+  const auto place = places_->places.find(below);
+  if (place == places_->places.end()) return found;
+  std::string ignored;
+  const auto& [unit, diameter] = std::tie(place->second.unit, place->second.diameter);
+  if (!unit.empty()) found = {found.name, unit, toSi("1 " + unit, si, ignored).value_or(1.0)};
+  return diameter.empty() ? found : Given{diameter, found.unit, found.factor / 2.0};
+}
+
+std::string Deck::where(const std::string& path) const {
+  std::string below = relative(path);
+  const auto place = places_->places.find(below);
+  if (place != places_->places.end() && !place->second.diameter.empty())
+    below = below.substr(0, below.rfind('/') + 1) + place->second.diameter;
   return places_->nearest(below).text(file_) + ": /" + name_ + (below.empty() ? "" : "/" + below);
 }
 

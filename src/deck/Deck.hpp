@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "deck/Given.hpp"
 #include "deck/ListSpec.hpp"
 
 namespace tooljoint::deck {
@@ -71,8 +72,11 @@ class Deck {
   /// for an override
   /// "--set Contact/Stiffness=1: /Scene/Contact/Stiffness". `path` is "Contact/Stiffness" or a full
   /// one,
-  /// "/Scene/Contact/Stiffness".
+  /// "/Scene/Contact/Stiffness"; a radius given by its diameter is named so.
   std::string where(const std::string& path) const;
+
+  /// How the deck gives the quantity at `path`, whose SI unit is `si`.
+  Given given(const std::string& path, const std::string& si) const;
 
   /// where(path) + ": " + sentence, or + " " + sentence when the sentence continues the path with a
   /// verb in lower case ("is

@@ -34,8 +34,10 @@ constexpr int mostElements = 200000;
 /// Faults told at most: every stand of a string has those of its components.
 constexpr std::size_t mostFaults = 10;
 
-/// A length as messages tell it, without the rounding of a sum or of a diameter in inches.
-std::string metres(double length) { return formatNumber(std::round(length * 1e9) / 1e9); }
+/// "diameter" or "radius", whichever the deck gives.
+std::string across(const deck::Given& given) {
+  return given.name.find("Diameter") == std::string::npos ? "radius" : "diameter";
+}
 
 /// A place on one occurrence of a component.
 struct Place {
@@ -221,10 +223,17 @@ class Mesher {
     return gone;
   }
 
+  /// A component with segments: this one, or the first that it is made of.
+  const Component& solid(const std::string& name) const {
+    const Component& component = library_.at(name);
+    return component.parts.empty() ? component : solid(component.parts.front().name);
+  }
+
   void checkLength() {
+    const auto& length = solid(out_.instances.front().component).length;
     if (out_.length() > well_.length() + samePlace)
-      fault(where_, "The string is " + metres(out_.length()) + " m long, but the well ends at " +
-                        metres(well_.length()) + " m. Shorten the string or lengthen the well.");
+      fault(where_, "The string is " + length.text(out_.length()) + " long, but the well ends at " +
+                        length.text(well_.length()) + ". Shorten the string or lengthen the well.");
   }
 
   /// Smaller of the clearances on both sides of a node; the bore is looked up a hair inside the
@@ -253,11 +262,13 @@ class Mesher {
   void tooWide(int node, const Element& element, double bore) {
     const Instance& instance = out_.instances[static_cast<std::size_t>(element.instance)];
     if (!tooWide_.insert(element.instance).second) return;  // one line per occurrence
+    const Component& own = solid(instance.component);
     fault(library_.at(instance.component).where,
-          "The outer radius " + metres(element.section().outerRadius()) + " m of " + instance.path +
-              " does not fit into the hole of radius " + metres(bore) + " m at " +
-              metres(out_.nodes[static_cast<std::size_t>(node)].s) + " m (node " +
-              std::to_string(node + 1) + ").");
+          "The " + own.outer.name + " of " + instance.path + ", " +
+              own.outer.text(element.section().outerRadius()) + ", does not fit into the hole of " +
+              across(own.outer) + " " + own.outer.text(bore) + " at " +
+              own.length.text(out_.nodes[at(node)].s) + " (node " + std::to_string(node + 1) +
+              ").");
   }
 
   void setGauges() {
@@ -273,19 +284,23 @@ class Mesher {
     const double bore =
         std::min(well_.boreRadius(node.s - samePlace), well_.boreRadius(node.s + samePlace));
     const double clearance = bore - gauge.gaugeRadius;
-    const std::string gaugeText = "The gauge radius " + metres(gauge.gaugeRadius) + " m ";
+    const deck::Given& given = gauge.gauge;
+    const std::string gaugeText = "The " + given.name + " " + given.text(gauge.gaugeRadius) + " ",
+                      depth = solid(gauge.name).length.text(node.s);
     if (clearance < tightFit)
-      fault(gauge.where, gaugeText + "does not fit into the hole of radius " + metres(bore) +
-                             " m at " + metres(node.s) + " m (node " + std::to_string(index + 1) +
-                             ").");
+      fault(gauge.where, gaugeText + "does not fit into the hole of " + across(given) + " " +
+                             given.text(bore) + " at " + depth + " (node " +
+                             std::to_string(index + 1) + ").");
     const double body = bodyRadius(place, index), reach = gauge.gaugeRadius + gauge.gaugeOffset;
     if (reach < body + tightFit)
-      fault(gauge.where, gaugeText + "is below the outer radius of the body at " + metres(node.s) +
-                             " m, " + metres(body) + " m, so it would never touch.");
+      fault(gauge.where, gaugeText + "is below the outer " + across(given) + " of the body at " +
+                             depth + ", " + given.text(body) + ", so it would never touch.");
+    const deck::Given radius{"", given.unit,
+                             given.name == "Gauge Radius" ? given.factor : 2.0 * given.factor};
     if (gauge.gaugeOffset > bore)
-      fault(gauge.where, "The Gauge Offset " + metres(gauge.gaugeOffset) +
-                             " m is above the radius of the hole, " + metres(bore) +
-                             " m. Give the distance between the centres of gauge and string.");
+      fault(gauge.where, "The Gauge Offset " + radius.text(gauge.gaugeOffset) +
+                             " is above the radius of the hole, " + radius.text(bore) +
+                             ". Give the distance between the centres of gauge and string.");
     const int own = index < place.lastNode ? index : index - 1;
     double& widest = out_.instances[at(out_.elements[at(own)].instance)].gaugeRadius;
     widest = std::max(widest, gauge.gaugeRadius);
@@ -339,10 +354,11 @@ class Mesher {
       distance = std::abs(s - place.s);
       nearest = s - start;
     }
-    fault(place.component->where, std::string("The ") + parameter + " " + metres(place.position) +
-                                      " m is not at a node of the component; the nearest is at " +
-                                      metres(nearest) +
-                                      " m. Move it or change the number of Elements.");
+    const auto& length = solid(place.component->name).length;
+    fault(place.component->where,
+          std::string("The ") + parameter + " " + length.text(place.position) +
+              " is not at a node of the component; the nearest is at " + length.text(nearest) +
+              ". Move it or change the number of Elements.");
     return -1;
   }
 

@@ -19,6 +19,8 @@ struct Place {
   int line = 0;            ///< 1-based; 0 when there is none
   int overrideNumber = 0;  ///< 1-based; 0 for the file
   std::string overrideText;
+  std::string diameter = {};  ///< name of the parameter where it gives the radius that is looked up
+  std::string unit = {};      ///< of its quantity; "" for a number in SI
 
   bool before(const Place& other) const {
     return overrideNumber != other.overrideNumber ? overrideNumber < other.overrideNumber

@@ -309,6 +309,15 @@ std::optional<Unit> parseUnit(std::string_view text, std::string* fault, Reading
   return unit;
 }
 
+std::string unitText(const std::string& quantity) {
+  const std::string whole = trim(quantity);
+  double number = 0.0;
+  const char* end = whole.data() + whole.size();
+  const char* begin = whole.data() + (whole[0] == '+' ? 1 : 0);
+  const char* unit = std::from_chars(begin, end, number).ptr;
+  return trim(std::string_view(unit, static_cast<std::size_t>(end - unit)));
+}
+
 std::vector<std::string> unitsLike(const std::string& si) {
   static const std::vector<std::string> compounds = {
       "m/s",   "ft/s",  "m/h",    "ft/h",   "m/s2",      "m2",      "mm2",   "in2",     "kg/m3",

@@ -52,6 +52,9 @@ std::optional<Unit> parseUnit(std::string_view text, std::string* fault = nullpt
 /// clause for an error message.
 std::optional<double> toSi(std::string_view text, const std::string& si, std::string& fault);
 
+/// "in" of "5 in": what follows the number of a quantity, without blanks around it.
+std::string unitText(const std::string& quantity);
+
 /// Units of the table that may stand where `si` is asked for, the best known ones: {"m", "mm",
 /// "cm", "km", "ft", "in"}.
 std::vector<std::string> unitsLike(const std::string& si);

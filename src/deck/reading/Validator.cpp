@@ -174,10 +174,15 @@ class Validation {
     places_[key] = given.place;
     const std::string below = key.empty() ? "" : key + "/";
     for (const RawParameter& parameter : given.parameters()) {
-      places_[below + parameter.name] = parameter.place;
       const ParameterSpec* known = spec == nullptr ? nullptr : spec->findParameter(parameter.name);
-      if (known != nullptr && !known->radius.empty())
-        places_.emplace(below + known->radius, parameter.place);
+      Place place = parameter.place;
+      if (known != nullptr && known->kind == Kind::Real && parameter.type == "string")
+        place.unit = unitText(parameter.text);
+      places_[below + parameter.name] = place;
+      if (known != nullptr && !known->radius.empty()) {
+        place.diameter = parameter.name;
+        places_.emplace(below + known->radius, place);
+      }
       fillParameter(parameter, given, spec, path, out);
     }
     for (const RawList& sublist : given.lists()) {

@@ -104,13 +104,13 @@ std::string nameFault(const std::string& name) {
 /// Reads one component; the first fault ends it.
 class ComponentReader {
  public:
-  ComponentReader(const SegmentDefaults& standard, const Where& where)
-      : standard_(standard), where_(where) {}
+  ComponentReader(const SegmentDefaults& standard, const ComponentLists& lists)
+      : standard_(standard), lists_(lists) {}
 
   Component read(const std::string& name, const ParameterList& list) const {
     Component component;
     component.name = name;
-    component.where = where_(name);
+    component.where = lists_.where(name);
     if (const auto fault = nameFault(name); !fault.empty()) fail(name, fault);
     const bool own = hasSegment(list);
     const bool segments = list.isSublist("Segments");
@@ -121,12 +121,15 @@ class ComponentReader {
            "the array Parts.");
     if (own) {
       component.segments.push_back(segment(name, list, standard_));
+      setGiven(name, component);
     } else if (segments) {
       const SegmentDefaults standard = readDefaults(list, standard_);
       const ParameterList& pieces = list.sublist("Segments");
       for (auto it = pieces.begin(); it != pieces.end(); ++it)
         component.segments.push_back(segment(name + "/Segments/" + pieces.name(it),
                                              pieces.sublist(pieces.name(it)), standard));
+      if (pieces.begin() != pieces.end())
+        setGiven(name + "/Segments/" + pieces.name(pieces.begin()), component);
       if (component.segments.empty())
         fail(name + "/Segments", "The list is empty; a component needs at least one segment.");
     } else {
@@ -140,7 +143,19 @@ class ComponentReader {
 
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& sentence) const {
-    throw DeckError(where_(path) + ": " + sentence);
+    throw DeckError(lists_.where(path) + ": " + sentence);
+  }
+
+  void setGiven(const std::string& path, Component& component) const {
+    component.length = lists_.length(path + "/Length");
+    component.outer = lists_.length(path + "/Outer Radius");
+  }
+
+  [[noreturn]] void failInner(const std::string& path, double inner, double outer) const {
+    const auto& [own, around] =
+        std::pair(lists_.length(path + "/Inner Radius"), lists_.length(path + "/Outer Radius"));
+    fail(path + "/Inner Radius",
+         own.text(inner) + " must be below the " + around.name + ", " + around.text(outer) + ".");
   }
 
   static bool hasSegment(const ParameterList& list) {
@@ -179,10 +194,7 @@ class ComponentReader {
              "The section is missing: give Outer Radius (or Outer Diameter) and Inner Radius (or "
              "Inner Diameter), or Area, Inertia X, Inertia Y and Torsion Constant.");
       const double outer = list.get<double>("Outer Radius");
-      if (!(inner < outer))
-        fail(path + "/Inner Radius", "The inner radius " + formatNumber(inner) +
-                                         " m must be below the outer radius " +
-                                         formatNumber(outer) + " m.");
+      if (!(inner < outer)) failInner(path, inner, outer);
       const beam::Section circular = beam::Section::hollow(outer, inner, material);
       const bool shear =
           !list.isParameter("Shear Deformation") || list.get<bool>("Shear Deformation");
@@ -193,8 +205,7 @@ class ComponentReader {
       fail(path + "/Shear Deformation",
            "A general section has no shear deformation; remove this parameter.");
     const double outer = valueOr(list, "Outer Radius", 0.0);
-    if (inner > 0.0 && !(inner < outer))
-      fail(path + "/Inner Radius", "The inner radius must be below the outer radius.");
+    if (inner > 0.0 && !(inner < outer)) failInner(path, inner, outer);
     return beam::Section::general(list.get<double>("Area"), list.get<double>("Inertia X"),
                                   list.get<double>("Inertia Y"),
                                   list.get<double>("Torsion Constant"), material, outer, inner);
@@ -238,6 +249,7 @@ class ComponentReader {
       fail(name + "/Gauge Offset Direction",
            "It has no effect on a gauge without Gauge Offset. Give that, or leave it out.");
     if (!position) return;
+    component.gauge = lists_.length(name + "/Gauge Radius");
     component.gaugePosition = list.get<double>("Gauge Position");
     component.gaugeRadius = list.get<double>("Gauge Radius");
     component.gaugeOffset = valueOr(list, "Gauge Offset", 0.0);
@@ -253,7 +265,7 @@ class ComponentReader {
   }
 
   const SegmentDefaults& standard_;
-  const Where& where_;
+  const ComponentLists& lists_;
 };
 
 int wholeNumber(const std::string& number, const std::string& entry) {
@@ -332,15 +344,16 @@ std::string addComponent(Component component, ComponentLibrary& library) {
   return "The component is defined before (" + place->second.where + "); rename one of them.";
 }
 
-void readComponents(const ParameterList& list, const SegmentDefaults& standard, const Where& where,
-                    ComponentLibrary& library, std::vector<std::string>& faults) {
-  const ComponentReader reader(standard, where);
+void readComponents(const ParameterList& list, const SegmentDefaults& standard,
+                    const ComponentLists& lists, ComponentLibrary& library,
+                    std::vector<std::string>& faults) {
+  const ComponentReader reader(standard, lists);
   for (auto it = list.begin(); it != list.end(); ++it) {
     const std::string& name = list.name(it);
     if (!list.isSublist(name)) continue;
     try {
       const auto problem = addComponent(reader.read(name, list.sublist(name)), library);
-      if (!problem.empty()) faults.push_back(where(name) + ": " + problem);
+      if (!problem.empty()) faults.push_back(lists.where(name) + ": " + problem);
     } catch (const DeckError& error) {
       faults.emplace_back(error.what());
     }

@@ -5,13 +5,12 @@
 /// component library, an XML file of its own.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "deck/ListSpec.hpp"
+#include "deck/Deck.hpp"
 #include "substructures/beam/Element.hpp"
 
 namespace Teuchos {
@@ -57,6 +56,8 @@ struct Component {
   double gaugeDirection = 0.0;  ///< of the offset, from the tool face [rad]
   std::optional<SidedFeature> bend;
   std::optional<SidedFeature> pad;
+  /// How the deck gives the lengths of the first segment, its outer radius and the gauge.
+  deck::Given length{"Length", "m"}, outer{"Outer Radius", "m"}, gauge{"Gauge Radius", "m"};
 };
 
 /// What pieces take that give none of their own.
@@ -68,8 +69,14 @@ struct SegmentDefaults {
 /// Components by name.
 using ComponentLibrary = std::map<std::string, Component>;
 
-/// Tells where a parameter or list below the component lists stands; "" names the list itself.
-using Where = std::function<std::string(const std::string& path)>;
+/// Lists of components in a deck or a library.
+struct ComponentLists {
+  const deck::Deck& deck;
+  std::string below;  ///< path of the lists with a "/" at its end; "" for the root list
+
+  std::string where(const std::string& path) const { return deck.where(below + path); }
+  deck::Given length(const std::string& path) const { return deck.given(below + path, "m"); }
+};
 
 /// Description of one component, and of a library file, a list of components named by the user.
 deck::ListSpec componentParameters();
@@ -86,7 +93,7 @@ std::string addComponent(Component component, ComponentLibrary& library);
 /// Adds the components of a list to the library. Faults (radii, missing parameters, a name defined
 /// before ...) go to `faults`, one rendered line each; the component is then left out.
 void readComponents(const Teuchos::ParameterList& list, const SegmentDefaults& standard,
-                    const Where& where, ComponentLibrary& library,
+                    const ComponentLists& lists, ComponentLibrary& library,
                     std::vector<std::string>& faults);
 
 }  // namespace tooljoint::drillstring

@@ -62,23 +62,26 @@ std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit, bo
     const double below = whole - lengths.front();
     if (!(bit > below)) {
       if (asked) return {assembly.begin() + 1, assembly.end()};
-      throw DeckError(settings.assemblyWhere + ": the string below " +
-                      inQuotes("fill*" + assembly.front().name) + " is " + formatNumber(below) +
-                      " m long, but the bit is at " + formatNumber(bit) +
-                      " m. Give a deeper Bit Depth, or leave components out.");
+      throw DeckError(settings.bitAt(bit) + ", but the string below " +
+                      inQuotes("fill*" + assembly.front().name) + " is " +
+                      settings.depth.text(below) +
+                      " long. Give a deeper Bit Depth, or leave components out.");
     }
     assembly.front().count =
         std::max(1, static_cast<int>(std::ceil((bit - below) / lengths.front() - roundOff)));
   } else if (whole < bit * (1.0 - roundOff)) {
-    throw DeckError(settings.assemblyWhere + ": the Assembly is " + formatNumber(whole) +
-                    " m long and does not reach the surface from a bit at " + formatNumber(bit) +
-                    " m. Begin it with \"fill*" + assembly.front().name +
-                    "\", or set a smaller Bit Depth.");
+    throw DeckError(settings.bitAt(bit) + ", but the Assembly is " + settings.depth.text(whole) +
+                    " long and does not reach the surface from there. Begin it with \"fill*" +
+                    assembly.front().name + "\", or set a smaller Bit Depth.");
   }
   return assembly;
 }
 
 }  // namespace
+
+std::string StringSettings::bitAt(double bit) const {
+  return (bitDepth ? depthWhere + " is " : assemblyWhere + ": the bit is at ") + depth.text(bit);
+}
 
 deck::ListSpec drillstringParameters() {
   const beam::Material steel;
@@ -127,9 +130,7 @@ StringSettings readDrillstring(const deck::Deck& deck) {
   if (list.isParameter("Library")) {
     const deck::Deck library =
         deck.readNamed(here + "/Library", list.get<std::string>("Library"), libraryParameters());
-    readComponents(
-        library.list(), settings.defaults,
-        [&](const std::string& path) { return library.where(path); }, settings.library, faults);
+    readComponents(library.list(), settings.defaults, {library, ""}, settings.library, faults);
   }
   if (list.isParameter("Pipe Table")) {
     try {
@@ -141,11 +142,13 @@ StringSettings readDrillstring(const deck::Deck& deck) {
     }
   }
   if (list.isSublist("Components"))
-    readComponents(
-        list.sublist("Components"), settings.defaults,
-        [&](const std::string& path) { return deck.where(here + "/Components/" + path); },
-        settings.library, faults);
-  if (list.isParameter("Bit Depth")) settings.bitDepth = list.get<double>("Bit Depth");
+    readComponents(list.sublist("Components"), settings.defaults,
+                   {deck, std::string(here) + "/Components/"}, settings.library, faults);
+  if (list.isParameter("Bit Depth")) {
+    settings.bitDepth = list.get<double>("Bit Depth");
+    settings.depthWhere = deck.where(here + "/Bit Depth");
+    settings.depth = deck.given(here + "/Bit Depth", "m");
+  }
   for (const std::string& text : list.get<Teuchos::Array<std::string>>("Assembly")) {
     try {
       settings.assembly.push_back(parseEntry(text));
@@ -167,6 +170,10 @@ DrillString buildDrillString(const StringSettings& settings, const well::Well& w
   const bool asked = bit.has_value();
   if (!bit) bit = settings.bitDepth;
   if (!bit && fills) bit = well.length();
+  if (!asked && settings.bitDepth && *bit > well.length() + roundOff * well.length())
+    throw DeckError(settings.bitAt(*bit) + ", but the well ends at " +
+                    settings.depth.text(well.length()) +
+                    ". Set a smaller Bit Depth, or lengthen the well.");
   const auto assembly = bit ? filled(settings, *bit, asked) : settings.assembly;
   DrillString string =
       buildDrillString(settings.library, assembly, well, settings.assemblyWhere, bit);

@@ -21,8 +21,13 @@ struct StringSettings {
   std::string assemblyWhere;            ///< where the assembly stands in the deck, for messages
   std::optional<double> bitDepth;       ///< [m]; none: where the assembly ends, or the end of the
                                         ///< well for one that fills
+  std::string depthWhere;               ///< where the depth stands in the deck, for messages
+  deck::Given depth{"Bit Depth", "m"};  ///< how the deck gives it
   SegmentDefaults defaults;             ///< of components that give none
   double toolFace = 0.0;                ///< [rad]
+
+  /// "deck.xml:10: /well/Drillstring/Bit Depth is 7900 ft", the beginning of a message.
+  std::string bitAt(double bit) const;
 };
 
 /// Description of the list `Drillstring`.

@@ -43,12 +43,31 @@ TEST(Radius, IsHalfOfTheDiameter) {
   EXPECT_FALSE(list.isParameter("Outer Diameter"));
   EXPECT_TRUE(deck.gives("a/Outer Radius"));
   EXPECT_EQ(deck.where("a/Inner Radius"),
-            "deck.xml:4: /s/a/Inner Radius");  // the line of the diameter
+            "deck.xml:4: /s/a/Inner Diameter");  // what the deck holds
+  EXPECT_EQ(deck.given("a/Outer Radius", "m").text(0.0254), "2 in");
+  EXPECT_EQ(deck.given("a/Outer Radius", "m").name, "Outer Diameter");
+  EXPECT_EQ(deck.given("a/Inner Radius", "m").text(0.05), "0.1 m");
   EXPECT_DOUBLE_EQ(parsed(parameter("Outer Radius", "double", "0.1"), {"a/Inner Diameter=3 cm"})
                        .list()
                        .sublist("a")
                        .get<double>("Inner Radius"),
                    0.015);
+}
+
+TEST(Given, IsTheUnitOfTheDeckOrSi) {
+  const auto given = [](const std::string& radius) {
+    return parsed(parameter("Outer Radius", "string", radius)).given("a/Outer Radius", "m");
+  };
+  EXPECT_EQ(given("3 in").text(0.1539875), "6.0625 in");
+  EXPECT_EQ(given("+3.5e1 mm").text(0.1), "100 mm");
+  EXPECT_EQ(given("3in").name, "Outer Radius");
+  const Deck plain = parsed(parameter("Outer Radius", "double", "0.1"));
+  EXPECT_EQ(plain.given("a/Outer Radius", "m").text(0.3048 / 3), "0.1016 m");
+  EXPECT_EQ(plain.given("a/Inner Radius", "m").text(1), "1 m") << "not given";
+  EXPECT_EQ(parsed(parameter("Outer Radius", "double", "0.1"), {"a/Outer Radius=1 ft"})
+                .given("a/Outer Radius", "m")
+                .text(0.6096),
+            "2 ft");
 }
 
 TEST(Radius, AndDiameterExcludeEachOther) {

@@ -167,8 +167,10 @@ TEST(Mesh, RefusesAFillThatCannotBe) {
     EXPECT_NE(error.find(words), std::string::npos) << error;
   };
   refused("bit, fill*stand", "30", "\"fill*stand\" is not the first entry");
-  refused("fill*stand, 20*bit", "30", "is 40 m long, but the bit is at 30 m");
-  refused("2*stand, bit", "30", "does not reach the surface from a bit at 30 m");
+  refused("fill*stand, 20*bit", "30",
+          "/Drillstring/Bit Depth is 30 m, but the string below \"fill*stand\" is 40 m long");
+  refused("2*stand, bit", "30",
+          "/Drillstring/Bit Depth is 30 m, but the Assembly is 20 m long and does not reach");
   refused("fill*stand, bit", "2000", "but the well ends at 1000 m");
   refused("fill*stnd, bit", "30", "Did you mean \"stand\"?");
   EXPECT_NE(errorOf(list("Components", tube("pipe", 9.0, 3, 0.06, 0.05) +
@@ -271,10 +273,11 @@ TEST(MeshErrors, SayWhatIsWrongAndWhere) {
   has(errorOf(components(pipe) + array("Assembly", "12*pipe"), verticalWell(100.0)),
       "The string is 108 m long, but the well ends at 100 m.");
   has(errorOf(components(pipe) + array("Assembly", "pipe"), verticalWell(100.0, 0.05)),
-      "The outer radius 0.06 m of pipe 1 does not fit into the hole of radius 0.05 m at 0 m (node "
+      "The Outer Radius of pipe 1, 0.06 m, does not fit into the hole of radius 0.05 m at 0 m "
+      "(node "
       "1).");
   has(errorOf(components(tube("pipe", 9.0, 3, 0.06, 0.06)) + array("Assembly", "pipe")),
-      "/pipe/Inner Radius: The inner radius 0.06 m must be below the outer radius 0.06 m.");
+      "/pipe/Inner Radius: 0.06 m must be below the Outer Radius, 0.06 m.");
   has(errorOf(components(pipe) + array("Assembly", "1000000000*pipe"), verticalWell(100.0)),
       "more than 200000 elements");
 }
@@ -293,7 +296,7 @@ TEST(MeshErrors, Gauges) {
       "The Gauge Position 0.9 m is not at a node of the component; the nearest is at 1 m.");
   has(errorOf(gauged("3", "0.1")), "is not at a node of the component; the nearest is at 2 m.");
   has(errorOf(gauged("1", "0.11")),
-      "The gauge radius 0.11 m does not fit into the hole of radius 0.108 m at 1 m (node 2).");
+      "The Gauge Radius 0.11 m does not fit into the hole of radius 0.108 m at 1 m (node 2).");
   has(errorOf(gauged("1", "0.07")), "is below the outer radius of the body");
   has(errorOf(list("Components", tube("stab", 2.0, 2, 0.08, 0.03, real("Gauge Position", "1"))) +
               array("Assembly", "stab")),
