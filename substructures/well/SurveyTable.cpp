@@ -25,18 +25,39 @@ struct ColumnKind {
   std::vector<std::string> headings;
 };
 const std::array<ColumnKind, 3> kinds = {
-    {{"measured depth", "m", {"md", "measured depth", "depth"}},
+    {{"measured depth", "m", {"md", "measured depth", "meas depth", "depth"}},
      {"inclination", "rad", {"inc", "incl", "inclination"}},
      {"azimuth", "rad", {"azi", "az", "azim", "azimuth"}}}};
+/// Words of a heading that name no other column: the hole, and the north of an azimuth, which turns
+/// the well as a whole.
+const std::array<const char*, 2> ofTheHole = {"hole", "wellbore"};
+const std::array<const char*, 7> norths = {"true", "grid", "magnetic", "mag", "tn", "gn", "mn"};
 
 /// Factor to SI of a unit that measures what a column of this kind holds.
 std::optional<double> unitFactor(const ColumnKind& kind, const std::string& unit) {
-  for (const std::string& spelling : {unit, lower(unit)}) {
+  std::string plain = unit.rfind(degreeSign, 0) == 0 ? degreeSign : unit;  // "(deg TN)" too
+  while (!plain.empty() && plain.back() == '.') plain.pop_back();
+  for (const std::string& spelling : {plain, lower(plain)}) {
     const auto found = deck::parseUnit(spelling);
     if (found && !spelling.empty() && found->dimension == deck::parseUnit(kind.si)->dimension)
       return found->factor;
   }
   return std::nullopt;
+}
+
+/// Words of a heading, "Meas. Depth" -> {"meas", "depth"}.
+std::vector<std::string> wordsOf(const std::string& heading) {
+  std::string text = lower(heading);
+  text.erase(std::remove(text.begin(), text.end(), '.'), text.end());
+  std::replace(text.begin(), text.end(), '_', ' ');
+  std::vector<std::string> words = tooljoint::split(trim(text), ' ');
+  words.erase(std::remove(words.begin(), words.end(), ""), words.end());
+  return words;
+}
+
+template <std::size_t N>
+bool isOneOf(const std::string& word, const std::array<const char*, N>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 /// "[deg]" and "(deg)" -> "deg"
@@ -88,12 +109,51 @@ class SurveyReader {
  private:
   deck::DelimitedText split() {
     try {
-      return deck::splitDelimited(withoutPreamble(readInput(file_, largestSurvey)));
+      return deck::splitDelimited(withoutPreamble(withTabs(readInput(file_, largestSurvey))));
     } catch (const FileError& error) {
       throw DeckError(std::string("The survey file ") + error.what());
     } catch (const DeckError& error) {
       throw DeckError("The survey file " + file_ + " " + error.what());
     }
+  }
+
+  /// A table separated by blanks alone has tabs in their place.
+  std::string withTabs(const std::string& text) {
+    if (text.find_first_of(",;\t") != std::string::npos) return text;
+    std::vector<std::string> lines = tooljoint::split(text, '\n');
+    std::size_t stations = 0;
+    for (std::string& line : lines) {
+      if (trim(line).empty() || trim(line)[0] == '#') continue;
+      const auto cells = blankCells(trim(line));
+      if (cells.size() >= kinds.size() && deck::cellNumber(cells[0])) ++stations;
+      line = join(cells, "\t");
+    }
+    blanks_ = stations > 1;
+    return blanks_ ? join(lines, "\n") : text;
+  }
+
+  /// Split at two blanks and more where that gives all columns, else at each; a unit in brackets
+  /// stays with its name.
+  static std::vector<std::string> blankCells(const std::string& line) {
+    std::vector<std::string> wide(1), narrow;
+    std::size_t blanks = 0;
+    for (const std::string& word : tooljoint::split(line, ' ')) {
+      if (word.empty()) {
+        ++blanks;
+        continue;
+      }
+      const bool unit = word[0] == '[' || word[0] == '(';
+      if (blanks > 0 && !wide.back().empty() && !unit)
+        wide.push_back(word);
+      else
+        wide.back() += (wide.back().empty() ? "" : " ") + word;
+      if (unit && !narrow.empty())
+        narrow.back() += " " + word;
+      else
+        narrow.push_back(word);
+      blanks = 0;
+    }
+    return wide.size() >= kinds.size() ? wide : narrow;
   }
 
   /// Lines of text above a header that names all columns (well, company, datum) become comments.
@@ -124,6 +184,12 @@ class SurveyReader {
       if (const int which = columnOf(heading(cell)); which >= 0)
         seen[static_cast<std::size_t>(which)] = true;
     return seen[0] && seen[1] && seen[2];
+  }
+
+  static bool namesNorth(const std::string& heading) {
+    const auto words = wordsOf(heading);
+    return std::any_of(words.begin(), words.end(),
+                       [](const auto& word) { return isOneOf(word, norths); });
   }
 
   /// A cell of the header without its unit.
@@ -188,6 +254,12 @@ class SurveyReader {
         continue;
       }
       const auto k = static_cast<std::size_t>(which);
+      const bool toNorth = namesNorth(heading(cells[i]));
+      if (seen[k] && toNorth) {  // the azimuth from another north
+        ignored_.push_back(cells[i]);
+        continue;
+      }
+      if (toNorth) azimuth_ = cells[i];
       if (seen[k])
         fault(std::string("the column ") + kinds[k].name + " occurs twice in the header.");
       seen[k] = true;
@@ -203,9 +275,13 @@ class SurveyReader {
   }
 
   static int columnOf(const std::string& heading) {
-    std::string name = lower(trim(heading));
-    std::replace(name.begin(), name.end(), '_', ' ');
-    while (!name.empty() && name.back() == '.') name.pop_back();
+    std::vector<std::string> words = wordsOf(heading);
+    words.erase(std::remove_if(words.begin(), words.end(),
+                               [](const auto& word) {
+                                 return isOneOf(word, ofTheHole) || isOneOf(word, norths);
+                               }),
+                words.end());
+    const std::string name = join(words, " ");
     for (std::size_t k = 0; k < kinds.size(); ++k)
       if (std::find(kinds[k].headings.begin(), kinds[k].headings.end(), name) !=
           kinds[k].headings.end())
@@ -246,7 +322,18 @@ class SurveyReader {
   std::optional<double> number(std::size_t k, std::string cell) {
     if (k > 0 && endsInDegreeSign(cell) && factor_[k] != 1.0)
       cell = trim(cell.substr(0, cell.size() - degreeSign.size()));
-    const auto read = deck::cellNumber(cell);
+    double factor = factor_[k];
+    if (const auto found = unitBehind(k, cell)) {
+      if (given_[k] && *found != factor) {
+        fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) +
+              " has another unit than the header.");
+        return std::nullopt;
+      }
+      factor = *found;
+      unitsInCells_ = true;
+      cell = cell.substr(0, cell.size() - deck::unitText(cell).size());
+    }
+    const auto read = deck::cellNumber(trim(cell));
     if (!read) {
       fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) +
             " is not a finite number.");
@@ -256,7 +343,15 @@ class SurveyReader {
       fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) + wrong);
       return std::nullopt;
     }
-    return read->value * factor_[k];
+    return read->value * factor;
+  }
+
+  /// Factor of the unit behind the number of a cell, "200 ft".
+  static std::optional<double> unitBehind(std::size_t k, const std::string& cell) {
+    if (deck::cellNumber(cell) || cell.empty() ||
+        !std::isalpha(static_cast<unsigned char>(cell.back())))
+      return std::nullopt;
+    return unitFactor(kinds[k], deck::unitText(cell));
   }
 
   void station(const std::vector<std::string>& cells) {
@@ -294,9 +389,12 @@ class SurveyReader {
   void remark(const deck::DelimitedText& text) {
     std::vector<std::string> how;
     if (text.separator != ',')
-      how.push_back(text.separator == ';' ? "cells separated by semicolons"
-                                          : "cells separated by tabs");
+      how.push_back(std::string("cells separated by ") + (text.separator == ';' ? "semicolons"
+                                                          : blanks_             ? "blanks"
+                                                                                : "tabs"));
     if (marks_.commas()) how.emplace_back("decimal commas");
+    if (unitsInCells_) how.emplace_back("units in the cells");
+    if (!azimuth_.empty()) how.push_back("azimuth from " + inQuotes(azimuth_));
     std::vector<std::string> left;
     if (!ignored_.empty())
       left.push_back((ignored_.size() == 1 ? "column " : "columns ") + quotedList(ignored_));
@@ -324,6 +422,8 @@ class SurveyReader {
   bool started_ = false, afterHeader_ = false;
   int line_ = 0;
   deck::DecimalMarks marks_;
+  std::string azimuth_;  ///< heading of an azimuth that names its north
+  bool unitsInCells_ = false, blanks_ = false;
   std::vector<std::string> ignored_, faults_;
   SurveyTable table_;
 };

@@ -52,7 +52,7 @@ def straight():
             torque = None if turn is None else 0.31 * turn + 200 * noise.standard_normal()
             if operation == "Rotate off bottom" and stands % 20 == 0:
                 hook = None  # a gap
-            lines.append(f"{9.5 * stands / 0.3048:.9f}; n/a; {operation}; {'' if hook is None else repr(hook / (1e3 * 9.80665))}; {'' if torque is None else repr(torque / 1355.8179483314004)}")
+            lines.append(f"{9.5 * stands / 0.3048:.9f}; n/a; {operation if stands % 2 else operation.upper()}; {'' if hook is None else repr(hook / (1e3 * 9.80665))}; {'' if torque is None else repr(torque / 1355.8179483314004)}")
             if hook is not None:
                 matrix.append((drag / 1e4, 1 / 1e4))
                 right.append((hook - along) / 1e4)

@@ -86,16 +86,20 @@ class Reader {
   void row(const deck::DelimitedRow& row) {
     Measurement one;
     const auto depth = number(row, Depth);
-    one.operation = cell(row, Operation);
     if (!depth || !(*depth > 0.0))
       return fault(row.line, "the bit depth must be a positive number.");
     one.bit = *depth;
-    if (std::count(operations_.begin(), operations_.end(), one.operation) == 0) {
-      const std::string meant = closest(one.operation, operations_);
-      return fault(row.line, "the operation " + inQuotes(one.operation) + " is unknown. " +
+    const std::string name = cell(row, Operation);
+    const auto known =
+        std::find_if(operations_.begin(), operations_.end(),
+                     [&](const std::string& operation) { return lower(operation) == lower(name); });
+    if (known == operations_.end()) {
+      const std::string meant = closest(name, operations_);
+      return fault(row.line, "the operation " + inQuotes(name) + " is unknown. " +
                                  (meant.empty() ? "" : "Did you mean " + inQuotes(meant) + "? ") +
                                  "Known are " + quotedList(operations_) + ".");
     }
+    one.operation = *known;
     one.hookLoad = number(row, HookLoad);
     one.surfaceTorque = number(row, Torque);
     if (one.hookLoad || one.surfaceTorque) found_.push_back(one);

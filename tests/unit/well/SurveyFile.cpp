@@ -109,6 +109,51 @@ TEST(SurveyFile, SemicolonsWithDecimalCommasAndTabs) {
   }
 }
 
+/// Two stations, the second at 200 m, 10 and 20 degrees, and what is said of them.
+std::string understood(const std::string& text) {
+  const CsvFile file(text);
+  const auto table = readSurveyTable(file.name());
+  EXPECT_EQ(table.stations.size(), 2U) << text;
+  EXPECT_NEAR(table.stations[1].depth, 200.0, 1e-9) << text;
+  EXPECT_NEAR(table.stations[1].inclination, 10.0 * degree, 1e-12) << text;
+  EXPECT_NEAR(table.stations[1].azimuth, 20.0 * degree, 1e-12) << text;
+  return table.remarks.empty() ? "" : table.remarks[0].substr(file.name().size() + 2);
+}
+
+TEST(SurveyFile, HeadingsOfServiceCompanies) {
+  EXPECT_EQ(understood("M.D. (m.),Inc. (deg.),Azi. (deg.)\n0,0,0\n200,10,20\n"), "");
+  EXPECT_EQ(understood("Meas. Depth [m],Hole Inclination [deg],Hole Azimuth\n0,0,0\n200,10,20\n"),
+            "");
+  EXPECT_EQ(understood("MD,Incl,Azimuth (\xC2\xB0TN)\n0,0,0\n200,10,20\n"), "");
+  EXPECT_EQ(understood("MD,Incl,Azi True,Azi Grid\n0,0,0,0\n200,10,20,19\n"),
+            "2 stations, azimuth from \"Azi True\"; not read: column \"Azi Grid\"");
+  EXPECT_EQ(understood("MD,Incl,Grid_Azimuth\n0,0,0\n200,10,20\n"),
+            "2 stations, azimuth from \"Grid_Azimuth\"");
+  EXPECT_NE(errorOf("MD,Inc,Azi,Azimuth\n0,0,0,0\n").find("occurs twice"), std::string::npos);
+}
+
+TEST(SurveyFile, BlanksBetweenCells) {
+  const std::string said = "2 stations, cells separated by blanks";
+  EXPECT_EQ(understood("MD INC AZI\n0 0 0\n200 10 20\n"), said);
+  EXPECT_EQ(understood("MD [m] INC [deg] AZI [deg]\r\n0 0 0\r\n200  10 20\r\n"), said);
+  EXPECT_EQ(understood("  Measured Depth   Inclination  Azimuth\n      0.0   0.0   0.0\n    200.0  "
+                       "10.0  20.0\n"),
+            said);
+  EXPECT_EQ(understood("0 0 0\n200 10 20\n"), said);
+  EXPECT_NE(errorOf("Measured Depth Inc Azi\n0 0 0\n200 10 20\n").find("found 3 columns where 4"),
+            std::string::npos);
+}
+
+TEST(SurveyFile, UnitsInCells) {
+  EXPECT_EQ(understood("MD,Inc,Azi\n0 ft,0 deg,0 deg\n656.16797900262467 ft,10deg,20 deg\n"),
+            "2 stations, units in the cells");
+  EXPECT_NE(errorOf("MD [ft],Inc,Azi\n0,0,0\n200 m,10,20\n")
+                .find("F:3: the measured depth \"200 m\" has another unit than the header"),
+            std::string::npos);
+  EXPECT_NE(errorOf("MD,Inc,Azi\n0,0,0\n200 kg,10,20\n").find("\"200 kg\" is not a finite number"),
+            std::string::npos);
+}
+
 TEST(SurveyFile, DegreeSignsInHeaderAndCells) {
   for (const std::string degreeSign : {"\xC2\xB0", "\xB0"}) {
     const CsvFile file("MD [ft];Inc [" + degreeSign + "];Azi" + degreeSign + "\n0;0;0\n100;2.5" +
