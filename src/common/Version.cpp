@@ -11,9 +11,12 @@
 
 #include "common/Text.hpp"
 
-// The build defines both for this one file.
+// The build defines them for this one file.
 #ifndef TOOLJOINT_VERSION
 #define TOOLJOINT_VERSION "0.1.0"
+#endif
+#ifndef TOOLJOINT_SUNDIALS
+#define TOOLJOINT_SUNDIALS ""
 #endif
 #ifndef TOOLJOINT_GIT_HASH
 #define TOOLJOINT_GIT_HASH "unknown"
@@ -46,6 +49,8 @@ std::string hdf5Version() {
          std::to_string(H5_VERS_RELEASE);
 }
 
+std::string sundialsVersion() { return TOOLJOINT_SUNDIALS; }
+
 std::string blasLibrary() {
   Dl_info found{};
   void* product = dlsym(RTLD_DEFAULT, "dgemm_");
@@ -59,7 +64,8 @@ std::string blasLibrary() {
 std::string versionText() {
   return "tooljoint " + programVersion() + " (git " + gitHash() + ")\nTrilinos  " +
          trilinosVersion() + "\nMPI       " + mpiVersion() + "\nHDF5      " + hdf5Version() +
-         "\nBLAS      " + blasLibrary() + "\n";
+         (sundialsVersion().empty() ? "" : "\nSUNDIALS  " + sundialsVersion()) + "\nBLAS      " +
+         blasLibrary() + "\n";
 }
 
 }  // namespace tooljoint

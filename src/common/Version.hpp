@@ -13,6 +13,7 @@ std::string gitHash();  ///< of the source this was built from; "unknown" outsid
 std::string trilinosVersion();  ///< "13.2.0"
 std::string mpiVersion();       ///< first line of the MPI library's own version text
 std::string hdf5Version();      ///< "1.10.8"
+std::string sundialsVersion();  ///< "6.4.1"; "" where the program is built without it
 /// File of the BLAS in use with its folder, "openblas-serial/libblas.so.3"; "unknown" without one.
 std::string blasLibrary();
 

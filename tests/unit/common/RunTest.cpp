@@ -147,6 +147,8 @@ TEST(Version, NamesEverythingARunStandsOn) {
                                      hdf5Version(), blasLibrary()}) {
     EXPECT_NE(text.find(version), std::string::npos);
   }
+  EXPECT_EQ(text.find("SUNDIALS  " + sundialsVersion() + "\n") != std::string::npos,
+            !sundialsVersion().empty());
 }
 
 }  // namespace RunTest
