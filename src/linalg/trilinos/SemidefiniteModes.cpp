@@ -79,13 +79,22 @@ double middle(const Sparse& K, const Sparse& M) {
   return count > 0 ? std::exp(sum / count) : 1.0;
 }
 
+/// The dof that moves most in the motion without A.
+int mostMovedByKernel(const Matrix& A) {
+  const auto spectrum = symmetricPairs(A);
+  Eigen::Index least = 0, dof = 0;
+  spectrum.values.cwiseAbs().minCoeff(&least);
+  spectrum.vectors.col(least).cwiseAbs().maxCoeff(&dof);
+  return static_cast<int>(dof);
+}
+
 /// Modes from one shift: W' (K - sigma M)^-1 W y = mu y.
-EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sigma, int count) {
-  const DenseLu factor(K - sigma * Matrix(M));
+EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sigma, int count,
+                   const DofNamer& name) {
+  const Matrix A = K - sigma * Matrix(M);
+  const DenseLu factor(A);
   if (!(factor.reciprocalCondition() > 1e-18))
-    throw ModelError(
-        "Stiffness and mass are singular together: some dof has neither mass nor stiffness, or the "
-        "model has the same constraint twice.");
+    throw SingularPencil(nameOf(name, mostMovedByKernel(A)));
   Matrix answer = factor.solve(W);
   answer += factor.solve(Matrix(W - (K * answer - sigma * (M * answer))));
   Matrix H = W.transpose() * answer;
@@ -145,11 +154,12 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count,
     none.method = "no mass";
     return none;
   }
-  EigenPairs modes = shifted(dense, m, W, options.shift.value_or(-middle(k, m)), count);
+  EigenPairs modes =
+      shifted(dense, m, W, options.shift.value_or(-middle(k, m)), count, options.name);
   if (count > 0 && modes.count() > 0 &&
       !options.shift) {  // again with a shift among what is wanted
     const double wanted = std::abs(modes.values[modes.count() - 1]);
-    if (wanted > 0) modes = shifted(dense, m, W, -wanted, count);
+    if (wanted > 0) modes = shifted(dense, m, W, -wanted, count, options.name);
   }
   modes.method = "dense, singular mass";
   modes.vectors = (scale.asDiagonal() * modes.vectors).eval();

@@ -3,9 +3,23 @@
 /// Modes of pencils whose mass is singular: massless dofs, Lagrange multipliers.
 #pragma once
 
+#include <string>
+
+#include "common/Error.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
 namespace tooljoint::linalg {
+
+/// K and M are singular together: a motion has neither mass nor stiffness.
+struct SingularPencil : ModelError {
+  explicit SingularPencil(const std::string& mostMoved)
+      : ModelError(
+            "Stiffness and mass are singular together, most strongly in " + mostMoved +
+            ": some dof has neither mass nor stiffness, or the model has the same constraint "
+            "twice."),
+        dof(mostMoved) {}
+  std::string dof;  ///< that moves most
+};
 
 /// The `count` lowest finite modes (all of them when there are fewer, or count < 0) of K phi =
 /// lambda M phi with K symmetric of any inertia and M symmetric positive semi-definite, phi' M phi
@@ -14,8 +28,8 @@ namespace tooljoint::linalg {
 ///     W' (K - sigma M)^-1 W y = y / (lambda - sigma),   phi = (K - sigma M)^-1 W y,
 ///
 /// whose zero eigenvalues are the infinite ones of the pencil; lambda is then the Rayleigh quotient
-/// of phi. ModelError: sizes differ, K or M unsymmetric or not finite, M indefinite (dof named), K
-/// and M singular together. ConvergenceError: residuals above options.tolerance.
+/// of phi. ModelError: sizes differ, K or M unsymmetric or not finite, M indefinite (dof named).
+/// SingularPencil: K and M singular together. ConvergenceError: residuals above options.tolerance.
 EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count,
                              const EigenOptions& options = {});
 

@@ -71,8 +71,10 @@ int countZeroEnergy(const Sparse& K, const Sparse& Phi, const Matrix& q,
 int zeroEnergyOfWhole(const PartView& part) {
   const Sparse &K = part.symmetricStiffness(), &M = part.mass();
   if (!linalg::suitsMumps(K) || linalg::hasMasslessDofs(M)) {
+    linalg::EigenOptions options;
+    options.name = model::namer(part.model());
     const linalg::EigenPairs lowest = linalg::lowestFiniteModes(
-        K, M, std::min(zeroEnergyCandidates, part.model().size()), linalg::EigenOptions());
+        K, M, std::min(zeroEnergyCandidates, part.model().size()), options);
     return countZeroEnergy(K, lowest.vectors, lowest.values);
   }
   const double bound = zeroEnergy * K.cwiseAbs().sum() / M.diagonal().sum();
@@ -230,6 +232,8 @@ bool lacksMass(const PartView& part, const ProjectedMatrices& reduced) {
 linalg::EigenPairs modesWithoutMass(const PartView& part, const ProjectedMatrices& reduced) {
   try {
     return linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
+  } catch (const linalg::SingularPencil&) {
+    throw;
   } catch (const ModelError& error) {
     throw ModelError(part.who() + "its reduced mass matrix is not positive semidefinite. " +
                      error.what());
@@ -239,6 +243,7 @@ linalg::EigenPairs modesWithoutMass(const PartView& part, const ProjectedMatrice
 void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
                       BasisReport& report) {
   const Stage stage("check of the frequencies");
+  report.zeroEnergyFull = zeroEnergyOfWhole(part);
   // Without forces on the interface: their coordinates are zero then.
   const Eigen::Index size = basis.vectors.cols() - basis.forces();
   const Matrix m = Matrix(reduced.mass).topLeftCorner(size, size);
@@ -274,7 +279,6 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
     report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
     report.zeroEnergyReduced = countZeroEnergy(K, basis.vectors, shapes, pairs.values);
   }
-  report.zeroEnergyFull = zeroEnergyOfWhole(part);
 }
 
 }  // namespace
@@ -294,7 +298,14 @@ void checkBasis(const PartView& part, const Basis& basis, const ProjectedMatrice
     report.remarks.push_back(
         "static response to loads on boundary dofs is not exact: largest relative difference " +
         formatNumber(report.staticDefect));
-  checkFrequencies(part, basis, reduced, report);
+  try {
+    checkFrequencies(part, basis, reduced, report);
+  } catch (const linalg::SingularPencil& singular) {
+    report.remarks.push_back("its frequencies alone were not checked: a motion in which " +
+                             singular.dof +
+                             " moves most has neither mass nor stiffness. Its neighbours have to "
+                             "hold it, or give it mass");
+  }
   if (report.zeroEnergyFull >= 0 && report.zeroEnergyReduced < report.zeroEnergyFull)
     report.remarks.push_back("the part has " + std::to_string(report.zeroEnergyFull) +
                              " zero-energy modes and the reduced part " +

@@ -69,11 +69,12 @@ std::string BasisReport::table(bool all) const {
                  orthogonality, massDefect, stiffnessDefect,
                  structureEnforced ? " (rounding removed)" : "");
   if (checked) {
-    text += format(
-        "  rank {} of {}, condition {:.2e}; static exactness {}; zero-energy modes {} of the part, "
-        "{} reduced\n",
-        rank, reducedSize(), conditioning, number(staticDefect, "{:.1e}"), zeroEnergyFull,
-        zeroEnergyReduced);
+    text += format("  rank {} of {}, condition {:.2e}; static exactness {}\n", rank, reducedSize(),
+                   conditioning, number(staticDefect, "{:.1e}"));
+  }
+  if (largestOmega >= 0) {
+    text += format("  zero-energy modes: {} of the part, {} reduced\n", zeroEnergyFull,
+                   zeroEnergyReduced);
     const std::string step = explicitStep > 0 ? format("{:.3e} s", explicitStep) : "any length";
     text += format("  largest frequency of the reduced part {:.6g} Hz: {}\n", largestOmega / twoPi,
                    explicitStep < 0 ? "not for RK4, the mass matrix is singular"

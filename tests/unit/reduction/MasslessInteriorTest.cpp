@@ -120,6 +120,57 @@ TEST(MasslessBoundary, PassesThrough) {
   EXPECT_LT((found - exact).cwiseAbs().maxCoeff(), 1e-9 * exact.maxCoeff());
 }
 
+/// The bar with a second component at every node, a shaft that twists: stiffness as the bar, and
+/// `inertia` times its mass.
+model::Substructure withTwist(const model::Substructure& bar, double inertia) {
+  auto out = bar;
+  auto& m = out.model;
+  m.componentNames = {"u", "theta_x"};
+  m.dofs.clear();
+  for (const auto& label : bar.model.dofs)
+    for (int c = 0; c < 2; ++c) m.dofs.push_back(model::DofLabel::physical(label.entity, c));
+  const auto twice = [](const Sparse& A, double factor) {
+    Triplets entries;
+    for (int i = 0; i < A.rows(); ++i)
+      for (Sparse::InnerIterator it(A, i); it; ++it) {
+        entries.emplace_back(2 * i, 2 * it.col(), it.value());
+        if (factor > 0) entries.emplace_back(2 * i + 1, 2 * it.col() + 1, factor * it.value());
+      }
+    return samples::square(2 * static_cast<int>(A.rows()), entries);
+  };
+  m.mass = twice(Sparse(bar.model.mass), inertia);
+  m.stiffness = {{"elastic", twice(bar.model.stiffnessAt(0), 1.0), 0}};
+  samples::complete(out);
+  return out;
+}
+
+/// A free bar without inertia about its axis twists as a whole without mass and stiffness: singular
+/// alone, regular with a neighbour, whose frequencies of twist it does not change.
+TEST(MasslessPart, AFreeMotionWithoutMassIsForTheNeighboursToHold) {
+  const auto upper = samples::bar("upper", 1, 8, 3000.0, 2.0, {1});
+  std::vector<model::Substructure> parts{withTwist(upper, 0.5),
+                                         withTwist(samples::bar("light", 9, 4, 3000.0, 2.0), 0.0)};
+  for (auto& part : parts) samples::classify(part, {9});
+  for (const int modes : {2, -1}) {
+    const auto synthesis = checks::synthesise(parts, "Craig-Bampton", modes);
+    const auto& remarks = synthesis.parts[1].report.remarks;
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_NE(remarks[0].find("theta_x of node "), std::string::npos) << remarks[0];
+    EXPECT_NE(remarks[0].find("has neither mass nor stiffness. Its neighbours"), std::string::npos)
+        << remarks[0];
+    EXPECT_EQ(synthesis.parts[1].report.zeroEnergyFull, -1) << "not counted";
+    EXPECT_TRUE(synthesis.parts[0].report.remarks.empty());
+    if (modes > 0) continue;
+    const auto full = coupling::couple(parts);
+    const Vector exact = coupling::lowestModes(full, 12).values,
+                 found = coupling::lowestModes(synthesis.coupled.model, 12).values;
+    EXPECT_LT((found - exact).cwiseAbs().maxCoeff(), 1e-9 * exact.maxCoeff());
+    const Vector twist = checks::eigenvalues(upper.model) / 0.5;
+    for (Eigen::Index k = 0; k < 3; ++k)
+      EXPECT_LT((found.array() / twist[k] - 1.0).abs().minCoeff(), 1e-9) << "twist " << k;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Reduction, MasslessInterior,
                          testing::ValuesIn(reduction::MethodRegistry::instance().names()),
                          [](const auto& basis) {
