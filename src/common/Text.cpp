@@ -24,6 +24,18 @@ std::string normalised(std::string_view text) {
   return result;
 }
 
+/// Bytes of the printable character that the text begins with; 0 where it begins with none.
+std::size_t characterOfUtf8(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80U) return first >= 0x20U && first != 0x7FU ? 1 : 0;
+  const std::size_t length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
+  if (first < 0xC2U || first > 0xF4U || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xC0U) != 0x80U) return 0;
+  return first == 0xC2U && byte(1) < 0xA0U ? 0 : length;  // control characters of Latin 1
+}
+
 }  // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
@@ -130,13 +142,27 @@ std::string firstLines(std::vector<std::string> lines, std::size_t most, const s
   return join(lines, "\n");
 }
 
+std::string printable(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = characterOfUtf8(text);
+    if (length > 0)
+      out += text.substr(0, length);
+    else
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+    text.remove_prefix(std::max<std::size_t>(1, length));
+  }
+  return out;
+}
+
 std::string excerpt(std::string_view text, std::size_t most) {
   constexpr std::string_view dots = "...";
-  if (text.size() <= most) return std::string(text);
+  const std::string shown = printable(text.substr(0, most + 1));
+  if (shown.size() <= most) return shown;
   std::size_t end = most - std::min(most, dots.size());
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+  while (end > 0 && (static_cast<unsigned char>(shown[end]) & 0xC0U) == 0x80U)
     --end;  // never within a character of UTF-8
-  return std::string(text.substr(0, end)).append(dots);
+  return shown.substr(0, end).append(dots);
 }
 
 std::string inShellQuotes(const std::string& text) {

@@ -39,7 +39,10 @@ std::string firstLines(std::vector<std::string> lines, std::size_t most, const s
 /// Characters of a value that messages quote at most.
 constexpr std::size_t longestQuote = 200;
 
-/// The text, cut to `most` bytes with "..." at its end where it is longer.
+/// The text with every byte that is no printable character of UTF-8 as "\\x1b".
+std::string printable(std::string_view text);
+
+/// The printable text, cut to `most` bytes with "..." at its end where it is longer.
 std::string excerpt(std::string_view text, std::size_t most = longestQuote);
 
 /// `"text"`, shortened by excerpt().

@@ -76,6 +76,15 @@ TEST(Text, QuotesAtMost200Characters) {
   EXPECT_EQ(excerpt(umlauts, 10), "\u00e4\u00e4\u00e4...");
 }
 
+TEST(Text, BytesThatAreNoCharactersAreEscaped) {
+  EXPECT_EQ(printable("a \u00e4\u20ac\U0001f600 b"), "a \u00e4\u20ac\U0001f600 b");
+  EXPECT_EQ(printable(std::string("\x1b[2J\0\x7f\n", 7)), "\\x1b[2J\\x00\\x7f\\x0a");
+  EXPECT_EQ(printable("\xff\xc3(\xe2\x82"), "\\xff\\xc3(\\xe2\\x82");
+  EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b") << "a control character of Latin 1";
+  EXPECT_EQ(inQuotes(std::string("\x01\xfe", 2)), "\"\\x01\\xfe\"");
+  EXPECT_EQ(excerpt(std::string(100, '\x01'), 10), "\\x01\\x0...");
+}
+
 TEST(Text, IsQuotedForAShellWhereItMustBe) {
   EXPECT_EQ(inShellQuotes("results/a-1.xml"), "results/a-1.xml");
   EXPECT_EQ(inShellQuotes("End Time=2"), "'End Time=2'");
