@@ -6,6 +6,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "coupling/input/ComponentAxes.hpp"
 
 namespace tooljoint::parts {
 
@@ -75,6 +76,16 @@ JointReader::Side JointReader::side(const std::string& text, const std::string& 
   return out;
 }
 
+bool JointReader::splitsTriple(const Side& side, std::size_t k, const std::set<int>& some) const {
+  const auto axes = coupling::componentAxes(parts_.front().part.model.componentNames);
+  for (const auto& triple : {axes.translation, axes.rotation}) {
+    std::size_t had = 0, in = 0;
+    for (int c : triple) had += side.had[k].count(c), in += some.count(c);
+    if (in > 0 && in < had) return true;
+  }
+  return false;
+}
+
 ReadJoint JointReader::read(const std::string& text) const {
   std::vector<Side> sides;
   for (const auto& one : split(text, '=')) sides.push_back(side(one, text));
@@ -129,12 +140,14 @@ ReadJoint JointReader::read(const std::string& text) const {
       release.name = text;
       release.path = where_;
       release.node = {parts_[static_cast<std::size_t>(one.part)].part.name, one.nodes[k]};
+      std::set<int> released;
       for (int c : one.had[k])
         if (owners[c] > 1 && common.count(c) == 0 &&
             held_.count({one.part, DofLabel::physical(one.nodes[k], c)}) == 0)
-          release.components.push_back(names[static_cast<std::size_t>(c)]);
-      if (release.components.empty()) continue;
-      out.partial.insert(one.part);
+          released.insert(c);
+      if (released.empty()) continue;
+      for (int c : released) release.components.push_back(names[static_cast<std::size_t>(c)]);
+      if (splitsTriple(one, k, released)) out.mixed.insert(one.part);
       out.releases.push_back(release);
     }
     out.joints.push_back(joint);

@@ -17,8 +17,8 @@ namespace tooljoint::parts {
 struct ReadJoint {
   std::vector<coupling::JointInput> joints;  ///< node by node
   std::vector<coupling::ReleaseInput>
-      releases;           ///< components that parts have at a joined node, but not in a joined set
-  std::set<int> partial;  ///< parts with such components
+      releases;         ///< components that parts have at a joined node, but not in a joined set
+  std::set<int> mixed;  ///< parts where a rotation would mix such components with joined ones
 };
 
 class JointReader {
@@ -41,6 +41,9 @@ class JointReader {
     std::vector<std::set<int>> joined;  ///< components per node that the text names
     std::vector<std::set<int>> had;     ///< components the part has at the node, fixed ones too
   };
+  /// Whether some, but not all, of the components along three axes that the part has at node k are
+  /// in `some`.
+  bool splitsTriple(const Side& side, std::size_t k, const std::set<int>& some) const;
   [[noreturn]] void fail(const std::string& text, const std::string& what) const;
   Side side(const std::string& text, const std::string& whole) const;
 

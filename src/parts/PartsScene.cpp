@@ -35,6 +35,7 @@ class Builder {
     holdAndRetain();
     raise();
     join();
+    refuseHeldAndFree();
     raise();
     auto resolved = coupling::resolve(plain(), plan_);
     scene_.parts = std::move(resolved.parts);
@@ -193,15 +194,33 @@ class Builder {
     for (const auto& text : settings_.joints)
       attempt("", [&] {
         const auto joint = reader.read(text);
-        for (const auto& side : joint.partial)
+        for (const auto& side : joint.mixed)
           if (imported()[static_cast<std::size_t>(side)].turned)
             throw DeckError(
                 settings_.where + "/Joints joins only some components in " + inQuotes(text) +
                 ", and part \"" + imported()[static_cast<std::size_t>(side)].name +
-                "\" is rotated. Join all components, and release some in the list Coupling.");
+                "\" is rotated: its rotation mixes them with others. Join all components along "
+                "the three axes, or none.");
         plan_.joints.insert(plan_.joints.end(), joint.joints.begin(), joint.joints.end());
         plan_.releases.insert(plan_.releases.end(), joint.releases.begin(), joint.releases.end());
       });
+  }
+
+  /// Nodes of equal numbers: a dof that is fixed in one part and free in another. Joints say so
+  /// themselves.
+  void refuseHeldAndFree() {
+    if (plan_.ownNumbers) return;
+    for (const auto& [p, label] : held_)
+      for (const auto& other : scene_.contents) {
+        const auto& m = other.part.model;
+        const auto it = std::find(m.dofs.begin(), m.dofs.end(), label);
+        if (label.kind != DofLabel::Kind::Physical || it == m.dofs.end()) continue;
+        const auto& given = imported()[static_cast<std::size_t>(p)];
+        faults_.push_back(given.where + "/Fixed fixes " + model::describe(label, m.componentNames) +
+                          ", which is free in part " + inQuotes(other.part.name) +
+                          ". Fix it in both, or give Joints or Coupling/Node Numbers \"Own\" where "
+                          "equal numbers are different nodes.");
+      }
   }
 
   /// The parts as coupling::plan takes them: interface dofs are those another part has.

@@ -79,9 +79,9 @@ class Coupler {
       for (const auto& place : lookup.find(dof, "A release")) {
         const AlignedPart& alignedPart = alignedParts_[at(place.part)];
         if (!contains(alignedPart.interface, place.dof))
-          throw ModelError("A release names " + describe(dof) +
-                           ", which is not an interface dof of part \"" + alignedPart.name +
-                           "\". Name an interface dof.");
+          throw ModelError("A release names " + lookup.describe(dof) +
+                           ", which no other part has: nothing is joined there. Remove it from "
+                           "the release.");
         rules.released.insert({place.part, place.dof});
       }
     const auto attach = [&](const std::vector<Term>& terms, const std::string& who) {
@@ -102,7 +102,7 @@ class Coupler {
     const auto places = lookup.find(dof, who);
     for (const auto& other : places)
       if (!joined(places.front(), other))
-        throw ModelError(who + " names " + describe(dof) + " without a part, but parts \"" +
+        throw ModelError(who + " names " + lookup.describe(dof) + " without a part, but parts \"" +
                          alignedParts_[at(places.front().part)].name + "\" and \"" +
                          alignedParts_[at(other.part)].name +
                          "\" both have it and are not joined there. Give the part.");

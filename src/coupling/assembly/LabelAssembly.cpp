@@ -226,15 +226,15 @@ class Labeller {
                "initial velocity", advice);
   }
 
-  /// Output rows of a node in one part.
-  struct NodeRows {
+  /// An output row of one part.
+  struct OutputRow {
     int part;
-    int firstRow;
+    int row;
   };
 
   void assembleRecovery() {
     const int components = static_cast<int>(out_.model.componentNames.size());
-    std::map<std::int64_t, NodeRows> nodes;
+    std::map<std::int64_t, std::vector<OutputRow>> nodes;  // component by component
     std::vector<Sparse> rows;
     for (int p = 0; p < parts(); ++p) {
       const SecondOrderModel& m = part(p);
@@ -247,30 +247,46 @@ class Labeller {
       rows.push_back(expected > 0 ? moveColumns(m.recovery, out_.columns[at(p)], size())
                                   : Sparse(0, size()));
       for (std::size_t n = 0; n < m.recoveryNodes.size(); ++n) {
-        const NodeRows here{p, static_cast<int>(n) * components};
-        const auto [it, fresh] = nodes.emplace(m.recoveryNodes[n], here);
-        if (!fresh) compareRows(rows, it->second, here, it->first, components);
+        auto& known = nodes[m.recoveryNodes[n]];
+        for (int c = 0; c < components; ++c) {
+          const OutputRow here{p, static_cast<int>(n) * components + c};
+          if (sizeOf(known) <= c)
+            known.push_back(here);
+          else if (empty(rows, known[at(c)]))
+            known[at(c)] = here;
+          else if (!empty(rows, here))
+            compareRows(rows, known[at(c)], here, DofLabel::physical(m.recoveryNodes[n], c));
+        }
       }
     }
     Triplets entries;
     out_.model.recoveryOffset.resize(static_cast<Eigen::Index>(nodes.size()) * components);
     int row = 0;
-    for (const auto& [node, where] : nodes) {
+    for (const auto& [node, known] : nodes) {
       out_.model.recoveryNodes.push_back(node);
-      for (int c = 0; c < components; ++c, ++row) {
-        out_.model.recoveryOffset[row] = part(where.part).recoveryOffset[where.firstRow + c];
-        forEachInRow(rows[at(where.part)], where.firstRow + c,
+      for (const auto& from : known) {
+        out_.model.recoveryOffset[row] = offsetOf(from);
+        forEachInRow(rows[at(from.part)], from.row,
                      [&](int column, double value) { entries.emplace_back(row, column, value); });
+        ++row;
       }
     }
     out_.model.recovery = sparse(row, size(), entries);
   }
 
-  /// Whether the dof of a node is released in one of the parts, so that its motion differs.
-  bool free(std::int64_t node, int component, int a, int b) const {
+  double offsetOf(const OutputRow& row) const { return part(row.part).recoveryOffset[row.row]; }
+
+  /// A component that the part does not have (its row is zero): another part may recover it.
+  bool empty(const std::vector<Sparse>& rows, const OutputRow& row) const {
+    bool zero = offsetOf(row) == 0.0;
+    forEachInRow(rows[at(row.part)], row.row, [&](int, double) { zero = false; });
+    return zero;
+  }
+
+  /// Whether the dof is released in one of the parts, so that its motion differs.
+  bool free(const DofLabel& dof, int a, int b) const {
     for (const auto& [p, i] : rules_.released)
-      if ((p == a || p == b) && part(p).dofs[at(i)] == DofLabel::physical(node, component))
-        return true;
+      if ((p == a || p == b) && part(p).dofs[at(i)] == dof) return true;
     return false;
   }
 
@@ -282,28 +298,20 @@ class Labeller {
     return out;
   }
 
-  void compareRows(const std::vector<Sparse>& rows, const NodeRows& a, const NodeRows& b,
-                   std::int64_t node, int components) const {
-    if (alignedParts_[at(a.part)].boundaryRows.rows() > 0 ||
-        alignedParts_[at(b.part)].boundaryRows.rows() > 0)
-      return;
-    for (int c = 0; c < components; ++c) {
-      if (free(node, c, a.part, b.part)) continue;
-      const auto left = standing(rows[at(a.part)], a.firstRow + c);
-      const auto right = standing(rows[at(b.part)], b.firstRow + c);
-      const double leftOffset = part(a.part).recoveryOffset[a.firstRow + c];
-      const double rightOffset = part(b.part).recoveryOffset[b.firstRow + c];
-      const double scale = std::max({1.0, left.norm(), right.norm()});
-      const double offsetScale = std::max({std::abs(leftOffset), std::abs(rightOffset),
-                                           part(a.part).recoveryOffset.cwiseAbs().maxCoeff()});
-      const Eigen::SparseVector<double> difference = left - right;
-      if (difference.norm() > agreementOfValues * scale ||
-          std::abs(leftOffset - rightOffset) > agreementOfValues * offsetScale)
-        throw ModelError("The motion of " + describe(DofLabel::physical(node, c)) +
-                         " is recovered differently by part \"" + name(a.part) + "\" and part \"" +
-                         name(b.part) +
-                         "\". Join the shared node in every dof, or recover it by one part only.");
-    }
+  void compareRows(const std::vector<Sparse>& rows, const OutputRow& a, const OutputRow& b,
+                   const DofLabel& dof) const {
+    if (derives(a.part) || derives(b.part) || free(dof, a.part, b.part)) return;
+    const auto left = standing(rows[at(a.part)], a.row);
+    const auto right = standing(rows[at(b.part)], b.row);
+    const double scale = std::max({1.0, left.norm(), right.norm()});
+    const double offsetScale = std::max({std::abs(offsetOf(a)), std::abs(offsetOf(b)),
+                                         part(a.part).recoveryOffset.cwiseAbs().maxCoeff()});
+    const Eigen::SparseVector<double> difference = left - right;
+    if (difference.norm() > agreementOfValues * scale ||
+        std::abs(offsetOf(a) - offsetOf(b)) > agreementOfValues * offsetScale)
+      throw ModelError("The motion of " + describe(dof) + " is recovered differently by part \"" +
+                       name(a.part) + "\" and part \"" + name(b.part) +
+                       "\". Join the shared node in every dof, or recover it by one part only.");
   }
 
   const std::vector<AlignedPart>& alignedParts_;

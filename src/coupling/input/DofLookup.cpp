@@ -45,6 +45,14 @@ bool DofLookup::hasNode(int part, std::int64_t node) const {
          });
 }
 
+std::string DofLookup::describe(const PartDof& dof) const {
+  const auto& nodeName = alignedParts_.front().model->nodeName;
+  if (!nodeName) return coupling::describe(dof);
+  auto label = DofLabel::physical(dof.node, 0);
+  if (!dof.part.empty()) label = label.of(partNumber(namesOf(alignedParts_), dof.part, "A dof"));
+  return dof.component + " of " + nodeName(label);
+}
+
 std::vector<DofPosition> DofLookup::find(const PartDof& dof, const std::string& who) const {
   const auto label = DofLabel::physical(dof.node, component(dof.component, who));
   std::vector<int> parts = range(sizeOf(alignedParts_));
@@ -58,7 +66,7 @@ std::vector<DofPosition> DofLookup::find(const PartDof& dof, const std::string& 
     const auto it = std::find(dofs.begin(), dofs.end(), label);
     if (it == dofs.end()) continue;
     if (alignedPart.unturned.count(label) > 0)
-      throw ModelError(who + " names " + coupling::describe(dof) +
+      throw ModelError(who + " names " + describe(dof) +
                        ", but the frame of this node combines it with dofs that the part does not "
                        "have. Retain all components of the node, or remove its frame.");
     places.push_back({p, static_cast<int>(it - dofs.begin())});
@@ -67,7 +75,7 @@ std::vector<DofPosition> DofLookup::find(const PartDof& dof, const std::string& 
   const std::string where = dof.part.empty() ? "no part" : "part \"" + dof.part + "\"";
   if (nodeKnown)
     throw ModelError(
-        who + " names " + coupling::describe(dof) +
+        who + " names " + describe(dof) +
         ", but this dof is fixed or a reduced interior dof. Retain the node, or name another dof.");
   throw ModelError(who + " names node " + std::to_string(dof.node) + ", but " + where + " has " +
                    (dof.part.empty() ? "such a node." : "no such node."));

@@ -25,6 +25,8 @@ class DofLookup {
   /// `The constraint "a"`. ModelError: unknown part (with a suggestion), component or node, an
   /// interior dof of a reduced part, or one that a frame cannot rotate.
   std::vector<DofPosition> find(const PartDof& dof, const std::string& who) const;
+  /// The dof for messages, its node as a person knows it: `u of node 4 of part "beam"`.
+  std::string describe(const PartDof& dof) const;
   const model::ComponentNames& names() const { return alignedParts_.front().model->componentNames; }
 
  private:

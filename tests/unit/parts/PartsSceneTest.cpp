@@ -3,6 +3,7 @@
 // time.
 #include "parts/PartsScene.hpp"
 
+#include <Eigen/Geometry>
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "model/SpeedLaw.hpp"
 #include "model/laws/Connectors.hpp"
@@ -60,7 +62,10 @@ class Files {
     part.model.stiffness.push_back({"ground", samples::square(3, {{1, 1, 4e5}, {2, 2, 2e5}}), 0});
     samples::complete(part);
     content.interfaces = {{"all", {0, 1, 2}, {1}}, {"pin", {1}, {1}}};
-    const auto path = scratch_ / (name + ".h5");
+    return keep(content);
+  }
+  std::string keep(const PartContent& content) {
+    const auto path = scratch_ / (content.part.name + ".h5");
     writePart(content, path, FileKind::Hdf5);
     return path;
   }
@@ -143,6 +148,90 @@ TEST(PartsScene, PartsOfDifferentComponentsMeet) {
   EXPECT_NEAR(found[0], (k + 4e5) / (m / 3 + 3.0), 1e-6);
 }
 
+/// A cantilever with a mass point of three translations at its tip: six rotations and translations
+/// of the beam, three of which the point has. With mass at the tip alone the frequencies are those
+/// of three springs, in any frame of the point.
+struct PointOnABeam {
+  Files files;
+  PartsSettings settings;
+  Matrix K = Matrix::Zero(6, 6);
+  PointOnABeam() {
+    const double l = 2.0, ea = 3e5, ei = 4e3, gj = 5e3;
+    K.diagonal() << 12 * ei / (l * l * l), 24 * ei / (l * l * l), ea / l, 8 * ei / l, 4 * ei / l,
+        gj / l;
+    K(0, 4) = K(4, 0) = -6 * ei / (l * l);
+    K(1, 3) = K(3, 1) = 12 * ei / (l * l);
+    settings.imported = {
+        imported("beam", write("beam", 6, K, Matrix::Identity(6, 6) * 1e-9)),
+        imported("point", write("point", 3, Matrix::Zero(3, 3), Matrix::Identity(3, 3) * 7.0))};
+    settings.joints = {"beam:1 = point:1"};
+  }
+  /// The stiffness that the translations have when the rotations are free.
+  static Matrix translations(const Matrix& K) {
+    return linalg::inverseOf(linalg::inverseOf(K).topLeftCorner(3, 3));
+  }
+  std::string write(const std::string& name, int dofs, const Matrix& stiffness,
+                    const Matrix& mass) {
+    PartContent content;
+    auto& part = content.part;
+    part.name = name;
+    part.model.componentNames = {"u", "v", "w", "theta_x", "theta_y", "theta_z"};
+    for (int c = 0; c < dofs; ++c) part.model.dofs.push_back(DofLabel::physical(1, c));
+    part.model.mass = mass.sparseView();
+    part.model.stiffness.push_back({"K", stiffness.sparseView(), 0});
+    samples::complete(part);
+    return files.keep(content);
+  }
+};
+
+TEST(PartsScene, APointOfTranslationsMeetsABeamOfSixDofs) {
+  PointOnABeam one;
+  for (const bool turned : {false, true}) {
+    one.settings.imported[1].turned = turned;
+    one.settings.imported[1].axes =
+        Eigen::AngleAxisd(0.7, Vector3(1, 2, -0.5).normalized()).toRotationMatrix();
+    const auto scene = build(one.settings);
+    const auto full = whole(scene).model;
+    ASSERT_EQ(full.size(), 6);
+    EXPECT_EQ(Matrix(full.recovery).cwiseAbs().sum(), 6.0) << "rotations come from the beam";
+    const Vector found = omegaSquared(scene),
+                 expected = linalg::symmetricValues(PointOnABeam::translations(one.K)) / 7.0;
+    for (Eigen::Index i = 0; i < 3; ++i) EXPECT_NEAR(found[i] / expected[i], 1.0, 1e-6);
+  }
+}
+
+/// A joint of three parts is one of their common components: the rotations of two beams stay apart
+/// where the third has none, in turned parts too; single components of a turned part cannot.
+TEST(PartsScene, WholeTriplesOfTurnedPartsStayApart) {
+  PointOnABeam one;
+  one.settings.imported.push_back(one.settings.imported[0]);
+  auto& second = one.settings.imported.back();
+  second.name = "second";
+  second.turned = true;
+  second.axes = Eigen::AngleAxisd(0.7, Vector3(1, 2, -0.5).normalized()).toRotationMatrix();
+  one.settings.joints = {"beam:1 = point:1 = second:1"};
+  const auto full = whole(build(one.settings)).model;
+  EXPECT_EQ(full.size(), 9);
+  Matrix R = Matrix::Identity(6, 6);
+  R.topLeftCorner(3, 3) = R.bottomRightCorner(3, 3) = second.axes;
+  const Matrix springs =
+      PointOnABeam::translations(one.K) + PointOnABeam::translations(R * one.K * R.transpose());
+  const Vector found = omegaSquared(build(one.settings)),
+               expected = linalg::symmetricValues(springs) / 7.0;
+  for (Eigen::Index i = 0; i < 3; ++i) EXPECT_NEAR(found[i] / expected[i], 1.0, 1e-6);
+
+  one.settings.imported[0] = imported("p", one.files.point("p"));
+  one.settings.joints = {"p:pin = second:1"};
+  try {
+    build(one.settings);
+    FAIL() << "u alone of a turned part";
+  } catch (const DeckError& error) {
+    EXPECT_NE(std::string(error.what()).find("its rotation mixes them with others"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(PartsScene, TurnedPartsAreSeenInTheCommonFrame) {
   Files files;
   PartsSettings settings;
@@ -216,6 +305,34 @@ TEST(PartsScene, RefusesWhatDoesNotFit) {
   refused("a:9 = b:left", "has no node 9");
   settings.imported[0].fixed = {"right"};
   refused("a:right = b:left", "u of node 3 is fixed in part \"a\" and free in part \"b\"");
+  settings.joints.clear();
+  try {
+    build(settings);
+    FAIL() << "node 3 is held and free";
+  } catch (const DeckError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("Parts/Imported/a/Fixed fixes u of node 3, which is free in part \"b\""),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(PartsScene, AReleaseOfWhatNothingJoinsNamesTheNodeOfThePart) {
+  PointOnABeam one;
+  coupling::CouplingInput plan;
+  const coupling::ReleaseInput release{"free", "Coupling/Releases/free", {"beam", 1}, {"theta_x"}};
+  plan.releases.push_back(release);
+  plan.ownNumbers = true;
+  try {
+    whole(build(one.settings, plan));
+    FAIL() << "nothing is joined there";
+  } catch (const ModelError& error) {
+    EXPECT_EQ(std::string(error.what())
+                  .find("A release names theta_x of node 1 of part \"beam\", "
+                        "which no other part has"),
+              0u)
+        << error.what();
+  }
 }
 
 Teuchos::Array<double> numbers(const std::vector<double>& values) {
