@@ -23,6 +23,8 @@ namespace tooljoint::cases {
 
 namespace {
 
+bool isZero(const Sparse& A) { return A.cwiseAbs().sum() == 0.0; }
+
 void append(std::string& text, const double* values, Eigen::Index count) {
   text.append(reinterpret_cast<const char*>(values),
               static_cast<std::size_t>(count) * sizeof(double));
@@ -271,11 +273,17 @@ std::string ImportedCase::describe() const {
 
 std::vector<std::string> ImportedCase::remarks() const {
   auto out = joined_->whole.remarks;
-  for (const auto& content : joined_->scene.contents)
+  for (const auto& content : joined_->scene.contents) {
+    const auto& m = content.part.model;
+    const std::string who = "Part \"" + content.part.name + "\" (" + content.file + ")";
+    if (isZero(m.mass)) out.push_back(who + " has no mass: its mass matrix is zero.");
+    if (std::all_of(m.stiffness.begin(), m.stiffness.end(),
+                    [](const auto& term) { return isZero(term.matrix); }))
+      out.push_back(who + " has no stiffness: its stiffness matrix is zero.");
     for (const auto& law : content.omitted)
-      out.push_back("Part \"" + content.part.name + "\" (" + content.file +
-                    ") had the point law \"" + law +
+      out.push_back(who + " had the point law \"" + law +
                     "\" where it came from; it is not in the file.");
+  }
   return out;
 }
 

@@ -33,7 +33,7 @@ class JsonSource : public PartSource {
     } catch (const FileError& fault) {
       throw DeckError(fault.what());
     } catch (const Json::exception& fault) {
-      throw DeckError(file_ + " is no JSON: " + fault.what() + ".");
+      throw DeckError(file_ + " is no JSON: " + printable(fault.what()) + ".");
     }
     if (!root_.is_object())
       throw DeckError(file_ + " must hold one object, {\"format\": ..., \"dofs\": ..., ...}.");

@@ -63,6 +63,10 @@ class MtxFile {
       if (!(place.first == place.second) && given.count({place.second, place.first}) > 0)
         symmetric = false;  // both triangles are there
     }
+    if (given.empty())
+      throw DeckError(
+          path_ + " has no entry of a matrix. Expected lines \"node, dof, node, dof, value\"" +
+          (quantity == Quantity::Damping ? "; remove the file where there is no damping." : "."));
     LabelledMatrix out{quantity, name, path_, {}};
     for (const auto& [place, number] : given) {
       out.entries.push_back({place.first, place.second, number});

@@ -57,8 +57,8 @@ class HbFile {
     Content out;
     line();  // title and key
     line();
-    const auto counts = numbersOf(4, "numbers of lines \"total pointers rows values\"");
-    const bool rightSide = counts.size() > 4 && counts[4] > 0;
+    const auto counts = lineCounts();
+    const bool rightSide = counts[4] > 0;
     line();
     auto words = wordsOf(text_);
     const auto type = words.empty() ? "" : upper(words[0]);
@@ -85,6 +85,7 @@ class HbFile {
         fail("describes the right-hand sides, expected \"F\" (full): found " + inQuotes(text_));
     }
     const auto n = static_cast<std::size_t>(out.size), entries = static_cast<std::size_t>(sizes[2]);
+    checkCounts(counts, {n + 1, entries, entries}, formats);
     out.starts = whole(n + 1, formats[0], "a pointer to the first entry of a column", sizes[2] + 1);
     for (std::size_t j = 0; j + 1 < out.starts.size(); ++j)
       if (out.starts[j] > out.starts[j + 1])
@@ -95,8 +96,12 @@ class HbFile {
            " to " + std::to_string(out.starts.back()) + ", expected 1 to " +
            std::to_string(sizes[2] + 1));
     out.rows = whole(entries, formats[1], "a row", out.size);
-    out.values = real(entries, formats[2]);
-    if (rightSide) out.rightSide = real(n, formats[3].width > 0 ? formats[3] : formats[2]);
+    out.values = real(entries, formats[2], "values");
+    const long end = number_ + static_cast<long>(counts[4]);
+    if (rightSide) out.rightSide = real(n, formats[3].width > 0 ? formats[3] : formats[2], "loads");
+    while (next())
+      if (number_ > end && !text_.empty())
+        fail("follows the last number of the matrix: found " + inQuotes(text_));
     return out;
   }
 
@@ -105,20 +110,46 @@ class HbFile {
     throw DeckError(path_ + ":" + std::to_string(number_) + " " + what + ".");
   }
 
-  void line() {
-    if (!in_.line(text_, longestLine))
-      fail("is the last line, but the matrix goes on: the file is cut short");
+  bool next() {
+    if (!in_.line(text_, longestLine)) return false;
     ++number_;
     while (!text_.empty() && std::isspace(static_cast<unsigned char>(text_.back())) != 0)
       text_.pop_back();
+    return true;
+  }
+  void line() {
+    if (!next()) fail("is the last line, but the matrix goes on: the file is cut short");
   }
 
-  std::vector<std::int64_t> numbersOf(std::size_t least, const std::string& what) const {
+  /// Line 2: lines in all, of pointers, rows, values and right-hand sides (0 where it ends before).
+  std::vector<std::int64_t> lineCounts() const {
     std::vector<std::int64_t> out;
     for (const auto& word : wordsOf(text_)) out.push_back(wholeNumber(word));
-    if (out.size() < least || std::count(out.begin(), out.end(), -1) > 0)
-      fail("should give the " + what + ": found " + inQuotes(text_));
+    if (out.size() < 4 || std::count(out.begin(), out.end(), -1) > 0)
+      fail("should give the numbers of lines \"total pointers rows values\": found " +
+           inQuotes(text_));
+    out.resize(5);
     return out;
+  }
+
+  /// The counts of line 2 are those that so many `numbers` in their formats take.
+  void checkCounts(const std::vector<std::int64_t>& counts,
+                   const std::array<std::size_t, 3>& numbers,
+                   const std::array<FieldFormat, 4>& formats) const {
+    const auto check = [&](const std::string& what, std::int64_t given, std::int64_t expected) {
+      if (given != expected)
+        throw DeckError(path_ + ":2 announces " + std::to_string(given) + " lines of " + what +
+                        ", expected " + std::to_string(expected) +
+                        ". The file is damaged, or was changed by hand.");
+    };
+    const std::array<const char*, 3> names{"pointers", "rows", "values"};
+    std::int64_t sum = counts[4];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto lines = (numbers[k] + formats[k].count - 1) / formats[k].count;
+      check(names[k], counts[k + 1], static_cast<std::int64_t>(lines));
+      sum += counts[k + 1];
+    }
+    check("numbers in all", counts[0], sum);
   }
 
   void requireType(const std::string& type) const {
@@ -182,9 +213,12 @@ class HbFile {
 
   /// Calls take(text) for `count` fields.
   template <class Take>
-  void fields(std::size_t count, const FieldFormat& format, const Take& take) {
+  void fields(std::size_t count, const FieldFormat& format, const std::string& what,
+              const Take& take) {
     for (std::size_t done = 0; done < count;) {
-      line();
+      if (!next())
+        fail("is the last line, with number " + std::to_string(done) + " of " +
+             std::to_string(count) + " " + what + ": the file is cut short");
       for (std::size_t i = 0; i < format.count && done < count; ++i, ++done) {
         const auto at = i * format.width;
         const auto text = at < text_.size() ? trim(text_.substr(at, format.width)) : "";
@@ -200,7 +234,7 @@ class HbFile {
   std::vector<std::int64_t> whole(std::size_t count, const FieldFormat& format,
                                   const std::string& what, std::int64_t most) {
     std::vector<std::int64_t> out;
-    fields(count, format, [&](const std::string& text, std::size_t field) {
+    fields(count, format, "pointers and rows", [&](const std::string& text, std::size_t field) {
       const auto value = wholeNumber(text);
       if (value < 1 || value > most)
         fail("has " + inQuotes(text) + " in field " + std::to_string(field) + ", expected " + what +
@@ -210,9 +244,9 @@ class HbFile {
     return out;
   }
 
-  std::vector<double> real(std::size_t count, const FieldFormat& format) {
+  std::vector<double> real(std::size_t count, const FieldFormat& format, const std::string& what) {
     std::vector<double> out;
-    fields(count, format, [&](const std::string& text, std::size_t field) {
+    fields(count, format, what, [&](const std::string& text, std::size_t field) {
       double value = 0.0;
       if (!fortranNumber(text, false, value))
         fail("has " + inQuotes(text) + " in field " + std::to_string(field) +

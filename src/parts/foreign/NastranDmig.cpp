@@ -124,8 +124,7 @@ class DmigReader {
     const auto it = matrices_.find(fields.front().text);
     if (it == matrices_.end())
       fail(entry.line, "is a column of the matrix " + inQuotes(fields.front().text) +
-                           ", which has no header \"DMIG " + fields.front().text +
-                           " 0 IFO TIN TOUT\"");
+                           ", which has no header \"DMIG NAME 0 IFO TIN TOUT\"");
     auto& matrix = it->second;
     const PointDof column = dof(fields[1], fields[2]);
     if (!fields[3].text.empty()) failAt(fields[3], "a blank field");

@@ -97,6 +97,32 @@ TEST(CaseKinds, ADeckInMemoryIsThatOfItsFile) {
   EXPECT_EQ(refused.rfind("mine.xml:1", 0), 0U) << refused;
 }
 
+TEST(CaseKinds, APartWithoutMassOrStiffnessIsRemarkedOn) {
+  const auto folder = std::filesystem::temp_directory_path() / "tooljoint_zero_part";
+  std::filesystem::create_directory(folder);
+  const auto remarksOf = [&](const std::string& mass, const std::string& stiffness) {
+    std::ofstream(folder / "p.json")
+        << R"({"format": "tooljoint part 1", "components": ["u"], "dofs": [[1, "u"]], "mass": [[)"
+        << mass << R"(]], "stiffness": [[)" << stiffness << "]]}";
+    return cases::parseCase(R"(<ParameterList name="zero"><ParameterList name="Parts">
+        <ParameterList name="Imported"><ParameterList name="p">
+        <Parameter name="File" type="string" value="p.json"/>
+        </ParameterList></ParameterList></ParameterList></ParameterList>)",
+                            (folder / "deck.xml").string(), {})
+        ->remarks();
+  };
+  EXPECT_TRUE(remarksOf("2", "3").empty());
+  for (const bool mass : {true, false}) {
+    const auto remarks = mass ? remarksOf("0", "3") : remarksOf("2", "0");
+    ASSERT_EQ(remarks.size(), 1U);
+    EXPECT_NE(remarks[0].find(mass ? "has no mass: its mass matrix is zero"
+                                   : "has no stiffness: its stiffness matrix is zero"),
+              std::string::npos)
+        << remarks[0];
+  }
+  std::filesystem::remove_all(folder);
+}
+
 TEST(CaseKinds, PartsThatAreSharedAreCheckedForEachReduction) {
   const auto one = cases::readCase(ofParts, {});
   EXPECT_NO_THROW(one->with({"Reduction/Load Vectors=None"}));

@@ -157,6 +157,17 @@ TEST(AbaqusMatrices, NamesFaultsByLineAndField) {
   alone.expect("a_STIF1.mtx", "a_DMPS1.mtx is structural damping");
 }
 
+TEST(AbaqusMatrices, EmptyFilesAreNoMatrices) {
+  for (const char* text : {"", "\n\n", "** only a comment\n"}) {
+    AbaqusJob(text).refuses("a_STIF1.mtx has no entry of a matrix. Expected lines");
+    const AbaqusJob job("3,1,3,1,5.\n"), damped("3,1,3,1,5.\n");
+    job.write("a_MASS1.mtx", text);
+    job.refuses("a_MASS1.mtx has no entry of a matrix");
+    damped.write("a_DMPV1.mtx", text);
+    damped.refuses("a_DMPV1.mtx has no entry of a matrix");
+  }
+}
+
 TEST(AbaqusMatrices, NamedOneByOneInAPartFile) {
   const Folder folder;
   folder.write("K.mtx", "3,1,3,1,5.\n");
@@ -207,8 +218,8 @@ std::string harwellBoeing(const Matrix& A, const std::vector<int>& order, bool s
   for (Eigen::Index i = 0; i < rightSide.size(); ++i) side += real(rightSide[i]);
   std::ostringstream text;
   text << "Stiffness matrix from the assembled file                                 KEY\n"
-       << 2 * count + 2 * n + 1 << " " << n + 1 << " " << count << " " << count << " "
-       << rightSide.size() << "\n"
+       << 2 * count + n + 1 + rightSide.size() << " " << n + 1 << " " << count << " " << count
+       << " " << rightSide.size() << "\n"
        << (symmetric ? "RSA" : "RUA") << "           " << n << " " << n << " " << count << " 0\n"
        << "(1i14)          (1i14)          (1d25.16)           (1d25.16)\n"
        << (rightSide.size() > 0 ? "F                        1             0\n" : "") << starts
@@ -297,7 +308,17 @@ TEST(HarwellBoeing, NamesFaultsByLineAndField) {
   with("             1\n", "             x\n");
   job.refuses("K.hb:5 has \"x\" in field 1, expected a pointer to the first entry of a column");
   job.write("K.hb", good.substr(0, good.find('\n', good.size() / 2) + 1));
-  job.refuses("but the matrix goes on: the file is cut short");
+  job.refuses(" values: the file is cut short");
+  job.write("K.hb", good.substr(0, good.rfind('\n', good.size() - 2) + 1));
+  job.refuses("is the last line, with number 46 of 47 values: the file is cut short");
+  job.write("K.hb", good + "1.0D0\n");
+  job.refuses("follows the last number of the matrix: found \"1.0D0\"");
+  job.write("K.hb", good + "\n \n");
+  EXPECT_EQ(job.read("part.json").part.model.size(), 12);
+  with(" 13 47", " 12 47");
+  job.refuses("K.hb:2 announces 12 lines of pointers, expected 13");
+  with("107 13", "108 13");
+  job.refuses("K.hb:2 announces 108 lines of numbers in all, expected 107");
   job.write("K.hb", good);
   job.write("K.mapping", "1 1 UX\n2 1 TEMP\n");
   job.refuses("K.mapping:2 has the dof \"TEMP\", expected one of \"UX\"");
