@@ -161,10 +161,6 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
             std::to_string(synthesis.coupled.model.size()));
   const int count = modesOf(full, options.count);
   const auto undamped = estimate::compareModes(full, parts, synthesis, count, maps);
-  if (synthesis.coupled.interfaceModes >= 0)
-    log::info(
-        "The estimates include the error of the reduced parts, but not of the interface "
-        "reduction.");
   log::info(std::string(undampedHeading) +
             ". Columns: full mode, coupled mode of the same shape (repeated modes: of the same "
             "subspace), its relative error, and the estimate of the error without the full model:");
@@ -173,6 +169,8 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   const auto damped = estimate::compareDampedModes(full, parts, synthesis, count, t, maps);
   log::info(dampedHeading(t) + ", errors of s:");
   log::info(estimate::comparisonTable(damped, true));
+  if (synthesis.coupled.wholeInterfaces)
+    log::info("Errors of damped modes are not estimated beside an interface reduction.");
   std::vector<std::complex<double>> values;
   for (const auto& mode : damped) values.push_back(mode.full);
   log::info(verdict(values, model::setsWithMovingStates(full, t)));
@@ -190,8 +188,6 @@ void listCoupledModes(const ReducedCase& reduced, const ModesOptions& options) {
   const bool estimated = estimate::estimable(synthesis, [&] {
     modes = estimate::estimateFrequencies(parts, synthesis, {count, 0});
   });
-  if (estimated && synthesis.coupled.interfaceModes >= 0)
-    log::info("The estimates do not include the error of the interface reduction.");
   if (estimated) {
     log::info(estimate::frequencyTable(modes, parts));
   } else {

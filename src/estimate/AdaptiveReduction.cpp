@@ -233,13 +233,12 @@ EstimateOptions readEstimateOptions(const Teuchos::ParameterList& list) {
   options.frequencies = choice == "Frequencies" || choice == "Both";
   options.motion = choice == "Transient" || choice == "Both";
   const bool tolerance = reduction::selectsModesByTolerance(list);
-  if ((options.frequencies || options.motion || tolerance) &&
-      list.isParameter("Interface Reduction") &&
+  if ((options.motion || tolerance) && list.isParameter("Interface Reduction") &&
       list.get<std::string>("Interface Reduction") != "None")
     throw DeckError("Reduction gives \"Interface Reduction\" together with " +
-                    std::string(tolerance ? "a tolerance" : "\"Error Estimate\"") +
-                    ", but estimates do not include the error of the interface reduction. Give one "
-                    "of the two.");
+                    std::string(tolerance ? "a tolerance, but the search for modes"
+                                          : "\"Error Estimate\", but the estimate of a motion") +
+                    " leaves out the error of the interface reduction. Give one of the two.");
   options.window.count = list.get<int>("Estimated Frequencies");
   if (list.isParameter("Estimated Below")) {
     options.window.belowHz = list.get<double>("Estimated Below");

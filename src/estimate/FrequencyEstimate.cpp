@@ -15,6 +15,7 @@
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/ModeCount.hpp"
+#include "estimate/ModeMatching.hpp"
 #include "estimate/PartResidual.hpp"
 #include "estimate/ResidualFlexibility.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
@@ -28,6 +29,8 @@ namespace {
 
 /// A frequency below this fraction of the largest diagonal one is a rigid body's.
 constexpr double rigid = 1e-7;
+/// Modes with whole interfaces beyond those of the reduced ones, among which a shape is looked for.
+constexpr int more = 6;
 
 /// Contribution of one part to the estimate of one mode.
 struct Share {
@@ -95,7 +98,8 @@ double signedRatio(double lambda, double full) {
 }
 
 /// Below this eigenvalue a mode is a rigid body's, and has no relative error.
-double smallestEigenvalue(const Sparse& K, const Sparse& M) {
+double smallestEigenvalue(const model::SecondOrderModel& coupled) {
+  const Sparse K = coupling::undampedStiffness(coupled), M = reduction::symmetricPart(coupled.mass);
   double scale = 0;
   for (int i = 0; i < K.rows(); ++i)
     if (M.coeff(i, i) > 0) scale = std::max(scale, K.coeff(i, i) / M.coeff(i, i));
@@ -230,6 +234,65 @@ class ModeCounts {
   std::vector<Gap> gaps_;
 };
 
+/// The errors of `pairs`, modes of a coupled model with whole interfaces.
+std::vector<FrequencyEstimate> assessAll(const std::vector<model::Substructure>& parts,
+                                         const coupling::Synthesis& synthesis,
+                                         const linalg::EigenPairs& pairs) {
+  const auto& coupled = synthesis.coupled.model;
+  const auto all =
+      reduction::shareOut<std::vector<Share>>(parts, [&](std::size_t p, parallel::Ranks ranks) {
+        const Matrix shapes = synthesis.parts[p].basis->vectors *
+                              synthesis.coupled.local(static_cast<int>(p), pairs.vectors);
+        return shares(parts[p], *synthesis.parts[p].basis, shapes, pairs.values, ranks);
+      });
+
+  const double smallest = smallestEigenvalue(coupled);
+  const Vector connectors = workOfConnectors(parts, coupled, pairs.vectors);
+  std::vector<FrequencyEstimate> estimates(at(pairs.values.size()));
+  std::vector<double> full;
+  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
+    FrequencyEstimate& e = estimates[at(j)];
+    e.eigenvalue = e.full = pairs.values[j];
+    e.byPart = Vector::Zero(sizeOf(parts));
+    if (std::abs(e.eigenvalue) > smallest) e.full = assess(e, j, all, connectors[j]);
+    full.push_back(e.full);
+  }
+  if (estimates.empty()) return estimates;
+  if (const auto bound = ModeCounts(parts, synthesis, full, estimates, smallest).missingAbove())
+    for (auto& e : estimates)
+      if (e.full > *bound) e.definite = false;
+  return estimates;
+}
+
+/// The errors of `pairs`, modes of a model with reduced interfaces.
+std::vector<FrequencyEstimate> assessReduced(const std::vector<model::Substructure>& parts,
+                                             const coupling::Synthesis& synthesis,
+                                             const linalg::EigenPairs& pairs) {
+  const coupling::Synthesis whole{synthesis.parts, *synthesis.coupled.wholeInterfaces};
+  const auto& model = whole.coupled.model;
+  const auto before = coupling::lowestModes(model, std::min(pairs.count() + more, model.size()));
+  const auto estimates = assessAll(parts, whole, before);
+  const Matrix shapes = synthesis.coupled.interfaceMap * pairs.vectors;
+  const auto matches =
+      matchModes(reduction::symmetricPart(model.mass), before.values.cast<Complex>(),
+                 before.vectors.cast<Complex>(), shapes.cast<Complex>());
+  const double smallest = smallestEigenvalue(model);
+  std::vector<FrequencyEstimate> found(at(pairs.values.size()));
+  bool noneMissing = true;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const int j = matches[i].partner;
+    noneMissing = noneMissing && j >= 0;
+    if (j < 0) continue;
+    FrequencyEstimate& e = found[at(j)] = estimates[i];
+    e.eigenvalue = pairs.values[j];
+    e.definite = e.definite && noneMissing;
+    if (std::abs(e.eigenvalue) <= smallest) continue;
+    e.error = signedRatio(e.eigenvalue, e.full);
+    e.interfaces = signedRatio(e.eigenvalue, before.values[static_cast<Eigen::Index>(i)]);
+  }
+  return found;
+}
+
 }  // namespace
 
 double FrequencyEstimate::frequency() const {
@@ -241,35 +304,13 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
                                                    const FrequencyWindow& window) {
   requireRitz(synthesis);
   const auto& coupled = synthesis.coupled.model;
-  const Sparse K = coupling::undampedStiffness(coupled);
-  const Sparse M = reduction::symmetricPart(coupled.mass);
-  const auto pairs = window.belowHz > 0
-                         ? linalg::lowestModesBelow(K, M, twoPi * window.belowHz)
-                         : coupling::lowestModes(coupled, std::min(window.count, coupled.size()));
-  const auto all =
-      reduction::shareOut<std::vector<Share>>(parts, [&](std::size_t p, parallel::Ranks ranks) {
-        const Matrix shapes = synthesis.parts[p].basis->vectors *
-                              synthesis.coupled.local(static_cast<int>(p), pairs.vectors);
-        return shares(parts[p], *synthesis.parts[p].basis, shapes, pairs.values, ranks);
-      });
-
-  const double smallest = smallestEigenvalue(K, M);
-  const Vector connectors = workOfConnectors(parts, coupled, pairs.vectors);
-  std::vector<FrequencyEstimate> estimates(static_cast<std::size_t>(pairs.values.size()));
-  std::vector<double> full;
-  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
-    FrequencyEstimate& e = estimates[static_cast<std::size_t>(j)];
-    e.eigenvalue = pairs.values[j];
-    e.byPart = Vector::Zero(static_cast<Eigen::Index>(parts.size()));
-    full.push_back(e.eigenvalue);
-    if (std::abs(e.eigenvalue) <= smallest) continue;
-    full.back() = assess(e, j, all, connectors[j]);
-  }
-  if (estimates.empty()) return estimates;
-  if (const auto bound = ModeCounts(parts, synthesis, full, estimates, smallest).missingAbove())
-    for (std::size_t j = 0; j < full.size(); ++j)
-      if (full[j] > *bound) estimates[j].definite = false;
-  return estimates;
+  const auto pairs =
+      window.belowHz > 0
+          ? linalg::lowestModesBelow(coupling::undampedStiffness(coupled),
+                                     reduction::symmetricPart(coupled.mass), twoPi * window.belowHz)
+          : coupling::lowestModes(coupled, std::min(window.count, coupled.size()));
+  return synthesis.coupled.wholeInterfaces ? assessReduced(parts, synthesis, pairs)
+                                           : assessAll(parts, synthesis, pairs);
 }
 
 std::string frequencyTable(const std::vector<FrequencyEstimate>& estimates,
@@ -282,8 +323,11 @@ std::string frequencyTable(const std::vector<FrequencyEstimate>& estimates,
     Eigen::Index worst = 0;
     if (e.byPart.size() > 0) e.byPart.maxCoeff(&worst);
     const bool known = e.byPart.size() > 0 && e.byPart[worst] > 0;
+    const bool joints = e.interfaces > (known ? e.byPart[worst] : 0.0);
     text += fmt::format("  {:4}  {:14.8g}  {:16.2e}   {}{}\n", j + 1, e.frequency(), e.error,
-                        known ? parts[at(worst)].name : "-",
+                        joints  ? "interfaces"
+                        : known ? parts[at(worst)].name
+                                : "-",
                         e.definite ? "" : " (modes are missing below this frequency)");
   }
   return text;

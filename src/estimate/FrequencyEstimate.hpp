@@ -17,7 +17,9 @@ struct FrequencyEstimate {
   double eigenvalue = 0;  ///< omega^2 of the coupled model [rad^2/s^2]
   double error = 0;  ///< estimate of (f - f_full) / f_full, positive where the reduced frequency is
                      ///< too high; 0 for a rigid body
-  Vector byPart;     ///< contribution of the truncated modes of each part to `error`, parts
+  double full = 0;   ///< estimate of omega^2 of the full model [rad^2/s^2]
+  double interfaces = 0;     ///< contribution of an interface reduction to `error`
+  Vector byPart;             ///< contribution of the truncated modes of each part to `error`, parts
   bool definite = true;      ///< false: modes are missing below this frequency, and `error`, that
                              ///< of the nearest one, is less than the error of this number
   double frequency() const;  ///< sign(omega^2) sqrt(|omega^2|) / 2 pi [Hz]
@@ -45,7 +47,11 @@ struct FrequencyWindow {
 ///
 /// The formula gives the distance to the full mode that is like it, whatever its number. Whether
 /// the full model has more modes below is counted by Sylvester's law of inertia
-/// (coupling::fullEigenvaluesBelow), once where there are none. Every rank passes the same and gets
+/// (coupling::fullEigenvaluesBelow), once where there are none.
+///
+/// Of a model with reduced interfaces the modes are compared with those of the coupled model before
+/// that reduction, shape by shape, and the errors are estimated of the latter: one more
+/// eigenproblem, of the coupled model with whole interfaces. Every rank passes the same and gets
 /// the same; parts are shared out. Collective.
 std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Substructure>& parts,
                                                    const coupling::Synthesis& synthesis,

@@ -252,7 +252,7 @@ class DampedComparison {
                                     const linalg::QuadraticModes& coupled, Eigen::Index count,
                                     const std::optional<linalg::DampedTarget>& target) const {
     ComplexVector errors;
-    const bool estimated = estimable(synthesis_, [&] {
+    const bool estimated = !synthesis_.coupled.wholeInterfaces && estimable(synthesis_, [&] {
       const auto matrices = linearise(parts_, t_);
       errors =
           DynamicError(parts_, synthesis_, matrices).ofModes(matrices, small_, coupled, target);

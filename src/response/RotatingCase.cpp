@@ -31,7 +31,7 @@ RotatingCase::RotatingCase(const cases::Case& one, bool friction, bool announce)
   for (const auto& remark : reduced_->coupled().remarks) log::warn(remark);
   const auto& synthesis = reduced_->outcome.synthesis;
   rounding_ = estimate::roundingOfParts(parts(), synthesis);
-  if (estimate::isRitz(synthesis))
+  if (estimate::isRitz(synthesis) && !synthesis.coupled.wholeInterfaces)
     error_ = std::make_unique<estimate::DynamicError>(parts(), synthesis, partsAt(0.0));
 }
 

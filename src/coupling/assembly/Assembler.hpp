@@ -4,6 +4,7 @@
 /// source of the parts does not matter: any graph of parts (chain, branch, loop) can be coupled.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct Coupling {
       0;  ///< how many of `interface` there are, or were replaced by an interface reduction
   int dependent = 0;        ///< coordinates that depend on others
   int interfaceModes = -1;  ///< modes of the interfaces; -1: their dofs are not reduced
+  std::shared_ptr<const Coupling> wholeInterfaces;  ///< before their reduction; null without one
+  Sparse interfaceMap;  ///< coordinates of wholeInterfaces = interfaceMap * those here
 
   /// Coordinates of part p for the columns z of the coupled model (motions: without the offset).
   Matrix local(int p, const Matrix& z) const { return maps[static_cast<std::size_t>(p)] * z; }
@@ -49,9 +52,9 @@ struct Coupling {
 };
 
 /// M, C_i, K_i and loads of all parts in z: A' = sum_p L_p' A_p L_p. Terms of one name and one law
-/// become one term, laws are merged by name, every part keeps its own point sets, recovery rows of
-/// a node that several parts have are taken from the first. Dofs are numbered by a Cuthill-McKee
-/// walk over nodes and modes, so a chain is narrow.
+/// become one term, laws are merged by name, every part keeps its own point sets, the
+/// recovery row of a node that several parts have is that of the first that has the component. Dofs
+/// are numbered by a Cuthill-McKee walk over nodes and modes, so a chain is narrow.
 ///
 /// Primal: L = null space of the constraints by sparse elimination, interface dofs first; for equal
 /// labels alone L_p is Boolean. Dual (C. Farhat and F.-X. Roux 1991; D. J. Rixen 2004): with

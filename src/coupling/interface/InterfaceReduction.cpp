@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -103,6 +104,7 @@ class Reducer {
   /// Old coordinates from (others, modes).
   void apply(const reduction::InterfaceProblem& problem,
              const reduction::InterfaceVectors& vectors) {
+    coupling_.wholeInterfaces = std::make_shared<const Coupling>(coupling_);
     const auto modes = static_cast<int>(vectors.vectors.cols());
     const int kept = sizeOf(others_);
     std::vector<char> keep(at(model_.size()), 1);
@@ -128,8 +130,8 @@ class Reducer {
     substitute(model_, s);
     const auto position = narrowNumbering(model_);
     renumber(model_, position);
-    const Sparse map = moveColumns(s.map, position, s.map.cols());
-    changeCoordinates(coupling_, map);
+    coupling_.interfaceMap = moveColumns(s.map, position, s.map.cols());
+    changeCoordinates(coupling_, coupling_.interfaceMap);
     coupling_.interface.clear();
     for (std::size_t i = 0; i < model_.dofs.size(); ++i)
       if (model_.dofs[i].kind == DofLabel::Kind::Interface)

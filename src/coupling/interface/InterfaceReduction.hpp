@@ -10,8 +10,9 @@ namespace tooljoint::coupling {
 
 /// Replaces the joined dofs (but those with point laws, where the basis keeps them) by modes of the
 /// interfaces, u = Psi xi + Psi_C u_C, in all matrices, loads, point rows, recovery and maps; a
-/// start that is not in their span is fitted in least squares of mass. A coupled model without
-/// joined dofs is not changed. ModelError for a model with multipliers.
+/// start that is not in their span is fitted in least squares of mass. What was there before stays
+/// as `wholeInterfaces`. A coupled model without joined dofs is not changed. ModelError for a model
+/// with multipliers.
 void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis);
 
 }  // namespace tooljoint::coupling

@@ -14,7 +14,9 @@
 #include "common/Constants.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "estimate/AdaptiveReduction.hpp"
+#include "estimate/ModeComparison.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
+#include "reduction/methods/InterfaceBasis.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace FrequencyEstimateTest {
@@ -102,6 +104,44 @@ TEST(FrequencyEstimate, IsZeroWithAllModes) {
   const auto estimates = estimate::estimateFrequencies(parts, reduced(parts, 1000), {6, 0});
   ASSERT_EQ(estimates.size(), 6u);
   for (const auto& e : estimates) EXPECT_LT(std::abs(e.error), 1e-9);
+}
+
+/// Craig-Bampton parts with modes of all joined dofs in their place.
+coupling::Synthesis withInterfaceModes(const std::vector<model::Substructure>& parts, int modes,
+                                       int interfaceModes) {
+  reduction::ReductionOptions options;
+  options.modes.kind = reduction::ModeRule::Kind::PerPart;
+  options.modes.counts = {modes};
+  reduction::InterfaceOptions interface;
+  interface.modes = interfaceModes;
+  options.interface = reduction::systemInterfaceModes(interface);
+  return coupling::synthesise(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+}
+
+/// What an interface reduction adds is in the estimate, which with all modes of the parts is the
+/// true error to rounding.
+TEST(FrequencyEstimate, IncludesTheInterfaceReduction) {
+  const auto parts = samples::loopFrame(12, false);
+  const auto full = coupling::couple(parts);
+  for (const int modes : {4, 1000}) {
+    const auto synthesis = withInterfaceModes(parts, modes, 2);
+    double largest = 0;
+    for (const auto& mode : estimate::compareModes(full, parts, synthesis, 4)) {
+      ASSERT_TRUE(mode.estimated);
+      EXPECT_NEAR(mode.estimate, mode.error, 0.02 * std::abs(mode.error) + 1e-8);
+      largest = std::max(largest, mode.error);
+    }
+    EXPECT_GT(largest, 0.05);
+    const auto estimates = estimate::estimateFrequencies(parts, synthesis, {4, 0});
+    const auto most =
+        std::max_element(estimates.begin(), estimates.end(),
+                         [](const auto& x, const auto& y) { return x.error < y.error; });
+    EXPECT_GT(most->interfaces, 0.9 * most->error);
+    EXPECT_NE(estimate::frequencyTable(estimates, parts).find("interfaces"), std::string::npos);
+    for (const auto& mode : estimate::compareDampedModes(full, parts, synthesis, 4, 0.0))
+      EXPECT_FALSE(mode.estimated) << "would leave it out";
+  }
 }
 
 TEST(FrequencyEstimate, FindsThePartThatLacksModes) {
