@@ -17,6 +17,7 @@
 
 #include "app/commands/Commands.hpp"
 #include "app/text/ManualPages.hpp"
+#include "app/text/UnknownWords.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
@@ -121,20 +122,6 @@ void addDeckOptions(CLI::App& command, Options& options, Output output,
     command.add_flag("--quiet,-q", options.quiet, "print warnings and errors only");
 }
 
-/// What is wrong with a command line that holds words or options no command takes.
-std::string describeUnknown(const CLI::App& program, const std::vector<std::string>& unknown) {
-  if (!program.get_subcommands().empty() || unknown.front().front() == '-')
-    return (unknown.size() == 1 ? "Unknown argument: " : "Unknown arguments: ") +
-           tooljoint::join(unknown, " ") + ". Options and what they take are listed by --help.";
-  std::vector<std::string> commands;
-  for (const auto* command : program.get_subcommands([](const CLI::App*) { return true; }))
-    commands.push_back(command->get_name());
-  const auto meant = tooljoint::closest(unknown.front(), commands);
-  return "Unknown command \"" + unknown.front() + "\"." +
-         (meant.empty() ? "" : " Did you mean \"" + meant + "\"?") +
-         " Available: " + tooljoint::quotedList(commands) + ".";
-}
-
 /// Reads the command line; an exit code where nothing is left to do (help, or an error that has
 /// been told).
 std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
@@ -143,7 +130,7 @@ std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     // CLI11 takes --help before it looks at words it does not know.
     if (const auto unknown = program.remaining(true); !unknown.empty()) {
-      say(std::cerr, "tooljoint: " + describeUnknown(program, unknown) + "\n");
+      say(std::cerr, "tooljoint: " + tooljoint::app::describeUnknown(program, unknown) + "\n");
       return ExitCode::Usage;
     }
     std::ostringstream out;
@@ -435,7 +422,8 @@ int run(int argc, char** argv) {
   program.name("tooljoint");
   program.require_subcommand(0, 1);
   bool version = false;
-  program.add_flag("--version", version, "print program, git, Trilinos, MPI and HDF5 versions");
+  program.add_flag("--version", version,
+                   "print versions: program, git, Trilinos, MPI, HDF5, SUNDIALS, BLAS");
 
   Options options;
   std::function<void()> command;

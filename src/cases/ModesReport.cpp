@@ -62,12 +62,7 @@ std::string verdict(const std::vector<std::complex<double>>& values,
     return "None of the " + std::to_string(values.size()) + " damped modes listed grows." + without;
   return std::to_string(growing) + " of the " + std::to_string(values.size()) +
          " damped modes listed " + (growing == 1 ? "grows" : "grow") + ", the fastest as exp(" +
-         formatNumber(fastest) + " t): the state is unstable." + without;
-}
-
-void reportTimes() {
-  const std::string times = stageTimes();
-  if (!times.empty()) log::info("times       " + times);
+         fmt::format("{:.3g}", fastest) + " t): the state is unstable." + without;
 }
 
 void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder,
@@ -147,7 +142,7 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
   }
   log::info(
       verdict({damped.values.begin(), damped.values.end()}, model::setsWithMovingStates(full, t)));
-  reportTimes();
+  logStageTimes();
   if (!options.output.empty()) dampedTable.writeInto(options.output, "damped_modes.csv");
 }
 
@@ -174,7 +169,7 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   std::vector<std::complex<double>> values;
   for (const auto& mode : damped) values.push_back(mode.full);
   log::info(verdict(values, model::setsWithMovingStates(full, t)));
-  reportTimes();
+  logStageTimes();
   if (!options.output.empty()) writeTable(damped, options.output, "damped_modes.csv");
 }
 
@@ -199,7 +194,7 @@ void listCoupledModes(const ReducedCase& reduced, const ModesOptions& options) {
       log::info(fmt::format("  {:4}  {:14.8g}", modes.size(), modes.back().frequency()));
     }
   }
-  reportTimes();
+  logStageTimes();
   if (options.output.empty()) return;
   io::Csv table({{"mode", ""}, {"coupled", "Hz"}, {"estimate", ""}, {"definite", ""}});
   for (std::size_t i = 0; i < modes.size(); ++i)

@@ -256,7 +256,7 @@ void runResponse(const cases::Case& one, const std::string& folder, bool fresh) 
           throw DeckError(one.deck().located(fault.what()));
         }
         Report(*rotating, settings, response).print();
-        log::info("times       " + stageTimes());
+        logStageTimes();
       },
       [&](io::ResultsFile& file) {
         const Report report(*rotating, settings, response);

@@ -316,7 +316,7 @@ def refused():
     for wanted, settings, without in (
             ("needs contact with the wall of the hole. Add the list Contact", [], ["Contact"]),
             ("needs its weight. Add the list Loads", [], ["Loads"]),
-            ("needs its weight", ["Loads/Gravity=0"], []),
+            ("Loads/Gravity is 0, but a bottom-hole assembly needs its weight", ["Loads/Gravity=0"], []),
             ("the string is 60 m long. Give a distance on the string", [f"{survey}=70 m"], []),
             ("beyond the Length of 30 m", [f"{survey}=40 m", "Bottom-Hole Assembly/Length=30 m"], []),
             ("applies to the holes of Inclination, which is not given", ["Bottom-Hole Assembly/Build Rate=1 deg/30m"], []),

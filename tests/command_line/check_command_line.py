@@ -43,7 +43,7 @@ def help_is_our_own():
 def unknown_words():
     for arguments, sentence in ((["modse"], 'Unknown command "modse". Did you mean "modes"? Available: "run", '), (["modse", "--help"], 'Did you mean "modes"?'),
                                 (["--help", "modse"], 'Did you mean "modes"?'), (["nonsense", "-h"], 'Unknown command "nonsense". Available: "run", '),
-                                (["run", "--nonsense", "--help"], "Unknown argument: --nonsense"), (["--kokkos-help"], "Unknown argument: --kokkos-help"),
+                                (["run", "--nonsense", "--help"], "Unknown argument: --nonsense"), (["run", "deck.xml", "--sett", "A=1"], "Did you mean --set?"), (["--kokkos-help"], "Unknown argument: --kokkos-help"),
                                 (["template", "nonsense"], 'There is no template "nonsense"')):
         done = tooljoint(*arguments)
         expect(f"{' '.join(arguments)}: exit code 1, and what is wrong", done.returncode == 1 and done.stdout == "" and done.stderr.count(sentence) == 1,

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/report/Log.hpp"
+
 namespace tooljoint {
 
 namespace {
@@ -45,6 +47,11 @@ std::string stageTimes(double least) {
   for (const auto& [time, name] : all)
     text += fmt::format("{}{} {:.2f} s", text.empty() ? "" : ", ", name, time);
   return text;
+}
+
+void logStageTimes() {
+  const auto times = stageTimes();
+  if (!times.empty()) log::info("times       " + times);
 }
 
 }  // namespace tooljoint

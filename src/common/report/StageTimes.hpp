@@ -28,4 +28,7 @@ class Stage {
 /// left out; empty when none is left.
 std::string stageTimes(double least = 0.05);
 
+/// The line "times" of the log; none where no stage took as long.
+void logStageTimes();
+
 }  // namespace tooljoint

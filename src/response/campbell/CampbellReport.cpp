@@ -278,7 +278,7 @@ void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) 
         warnOfEmptiness(diagram);
         warnOfGrowth(diagram);
         warnOfCoarseness(diagram);
-        log::info("times       " + stageTimes());
+        logStageTimes();
       },
       [&](io::ResultsFile& file) {
         const auto& rotating = states->first();

@@ -166,7 +166,7 @@ void StudyRows::sayCost(const PreparedModel& prepared) {
   const double all =
       *check + static_cast<double>(plan_.referenceRuns() - 1) * *result_.predictedCpu;
   log::info("reference   " + describeReference(plan_.settings, plan_.runs[0].scene->transient()) +
-            fmt::format(": about {:.2g} s of CPU time, with its check and all {:.2g} s",
+            fmt::format(": about {:.2g} s of CPU time, {:.2g} s with the runs that check it",
                         *result_.predictedCpu, all) +
             (all > longReference ? ". Study/Reference and Study/Check make it cheaper." : ""));
 }

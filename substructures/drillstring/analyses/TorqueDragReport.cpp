@@ -21,7 +21,10 @@ namespace {
 constexpr double worthAWarning = 0.02;
 
 std::string text(double value, int digits) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "-";
+  if (!std::isfinite(value)) return "-";
+  const auto number = fmt::format("{:.{}f}", value, digits);
+  const bool zero = number.find_first_not_of("-0.") == std::string::npos;
+  return zero && number[0] == '-' ? number.substr(1) : number;
 }
 /// An SI value in the unit it is printed in.
 std::string text(double value, const char* usual, int digits) {

@@ -318,9 +318,11 @@ std::string describeScene(const Scene& scene) {
 std::string describeStatic(const StaticStage& stage) {
   const auto& path = stage.path.report;
   const auto& s = stage.state;
-  std::string text =
-      fmt::sprintf("path        %d iterations in %d load steps, nodes within %s of the axis\n",
-                   path.iterations, path.increments, deck::printed(path.maxPositionError, "m", 2));
+  std::string text = fmt::sprintf(
+      "path        iterations %d, load steps %d, nodes %s the axis\n", path.iterations,
+      path.increments,
+      path.maxPositionError > 0.0 ? "within " + deck::printed(path.maxPositionError, "m", 2) + " of"
+                                  : "on");
   text += fmt::sprintf(
       "static      %d iterations, residual %.1e: %d nodes in contact, %d elements in compression\n",
       s.report.iterations, s.report.residual, s.contactNodes, s.compressedElements);

@@ -145,9 +145,12 @@ void check(const Scene& scene, const BottomHoleSettings& settings, double whole)
     throw DeckError(
         scene.deck.file() +
         ": a bottom-hole assembly needs contact with the wall of the hole. Add the list Contact.");
-  if (!(loads::acceleration(scene.loads).norm() > 0.0))
+  if (!scene.list().isSublist("Loads"))
     throw DeckError(scene.deck.file() +
                     ": a bottom-hole assembly needs its weight. Add the list Loads.");
+  if (!(loads::acceleration(scene.loads).norm() > 0.0))
+    refuse(scene, "Loads/Gravity",
+           "is 0, but a bottom-hole assembly needs its weight. Give 9.81 m/s2.");
   if (!scene.supports.lateral || !scene.supports.axial)
     refuse(scene, "Supports/Dofs",
            "leaves out dofs that a bottom-hole assembly needs: lateral and axial. Add them.");
