@@ -20,7 +20,11 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Largest part that depends on where in a step the wall is met, likewise. The force of a wall with
 /// damping c sets in with a jump c v; met up to half a step early or late, it takes W c h of the
 /// energy more or less, with c of the depth that is passed in h.
-double scatter(double wh, double damping) { return std::min(1.0, 0.25 * wh * wh + damping); }
+struct Scatter {
+  double spring, damper;
+  Scatter(double wh, double damping)
+      : spring(std::min(1.0, 0.25 * wh * wh)), damper(std::min(1.0 - spring, damping)) {}
+};
 
 }  // namespace
 
@@ -103,12 +107,14 @@ bool ImpactResolution::losesMuch(const MetWall& wall, double change, double h) c
          matters(reboundLoss(wall.frequency() * h, radius_) * change * change);
 }
 
-/// scatter dv^2 max(1/W, m/n). A point lighter than a coordinate of the model is on average counts
-/// as one: else a heavy part that moves beside it hides what it does.
+/// (spring max(1/W, m/n) + damper/W) dv^2. A point lighter than a coordinate of the model is on
+/// average counts as one, else a heavy part that moves beside it hides what it does; steps of w h =
+/// 0.15 always meet that.
 double ImpactResolution::misplaced(const MetWall& wall, double change, double h) const {
   if (!isFast(wall, change, h)) return 0;
-  const double mass = std::max(1.0 / wall.mobility(), share_);
-  return scatter(wall.frequency() * h, wall.damping(0.5 * change * h) * h) * change * change * mass;
+  const double mass = 1.0 / wall.mobility();
+  const Scatter part(wall.frequency() * h, wall.damping(0.5 * change * h) * h);
+  return (part.spring * std::max(mass, share_) + part.damper * mass) * change * change;
 }
 
 double ImpactResolution::mostMisplaced() const { return 4 * Tuned::mostMisplaced * square(); }

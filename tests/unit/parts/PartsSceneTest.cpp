@@ -320,8 +320,12 @@ TEST(PartsScene, RefusesWhatDoesNotFit) {
 TEST(PartsScene, AReleaseOfWhatNothingJoinsNamesTheNodeOfThePart) {
   PointOnABeam one;
   coupling::CouplingInput plan;
-  const coupling::ReleaseInput release{"free", "Coupling/Releases/free", {"beam", 1}, {"theta_x"}};
-  plan.releases.push_back(release);
+  auto& release = plan.releases.emplace_back();
+  release.name = "free";
+  release.path = "Coupling/Releases/free";
+  release.node.part = "beam";
+  release.node.node = 1;
+  release.components = {"theta_x"};
   plan.ownNumbers = true;
   try {
     whole(build(one.settings, plan));

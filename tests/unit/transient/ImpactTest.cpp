@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "Models.hpp"
+#include "common/Constants.hpp"
 #include "model/laws/Connectors.hpp"
 #include "transient/contact/ImpactResolution.hpp"
 
@@ -57,6 +58,35 @@ TEST_P(Rebound, OfManyMassesAtOnceIsThatOfOne) {
     auto o = options("Generalized-alpha", 0.08, h, 0.08);
     o.own.set("Spectral Radius", radius);
     EXPECT_NEAR(apex(fallingMass(k, 0, 0, 40), o), 1.0, 0.02) << k;
+  }
+}
+
+/// A body of 16,000 times the mass that vibrates with 0.2 m/s, and touches nothing, has most of the
+/// energy: what the light one loses is as much for it.
+TEST_P(Rebound, IsThatOfTheWallBesideAHeavyBodyThatMoves) {
+  const auto [h, radius] = GetParam();
+  const double heavy = 16000 * mass, w = 2 * constants::pi * 9.0;
+  for (double k : {1e7, 1e9, 1e11}) {
+    auto model = denseModel(Eigen::Vector2d(mass, heavy).asDiagonal(), Matrix(),
+                            Eigen::Vector2d(0.0, heavy * w * w).asDiagonal());
+    model.loads.push_back({"weight", Eigen::Vector2d(-mass * gravity, 0.0), 0});
+    model.initialDisplacement = Eigen::Vector2d(drop, 0.004);
+    addFloor(model, k, 0, 7e11);
+    model.points[0].offset[1] = 1.0;
+    auto o = options("Generalized-alpha", 0.08, h, 0.08);
+    o.own.set("Spectral Radius", radius);
+    EXPECT_NEAR(apex(model, o), 1.0, 0.02) << k;
+  }
+}
+
+/// The error of a step is that of a smooth motion; impacts shorten the steps that it allows.
+TEST_P(Rebound, IsThatOfTheWallInStepsChosenByTheirError) {
+  const auto [h, radius] = GetParam();
+  for (double k : {1e7, 1e9}) {
+    auto o = options("Generalized-alpha", 0.08, h, 0.08);
+    o.own.set("Spectral Radius", radius);
+    o.own.set("Step Tolerance", 1e-5);
+    EXPECT_NEAR(apex(fallingMass(k, 0, 0), o), 1.0, 0.02) << k;
   }
 }
 
