@@ -79,6 +79,7 @@ struct InclinedString {
       string.nodes.push_back(node);
       path.frame.push_back(
           axes * beam::rotationExponential(Vector3(0.0, 0.0, 0.3 * static_cast<double>(n))));
+      path.sectionAxis.push_back(path.frame.back().col(2));
     }
     for (std::size_t e = 0; e < 2; ++e) {
       const double length = depths[e + 1] - depths[e];

@@ -170,7 +170,7 @@ TEST(Mesh, RefusesAFillThatCannotBe) {
   refused("fill*stand, 20*bit", "30",
           "/Drillstring/Bit Depth is 30 m, but the string below \"fill*stand\" is 40 m long");
   refused("2*stand, bit", "30",
-          "/Drillstring/Bit Depth is 30 m, but the Assembly is 20 m long and does not reach");
+          "/Drillstring/Bit Depth is 30 m, but the Assembly is 22 m long and does not reach");
   refused("fill*stand, bit", "2000", "but the well ends at 1000 m");
   refused("fill*stnd, bit", "30", "Did you mean \"stand\"?");
   EXPECT_NE(errorOf(list("Components", tube("pipe", 9.0, 3, 0.06, 0.05) +
