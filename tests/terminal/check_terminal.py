@@ -9,6 +9,7 @@ import os
 import pathlib
 import pty
 import re
+import shlex
 import subprocess
 import sys
 import threading
@@ -19,6 +20,7 @@ from checks import TIME_FACTOR, expect, finish, of_ranks, tooljoint  # noqa: E40
 from report import checks  # noqa: E402
 
 SCENE = str(ROOT / "tests/effects/scene.xml")
+TWO_PARTS = str(ROOT / "xml/templates/parts.xml")
 FRAME = str(ROOT / "xml/frame.xml")
 os.environ.pop("TOOLJOINT_REPORT", None)  # these runs end with a report
 COLOURS = re.compile(r"\x1b\[[0-9]+m")
@@ -77,7 +79,7 @@ def last_screen():
     expect("the worst check is that of the report", f"{'met' if worst <= bound else 'NOT MET'}" in screen and f"{name} {worst:.2g}, bound {bound:g}" in screen, f"{name} {worst} {screen}")
     expect("it says where the report is", "open        plain/report.html in a browser" in screen, screen)
     expect("and what to try next", re.search(r"^next        \S", screen, re.M) is not None, screen)
-    expect("with a command that stands on one line", all(line.startswith(("next        tooljoint ", "next        the run again with ", "            tooljoint ", "              --without "))
+    expect("with a command that stands on one line", all(line.startswith(("next        tooljoint ", "next        the run again with ", "            tooljoint ", "              --"))
                                                           for line in screen[screen.index("\nnext  "):].strip().splitlines()), screen[-300:])
     expect("no colours in a pipe", not COLOURS.search(done.stdout + done.stderr))
     expect("no bar in a pipe", "\r" not in done.stderr)
@@ -86,6 +88,10 @@ def last_screen():
            and "tooljoint report rest" in rest.stdout and "tooljoint torque-drag" in rest.stdout, rest.stdout[-600:])
     parts = tooljoint(*run("parts", "--set", "Transient/End Time=0.02", "--set", "Output/Report=false", deck=FRAME))
     expect("parts: their displacement, and no hook load", parts.returncode == 0 and "displacement  " in parts.stdout and "hook load" not in parts.stdout, parts.stdout[-600:])
+    told = tooljoint(*run("told", "--set", "Transient/End Time=0.02 s", "--set", "Output/Report=false", deck=TWO_PARTS))
+    command = re.search(r"^next +tooljoint (run .*?)\n +tooljoint compare", told.stdout, re.M | re.S)
+    again = tooljoint(*shlex.split(command.group(1).replace("\\\n", " "))) if command else told
+    expect("the full model that it suggests runs as printed", command is not None and again.returncode == 0, told.stdout[-400:] + again.stderr)
 
 
 def terminals():

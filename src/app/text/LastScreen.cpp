@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/text/LastScreen.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -172,7 +173,25 @@ std::string adviceOf(const Check& check, const Json& summary) {
   return check.advice;
 }
 
-/// What to try next, a line each: what mends a check that is not met, else what shows more.
+/// A command in lines that a shell joins, broken before its options where it is long.
+std::vector<std::string> shellLines(const std::string& command) {
+  constexpr std::size_t widest = 80;
+  std::vector<std::string> lines(1);
+  for (std::size_t begin = 0; begin < command.size();) {
+    const auto end = std::min(command.find(" --", begin + 1), command.size());
+    const auto piece = command.substr(begin, end - begin);
+    if (lines.back().size() + piece.size() > widest && !lines.back().empty()) {
+      lines.back() += " \\";
+      lines.push_back(" " + piece);
+    } else {
+      lines.back() += piece;
+    }
+    begin = end;
+  }
+  return lines;
+}
+
+/// What to try next, a command each: what mends a check that is not met, else what shows more.
 std::vector<std::string> next(const Json& summary, const std::string& folder,
                               const deck::Deck& deck) {
   const auto file = inShellQuotes(deck.file()), shown = inShellQuotes(folder),
@@ -187,8 +206,8 @@ std::vector<std::string> next(const Json& summary, const std::string& folder,
             cases::overrideSwitches(deck)};
   const auto ratio = number(summary, "/reduction/cost_ratio");
   if (ratio && *ratio < 1.0)
-    return {"tooljoint run " + file + " --output " + full + " \\",
-            " " + cases::fullModelSwitches(deck), "tooljoint compare " + shown + " " + full};
+    return {"tooljoint run " + file + " --output " + full + cases::fullModelSwitches(deck),
+            "tooljoint compare " + shown + " " + full};
   return {"tooljoint paraview " + shown};
 }
 
@@ -231,10 +250,11 @@ void lastScreen(const std::string& folder, const deck::Deck& deck) {
                 ? "open        " + report.string() + " in a browser"
                 : "report      none was written: tooljoint report " + folder);
   const char* label = "next        ";
-  for (const auto& command : next(summary, folder, deck)) {
-    std::cout << label << command << std::endl;  // whole, to be copied
-    label = "            ";
-  }
+  for (const auto& command : next(summary, folder, deck))
+    for (const auto& part : shellLines(command)) {
+      std::cout << label << part << std::endl;  // to be copied
+      label = "            ";
+    }
 }
 
 }  // namespace tooljoint::app
