@@ -62,9 +62,7 @@ class Findings {
 
   Eigen::Vector2d lateral(int n) const { return d_.segment<2>(nodal::perNode * n); }
   /// Axis of a section on the path, in the nodal frame.
-  Vector3 sectionAxis(int n) const {
-    return stage_.path.axisInFrame(at(n));
-  }
+  Vector3 sectionAxis(int n) const { return stage_.path.axisInFrame(at(n)); }
   /// Of a section against the hole: that of the path, and theta x axis.
   Eigen::Vector2d slope(int n) const {
     const Vector3 axis = sectionAxis(n);
