@@ -29,6 +29,7 @@ struct Checkpoint {
   long samples = 0;            ///< samples handed out so far
   int runawaySamples = 0;      ///< samples in a row with an energy balance that is wrong
   std::vector<double> memory;  ///< of the model, the integrator, the point batches and the ledger
+  CarriedMemory carried;       ///< of the integrator, vectors in dofs of the model
   std::vector<int> shares;  ///< of a divided motion: numbers of each rank in `memory`; else empty
   std::vector<double>
       recorder;  ///< of the sink of the samples, set by whoever keeps the checkpoint

@@ -59,6 +59,12 @@ struct Window {
   double step = 0;      ///< step asked for by the deck; 0 = the integrator's own default
 };
 
+/// What a motion goes on with, beyond State, that ranks divide otherwise.
+struct CarriedMemory {
+  std::vector<Vector> vectors;  ///< in positions of the compiled model; in checkpoints of its dofs
+  std::vector<double> numbers;  ///< alike on all ranks
+};
+
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -121,6 +127,11 @@ class Integrator {
   /// on with the same numbers.
   virtual void save(std::vector<double>& memory) const = 0;
   virtual void restore(const double*& memory) = 0;
+
+  /// Append / take back, after prepare() at the state, the part of it that a motion divided among
+  /// other ranks goes on with; without it that motion begins anew.
+  virtual void carry(CarriedMemory& /*memory*/) const {}
+  virtual void takeUp(const CarriedMemory& /*memory*/) {}
 
   /// False when a part of what the next steps depend on cannot be saved. A run then goes on from
   /// where forgetHistory() was called only.

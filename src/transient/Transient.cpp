@@ -145,6 +145,7 @@ class Run {
     if (anew) takeState(*point);
     const Window window{state_.t, options_.end, options_.sampling, options_.step};
     integrator_->prepare(model_, window, state_);
+    if (anew) takeMemory(*point);
     if (integrator_->equalStep() > 0)
       stepError_.emplace(model_, *integrator_, make(), window, state_);
     if (point != nullptr && !anew) return resume(*point);
@@ -189,19 +190,26 @@ class Run {
   /// Ranks with a memory of their own.
   std::size_t shares() const { return share_ ? static_cast<std::size_t>(model_.cut().ranks()) : 0; }
 
-  /// Of a motion that was divided otherwise: what the integrator and the points remember belongs to
-  /// the ranks that wrote it, so the motion begins anew at the state.
+  /// Of a motion that was divided otherwise: ledger and step error begin anew at the state, since
+  /// what they and the points remember belongs to the ranks that wrote it.
   void takeState(const Checkpoint& point) {
     const auto text = [](std::size_t n) {
       return n == 0 ? std::string("undivided") : "divided among " + std::to_string(n) + " ranks";
     };
     log::warn("The motion of the checkpoint is " + text(point.shares.size()) + ", this one is " +
               text(shares()) +
-              ". The integration starts anew at t = " + formatNumber(point.state.t) +
-              " s: the error of its first steps differs from that of an uninterrupted run, and "
-              "energy and step error count from there.");
+              ". Energy and step error count from t = " + formatNumber(point.state.t) + " s on.");
     setState(point.state);
     model_.setTime(state_.t);
+  }
+
+  /// The acceleration that prepare() has replaced, and what the integrator carries.
+  void takeMemory(const Checkpoint& point) {
+    setState(point.state);
+    CarriedMemory carried = point.carried;
+    for (std::size_t k = 0; k < carried.vectors.size(); ++k)
+      model_.toPositions(point.carried.vectors[k], carried.vectors[k]);
+    integrator_->takeUp(carried);
   }
 
   void resume(const Checkpoint& point) {
@@ -294,6 +302,11 @@ class Run {
     model_.save(point.memory);
     for (const auto& batch : model_.points()) batch.save(point.memory);
     integrator_->save(point.memory);
+    integrator_->carry(point.carried);
+    for (auto& vector : point.carried.vectors) {
+      const Vector positions = vector;
+      model_.toDofs(positions, vector);
+    }
     if (options_.ledger) ledger_.save(point.memory);
     if (stepError_) stepError_->save(point.memory);
     if (share_) {

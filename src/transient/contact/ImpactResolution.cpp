@@ -240,16 +240,24 @@ void ImpactResolution::keep(const State& to, double h) {
   unseen_ = 0;
 }
 
+void ImpactResolution::carry(std::vector<double>& numbers) const {
+  numbers.insert(numbers.end(), {squares_, time_, unseen_, calm_, static_cast<double>(kept_),
+                                 recovering_ ? 1.0 : 0.0});
+}
+
+void ImpactResolution::takeUp(const double*& numbers) {
+  for (double* sum : {&squares_, &time_, &unseen_, &calm_}) *sum = *numbers++;
+  kept_ = static_cast<long>(*numbers++);
+  recovering_ = *numbers++ != 0.0;
+}
+
 void ImpactResolution::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {squares_, time_, unseen_, calm_, static_cast<double>(kept_),
-                               recovering_ ? 1.0 : 0.0});
+  carry(memory);
   for (const auto& set : sets_) memory.insert(memory.end(), set.force.begin(), set.force.end());
 }
 
 void ImpactResolution::restore(const double*& memory) {
-  for (double* sum : {&squares_, &time_, &unseen_, &calm_}) *sum = *memory++;
-  kept_ = static_cast<long>(*memory++);
-  recovering_ = *memory++ != 0.0;
+  takeUp(memory);
   for (auto& set : sets_)
     for (double& force : set.force) force = *memory++;
 }

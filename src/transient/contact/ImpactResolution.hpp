@@ -50,6 +50,9 @@ class ImpactResolution {
   /// once, when closed contact has been without motion for half a period of its vibration.
   int nextLevel(const State& to, double h, const StepGrid& grid);
 
+  /// Append / take back what belongs to no point, alike on all ranks.
+  void carry(std::vector<double>& numbers) const;
+  void takeUp(const double*& numbers);
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 

@@ -170,6 +170,19 @@ double AlphaStep::dissipated(const State& from, const State& to, double h) const
                                                  model_->massForm(work_.data());
 }
 
+void AlphaStep::carry(std::vector<Vector>& vectors) const {
+  std::vector<double> impacts;
+  lastImpacts_.save(impacts);
+  vectors.push_back(A_);
+  vectors.emplace_back(Eigen::Map<const Vector>(impacts.data(), A_.size()));
+}
+
+void AlphaStep::takeUp(const std::vector<Vector>& vectors) {
+  A_ = vectors[0];
+  const double* impacts = vectors[1].data();
+  lastImpacts_.restore(impacts);
+}
+
 void AlphaStep::save(std::vector<double>& memory) const {
   saveHistory(memory);
   equation_.save(memory);

@@ -61,6 +61,9 @@ class AlphaStep {
   void invertMass() { mass_->invert(*model_); }
   CompiledModel& model() const { return *model_; }
 
+  /// Integrator::carry(), takeUp(), of models without states of point laws.
+  void carry(std::vector<Vector>& vectors) const;
+  void takeUp(const std::vector<Vector>& vectors);
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 

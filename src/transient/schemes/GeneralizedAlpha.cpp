@@ -168,6 +168,8 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
     parameters_.equations.tolerance *= strictness;
     parameters_.radius = 1.0;
   }
+  void carry(CarriedMemory& memory) const override;
+  void takeUp(const CarriedMemory& memory) override;
   void save(std::vector<double>& memory) const override;
   void restore(const double*& memory) override;
 
@@ -356,6 +358,22 @@ void GeneralizedAlpha::giveUpImpacts(const State& from, double h) const {
        << "shorter than Transient/Step / 2^" << Tuned::mostHalvings
        << ". Reduce Transient/Step or the stiffness of the wall.";
   throw ConvergenceError(text.str());
+}
+
+/// The grid of steps begins at the state.
+void GeneralizedAlpha::carry(CarriedMemory& memory) const {
+  scheme_->carry(memory.vectors);
+  memory.numbers.push_back(grid_.level());
+  control_.save(memory.numbers);
+  if (resolveImpacts_) impacts_.carry(memory.numbers);
+}
+
+void GeneralizedAlpha::takeUp(const CarriedMemory& memory) {
+  scheme_->takeUp(memory.vectors);
+  const double* number = memory.numbers.data();
+  grid_.setLevel(static_cast<int>(*number++));
+  control_.restore(number);
+  if (resolveImpacts_) impacts_.takeUp(number);
 }
 
 void GeneralizedAlpha::save(std::vector<double>& memory) const {

@@ -88,6 +88,8 @@ class RungeKutta4Adaptive final : public Integrator {
     }
   }
 
+  void carry(CarriedMemory& memory) const override { save(memory.numbers); }
+  void takeUp(const CarriedMemory& memory) override { step_ = memory.numbers.front(); }
   void save(std::vector<double>& memory) const override { memory.push_back(step_); }
   void restore(const double*& memory) override { step_ = *memory++; }
 

@@ -46,7 +46,7 @@ def farthest(run, whole):
 
 
 @case(26, "Restart anywhere, with other ranks", "interrupted 0 to 1 s after the first checkpoint; five integrators; 1, 2 ranks; lying string, full and reduced",
-      "bitwise with the same ranks, 1e-10 with others", "the run that is not interrupted")
+      "bitwise with the same ranks, 1e-10 with others (of a divided motion in contact, the tolerance of its steps)", "the run that is not interrupted")
 def restart(program, short):
     settings = {"generalized-alpha 1 ms": {**alpha(1e-3), **times(40.0, 0.01), "Transient/Checkpoint Interval": 1.0}}
     if not short:
