@@ -304,6 +304,8 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
       " at the top, loads, friction and supports below give " + text(state.topTorqueEquilibrium()) +
       ": the balance of torque is off by " + formatNumber(std::round(1e3 * defect) / 10.0) +
       " % of " + text(state.torqueScale) + ". ";
+  const auto free = freeDirections(scene);
+  if (std::count(free.begin(), free.end(), nodal::thetaZ) > 0) explainFreeMotion(scene, found);
   const bool round = std::all_of(
       scene.string.elements.begin(), scene.string.elements.end(),
       [](const Element& e) { return e.section().inertiaX() == e.section().inertiaY(); });
