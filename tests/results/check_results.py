@@ -230,17 +230,31 @@ def check_figures(figures, folder, data):
     near("figures: largest contact force", [figures["contact"]["force_peak"]], [force.max()], 1e-9)
 
 
+def section_axes(data, rigidity):
+    """Axes of the cross sections on the path, global: those with the least energy of bending sum 2 E I/l (a.a + a.b + b.b), where a and b
+    are the angles from the chord of an element to the axes at its ends (a natural cubic spline through the nodes)."""
+    chord = np.diff(data["/path/position"], axis=0)
+    length = np.linalg.norm(chord, axis=1)
+    nodes = len(length) + 1
+    stiffness, load = np.zeros((nodes, nodes)), np.zeros((nodes, 3))
+    for e, k in enumerate(2 * rigidity / length):
+        stiffness[e:e + 2, e:e + 2] += k * np.array([[2, 1], [1, 2]])
+        load[e:e + 2] += 3 * k * chord[e] / length[e]
+    axis = np.linalg.solve(stiffness, load)
+    return axis / np.linalg.norm(axis, axis=1)[:, None]
+
+
 def check_bending(figures, data):
-    """The largest range of a rainflow count is that of the whole history; the moment is E I times the turn of the tangents."""
+    """The largest range of a rainflow count is that of the whole history; the moment is E I times the turn of the axes of the sections."""
     time = data["/transient/time"]
     window = time > 0.15 - 1e-9
     frames, d = data["/model/frame"], data["/transient/displacement"][window]
-    x, y, z = frames[:, :, 0], frames[:, :, 1], frames[:, :, 2]
-    tangent = z + d[:, :, 4, None] * x - d[:, :, 3, None] * y
-    curvature = np.diff(tangent, axis=1) / np.diff(data["/model/s"])[:, None]
-    mean = [0.5 * (axis[1:] + axis[:-1]) for axis in (x, y)]
     rigidity = data["/model/young_modulus"] * np.pi / 4 * (data["/model/outer_radius"] ** 4 - data["/model/inner_radius"] ** 4)
-    moments = [rigidity * np.einsum("tej,ej->te", curvature, axis) for axis in mean]
+    axis = section_axes(data, rigidity)
+    moved = axis + np.cross(np.einsum("nij,tnj->tni", frames, d[:, :, 3:]), axis)
+    curvature = np.diff(moved, axis=1) / np.diff(data["/model/s"])[:, None]
+    mean = [0.5 * (frames[1:, :, k] + frames[:-1, :, k]) for k in (0, 1)]
+    moments = [rigidity * np.einsum("tej,ej->te", curvature, across) for across in mean]
     t = time[window]
     angle = 4 * np.pi * (t - 0.1 * (1 - np.exp(-t / 0.1)))[:, None] + 0.5 * (d[:, 1:, 5] + d[:, :-1, 5])
     ranges = [np.ptp(moments[0] * np.cos(angle + p * np.pi / 4) + moments[1] * np.sin(angle + p * np.pi / 4), axis=0) for p in range(4)]
