@@ -207,6 +207,12 @@ bool CompiledModel::addMissed(const double* q, double t) {
   return cut().any(missed);
 }
 
+bool CompiledModel::meetsOrLeavesWall(const double* q) {
+  bool any = false;
+  for (auto& batch : points_) any = batch.meetsOrLeavesWall(q) || any;
+  return cut().any(any);
+}
+
 void CompiledModel::toPositions(const Vector& dofs, Vector& positions) const {
   positions = share_ != nullptr ? share_->pick(dofs) : inOrder(dofs);
 }

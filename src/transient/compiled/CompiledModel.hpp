@@ -187,6 +187,8 @@ class CompiledModel {
   const std::vector<PointBatch>& points() const { return points_; }
   /// PointBatch::addMissed() of all; true where any rank has such points. Collective.
   bool addMissed(const double* q, double t = std::numeric_limits<double>::quiet_NaN());
+  /// PointBatch::meetsOrLeavesWall() of any, on any rank. Collective.
+  bool meetsOrLeavesWall(const double* q);
 
   // States of point laws, one after the other in the order of points(); most models have none.
   int stateSize() const { return stateSize_; }

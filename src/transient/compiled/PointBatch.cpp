@@ -145,6 +145,17 @@ bool PointBatch::addMissed(const double* q, double t) {
   return any;
 }
 
+bool PointBatch::meetsOrLeavesWall(const double* q) {
+  measure(q, check_);
+  checkTime_ = std::numeric_limits<double>::quiet_NaN();
+  const auto isClosed = [](const std::vector<double>& gap, int p) { return !(gap[at(p)] > 0); };
+  const auto& found = watch_.activated();
+  const auto& seen = watch_.active();
+  return std::any_of(found.begin(), found.end(), [&](int p) { return isClosed(check_, p); }) ||
+         std::any_of(seen.begin(), seen.end(),
+                     [&](int p) { return isClosed(check_, p) != isClosed(gap_, p); });
+}
+
 void PointBatch::evaluate(double t, const double* q, const double* v) {
   if (active_.empty()) return;
   gatherThese(active_, q, v);

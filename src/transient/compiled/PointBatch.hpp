@@ -46,6 +46,8 @@ class PointBatch {
   /// there were any. When the next look() is at the time t given here, it is at this q and the
   /// clearances are not measured again.
   bool addMissed(const double* q, double t = std::numeric_limits<double>::quiet_NaN());
+  /// True when a point is closed at q and was open at the last look(), or the other way round.
+  bool meetsOrLeavesWall(const double* q);
 
   /// Forces of the active points at (q, v).
   void evaluate(double t, const double* q, const double* v);

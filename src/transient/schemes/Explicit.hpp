@@ -12,6 +12,10 @@
 
 namespace tooljoint::transient {
 
+/// |lambda| h of a classical Runge-Kutta step for the rate of an impact, which so lasts six steps
+/// and keeps its rebound within 1 %.
+constexpr double rungeKuttaImpactLimit = 0.5;
+
 class ExplicitRightHandSide {
  public:
   /// Factors M; evaluations are added to counters.rightHandSides. Throws ModelError naming a dof

@@ -13,8 +13,6 @@ namespace {
 /// |lambda| h up to which steps are stable, on both axes (2.83 and 2.785); 2.62 between them, where
 /// vibration loses half its length per radian.
 constexpr double stabilityLimit = 2.78;
-/// The same for the rate of an impact, which so lasts six steps and keeps its rebound within 1 %.
-constexpr double impactLimit = 0.5;
 
 deck::ListSpec rungeKutta4Parameters() {
   return deck::ListSpec("RK4", "Parameters of the fixed-step Runge-Kutta integrator.")
@@ -47,7 +45,7 @@ class RungeKutta4 final : public FixedStepIntegrator {
   }
   double usualStep(const Window& window, const State& start) override {
     const auto rates = rhs_.largestRates(start, window.end);
-    const double least = std::max(rates.all / stabilityLimit, rates.impact / impactLimit);
+    const double least = std::max(rates.all / stabilityLimit, rates.impact / rungeKuttaImpactLimit);
     return least > 0 ? safety_ / least : (window.end - window.begin) / 100;
   }
   void step(const State& from, State& to) override {

@@ -153,6 +153,15 @@ INSTANTIATE_TEST_SUITE_P(Steps, Rebound,
                          ::testing::Combine(::testing::Values(1e-4, 1e-3, 5e-3),
                                             ::testing::Values(0.0, 0.2, 0.5, 0.8, 1.0)));
 
+/// One step and two halves of it can agree on a rebound that both miss.
+TEST(Impacts, KeepTheirReboundInAdaptiveStepsOfRungeKutta) {
+  for (double k : {1e7, 1e8, 1e9 / 3, 1e9, 1e11})
+    for (int phase = 0; phase < 10; ++phase)
+      EXPECT_NEAR(apex(fallingMass(k, 0, phase * 5e-5), options("RK4 adaptive", 0.08, 0, 0.08)),
+                  1.0, 0.02)
+          << k << " " << phase;
+}
+
 /// The mean energy that rebounds lose in steps that do not resolve them, over all places within a
 /// step where the wall is met, beside reboundLoss(), which decides on halvings.
 TEST(Impacts, UnresolvedReboundsLoseWhatTheFitSays) {
