@@ -3,9 +3,15 @@
 
 #include <fmt/printf.h>
 
+#include "common/report/Percent.hpp"
+
 namespace tooljoint::cases {
 
 namespace {
+
+/// Estimated error of the motion of a reduced model above which a run warns, as that of steps that
+/// fail (Transient/Step Error Limit).
+constexpr double largeError = 0.2;
 
 /// Integrator, steps and counters, two lines.
 std::string describeSteps(const transient::TransientReport& report) {
@@ -64,6 +70,20 @@ std::string describeMotionError(const estimate::MotionEstimate& error) {
       "samples in %.2f s%s",
       error.error, error.largest, error.samples, error.wall,
       error.ofEverySecond ? fmt::sprintf("; %.2e from half of them", *error.ofEverySecond) : "");
+}
+
+std::vector<std::string> remarks(const estimate::MotionEstimate& error) {
+  std::vector<std::string> out;
+  if (error.isTooFast())
+    out.push_back("The motion is faster than its samples: the estimate of its error, " +
+                  percent(error.error) + ", is " + percent(*error.ofEverySecond) +
+                  " from half of them, and the error may be larger. Reduce Transient/Sampling "
+                  "Interval.");
+  if (!(error.error <= largeError))
+    out.push_back("The reduced motion is estimated to be " + percent(error.error) +
+                  " off that of the full model. Keep more modes or nodes, or give Reduction a "
+                  "Motion Tolerance.");
+  return out;
 }
 
 std::string describeTransient(const transient::TransientReport& report,

@@ -24,6 +24,8 @@ std::string describeCost(const transient::CostModel& full, const transient::Cost
 /// Assembly, joined dofs, and what the interface reduction kept of them.
 std::string describeCoupling(const coupling::Coupling& coupled);
 std::string describeMotionError(const estimate::MotionEstimate& error);
+/// What to warn of: motion too fast for the samples, and an estimate above a fifth of the motion.
+std::vector<std::string> remarks(const estimate::MotionEstimate& error);
 /// Integrator, steps and counters, the figures of the case, and the energy balance.
 std::string describeTransient(const transient::TransientReport& report, const MotionRecord& record);
 

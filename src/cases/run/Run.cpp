@@ -15,7 +15,6 @@
 #include "cases/run/ResultsWriter.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
-#include "common/Text.hpp"
 #include "common/Version.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/Stopwatch.hpp"
@@ -166,11 +165,7 @@ class Run {
     auto report = files_.integrate(model, case_.transient(), *recorder_, both);
     const auto error = estimator->result();
     log::info(describeMotionError(error));
-    if (error.isTooFast())
-      log::warn("The motion is faster than its samples: the estimate of its error, " +
-                formatNumber(error.error) + ", is " + formatNumber(*error.ofEverySecond) +
-                " from half of them, and the error may be larger. Reduce Transient/Sampling "
-                "Interval.");
+    for (const auto& remark : remarks(error)) log::warn(remark);
     summarise(error, files_.summary());
     return report;
   }

@@ -24,8 +24,9 @@ long DampingSamples::next() const {
 
 void DampingSamples::look(const MotionNorm& norm, const State& from, const State& to) {
   if (scheme_ == nullptr) return;
-  const bool first = taken_ < firstSteps;
-  if (taken_++ < next()) return;
+  const bool first = taken_ < firstSteps, due = taken_ >= next();
+  ++taken_;
+  if (!due) return;
   if (!first) ++looks_;
   const double weight = first ? 1.0 : static_cast<double>(stride);
   difference_ = to.q - from.q;

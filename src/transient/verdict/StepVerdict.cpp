@@ -10,6 +10,7 @@
 
 #include "common/Error.hpp"
 #include "common/report/Log.hpp"
+#include "common/report/Percent.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -27,15 +28,6 @@ constexpr double speedTolerance = 2.5;
 /// Times `Step Error Warning` by which velocities may differ: vibration that is too fast for the
 /// step has little of the displacement.
 constexpr double velocityTolerance = 4;
-
-/// A part of 1 in per cent, with two digits.
-std::string percent(double part) {
-  std::ostringstream text;
-  text << std::setprecision(2) << 100 * part;
-  std::ostringstream plain;
-  plain << std::stod(text.str()) << " %";
-  return plain.str();
-}
 
 /// What is known of the steps of a run.
 struct Findings {
@@ -74,10 +66,12 @@ struct Findings {
   }
   /// Contact that neither the steps nor what they are compared with resolve.
   bool isUnknown() const { return rests && shorterStep > 0 && (!shorter || shorter->unresolved); }
-  /// The step error: D where the comparison finds the motion right, else the larger of S and D.
+  /// The step error: D where the comparison finds the motion right, else the largest of S, D and
+  /// the part of V that counts as much.
   double stepError() const {
     if (!shorter) return error;
-    return isRight() ? shorter->size : std::max(error, shorter->size);
+    if (isRight()) return shorter->size;
+    return std::max({error, shorter->size, shorter->velocities / velocityTolerance});
   }
   bool isWide() const { return stepError() > warning || isUnknown(); }
   /// What the summary holds: 0 where a step error within the warning is not known to be all.

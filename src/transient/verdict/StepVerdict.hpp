@@ -12,15 +12,16 @@
 
 namespace tooljoint::transient {
 
-/// \return the step error: S; of compared motion D where that is found right, else the larger of
-/// both; 0 where contact that no step resolves leaves it unknown. Above `Step Error Warning` it
-/// warns, and so does a scheme that damps more of the vibration than that; the run fails with an S
-/// above 1, unless all of its motion is compared and D within the limit. Where S is above half of
-/// `Step Error Limit`, or the scheme damps more than a fifth of `Step Error Warning`, or contact
-/// rests on walls too stiff for the step, its motion is compared (StepComparison.hpp): it fails
-/// when D is above the limit, unless neighbours part as far, and when its speeds are more than 2.5
-/// limits off; right is a D within `Step Error Warning`, with speeds as near and velocities four
-/// times as near. A limit of 1 and more is one of S alone. Throws ConvergenceError. Collective.
+/// \return the step error: S; of compared motion D where that is found right, else the largest of
+/// S, D and a quarter of the difference V of the velocities; 0 where contact that no step resolves
+/// leaves it unknown. Above `Step Error Warning` it warns, and so does a scheme that damps more of
+/// the vibration than that; the run fails with an S above 1, unless all of its motion is compared
+/// and D within the limit. Where S is above half of `Step Error Limit`, or the scheme damps more
+/// than a fifth of `Step Error Warning`, or contact rests on walls too stiff for the step, its
+/// motion is compared (StepComparison.hpp): it fails when D is above the limit, unless neighbours
+/// part as far, and when its speeds are more than 2.5 limits off; right is a D within `Step Error
+/// Warning`, with speeds as near and velocities four times as near. A limit of 1 and more is one of
+/// S alone. Throws ConvergenceError. Collective.
 double judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
                   const std::function<StepComparison()>& comparison);
 
