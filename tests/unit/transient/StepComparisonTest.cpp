@@ -76,7 +76,8 @@ TEST(StepComparison, isThePhaseThatStepsLoseMoreThanHalves) {
 }
 
 /// Beside a slow mass one that is too fast for the step, with a fiftieth of its displacement and
-/// as much velocity, or a third of that: the scheme takes it in its first steps, so that S has none.
+/// as much velocity, or a third of that: the scheme takes it in its first steps, so that S has
+/// none.
 TEST(StepComparison, warnsOfVelocitiesThatStepsDoNotResolve) {
   Matrix K = Matrix::Zero(2, 2);
   K.diagonal() << w * w, 2500 * w * w;
