@@ -173,6 +173,29 @@ TEST(SoftString, HangsThePartBelowTheSurface) {
   EXPECT_THROW(march(string, hole, 1001, sliding(0.3)), ModelError);
 }
 
+/// Horizontal, pushed at the bit with less than the helical limit F* = 2 sqrt(2) sqrt(E I w/r): F
+/// grows by mu w to F*, then dF/ds = mu (w + r F^2/(4 E I)), whichever way the steps fall.
+TEST(SoftString, BucklesIntoAHelixWhereItDoesWithinAStep) {
+  const double r = 0.108 - 0.0635, EI = pipe().youngModulus() * pipe().inertiaX();
+  const double limit = 2 * std::sqrt(2.0) * std::sqrt(EI * weight / r);
+  const double k = std::sqrt(r / (4 * EI * weight)), friction = 0.4;
+  for (const double straight : {100.0, 100.7, 101.4, 102.9}) {
+    const double length = 1000;
+    const auto hole = holeOf(well::straight(length, 90 * degree), friction);
+    const double wob = limit - friction * weight * straight;
+    const auto loads = march(stringOf(length), hole, length, sliding(0.3, wob));
+    const double angle = std::atan(k * limit) + k * weight * friction * (length - straight);
+    const double top = std::tan(angle) / k;
+    EXPECT_NEAR(-loads.tension.back(), top, exact * top) << straight;
+    // integral of F over the helix: log(cos(a)/cos(b))/(k^2 mu w)
+    const double pushed =
+        straight * 0.5 * (wob + limit) +
+        std::log(std::cos(std::atan(k * limit)) / std::cos(angle)) / (k * k * friction * weight);
+    const double shorter = pushed / pipe().axialRigidity();
+    EXPECT_NEAR(-loads.stretching, shorter, exact * shorter) << straight;
+  }
+}
+
 TEST(SoftString, LocksUpWhereTheHelixHoldsIt) {
   // horizontal, pushed at the bit: dF/ds = mu (w + r F^2/(4 E I)) beyond the helical limit
   const double length = 30000;
