@@ -137,7 +137,8 @@ std::string firstLines(std::vector<std::string> lines, std::size_t most, const s
   if (lines.size() > most) {
     const auto more = lines.size() - most;
     lines.resize(most);
-    lines.push_back(fmt::format("{}: {} more errors follow.", where, more));
+    lines.push_back(more == 1 ? where + ": one more error follows."
+                              : fmt::format("{}: {} more errors follow.", where, more));
   }
   return join(lines, "\n");
 }

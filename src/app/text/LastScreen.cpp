@@ -37,7 +37,8 @@ constexpr std::size_t column = 20;  ///< width of the names and of the values
 std::string fixed(double value, int decimals) {
   std::ostringstream out;
   out << std::fixed << std::setprecision(decimals) << value;
-  return out.str();
+  const std::string text = out.str();
+  return text.find_first_not_of("-0.") == std::string::npos ? text.substr(text.find('0')) : text;
 }
 
 /// A number with so many significant digits.

@@ -364,6 +364,26 @@ void checkReduction(const Scene& scene) {
   estimate::readEstimateOptions(list);
 }
 
+/// What follows from several lists, and what they must have in common.
+void complete(Scene& scene, const drilling::TopDrive& topDrive, Faults& faults) {
+  scene.topDrive = tunedToPipe(topDrive, scene.string);
+  if (feedsBySetWeight(scene))
+    faults.attempt([&] { scene.topDrive.blockSpeed = feedOfSetWeight(scene); });
+  if (!scene.deck.gives("Supports/Top")) releaseTop(topDrive, scene.supports);
+  if (scene.coupling)
+    faults.attempt(
+        [&] { coupling::checkNames(*scene.coupling, outlines(scene), componentNames()); });
+  faults.attempt([&] { scene.held = heldDofs(scene.supports, scene.string); });
+  faults.raise();
+  if (scene.contact)
+    faults.attempt(
+        [&] { scene.contactPoints = contactPoints(*scene.contact, scene.string, scene.held); });
+  faults.attempt([&] { checkLoads(scene, faults); });
+  if (scene.reduces()) faults.attempt([&] { checkReduction(scene); });
+  crossCheck(scene, faults);
+  faults.raise();
+}
+
 }  // namespace
 
 Scene turningAt(Scene scene, double speed) {
@@ -386,31 +406,30 @@ Scene readScene(const deck::Deck& deck) {
   std::optional<DrillString> string;
   faults.attempt([&] { well = well::readWell(list.sublist("Well"), deck.folder()); });
   if (well) faults.attempt([&] { string = buildDrillString(readDrillstring(deck), *well); });
+  const auto read = [&](const char* name, auto& into, const auto& reader) {
+    if (list.isSublist(name)) faults.attempt([&] { into = reader(list.sublist(name)); });
+  };
   std::shared_ptr<const mud::MudModel> mud;
   std::optional<contact::ContactSettings> contact;
   loads::RotarySpeed rotary;
   loads::Loads loads;
   loads::RayleighDamping damping;
   SupportSettings supports;
+  std::optional<BucklingSettings> buckling;  // for its faults
+  std::optional<drilling::BitSettings> bit;
+  drilling::TopDrive topDrive;
   path::PathOptions path;
   equilibrium::StaticOptions statics;
   PartitionRules partition;
-  if (list.isSublist("Mud")) faults.attempt([&] { mud = mud::readMud(list.sublist("Mud")); });
-  if (list.isSublist("Contact"))
-    faults.attempt([&] { contact = contact::readContact(list.sublist("Contact")); });
+  read("Mud", mud, mud::readMud);
+  read("Contact", contact, contact::readContact);
   faults.attempt([&] { rotary = loads::RotarySpeed::fromDeck(list); });
-  if (list.isSublist("Loads"))
-    faults.attempt([&] { loads = loads::readLoads(list.sublist("Loads")); });
-  if (list.isSublist("Damping"))
-    faults.attempt([&] { damping = loads::readDamping(list.sublist("Damping")); });
-  if (list.isSublist("Supports"))
-    faults.attempt([&] { supports = readSupports(list.sublist("Supports")); });
-  std::optional<drilling::BitSettings> bit;
-  drilling::TopDrive topDrive;
-  if (list.isSublist("Buckling")) faults.attempt([&] { readBuckling(list.sublist("Buckling")); });
-  if (list.isSublist("Bit")) faults.attempt([&] { bit = drilling::readBit(list.sublist("Bit")); });
-  if (list.isSublist("Top Drive"))
-    faults.attempt([&] { topDrive = drilling::readTopDrive(list.sublist("Top Drive")); });
+  read("Loads", loads, loads::readLoads);
+  read("Damping", damping, loads::readDamping);
+  read("Supports", supports, readSupports);
+  read("Buckling", buckling, readBuckling);
+  read("Bit", bit, drilling::readBit);
+  read("Top Drive", topDrive, drilling::readTopDrive);
   faults.attempt([&] { path = path::optionsFrom(listOrDefaults(list, path::parameters())); });
   faults.attempt(
       [&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
@@ -426,22 +445,7 @@ Scene readScene(const deck::Deck& deck) {
               rotary, loads, damping, path,     statics, partition, common.output};
   scene.coupling = common.coupling;
   scene.bit = bit;
-  scene.topDrive = tunedToPipe(topDrive, scene.string);
-  if (feedsBySetWeight(scene))
-    faults.attempt([&] { scene.topDrive.blockSpeed = feedOfSetWeight(scene); });
-  if (!deck.gives("Supports/Top")) releaseTop(topDrive, scene.supports);
-  if (scene.coupling)
-    faults.attempt(
-        [&] { coupling::checkNames(*scene.coupling, outlines(scene), componentNames()); });
-  faults.attempt([&] { scene.held = heldDofs(scene.supports, scene.string); });
-  faults.raise();
-  if (contact)
-    faults.attempt(
-        [&] { scene.contactPoints = contactPoints(*contact, scene.string, scene.held); });
-  faults.attempt([&] { checkLoads(scene, faults); });
-  if (scene.reduces()) faults.attempt([&] { checkReduction(scene); });
-  crossCheck(scene, faults);
-  faults.raise();
+  complete(scene, topDrive, faults);
   return scene;
 }
 

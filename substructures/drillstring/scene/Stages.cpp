@@ -234,7 +234,7 @@ std::vector<int> freeDirections(const Scene& scene) {
   for (const auto& motion : freeMotions) {
     bool held = false;
     for (int node = 0; node < scene.string.nodeCount(); ++node)
-      held = held || heldDofs[static_cast<std::size_t>(kNodeDofs * node + motion.component)];
+      held = held || heldDofs[at(kNodeDofs * node + motion.component)];
     if (!held) free.push_back(motion.component);
   }
   return free;
