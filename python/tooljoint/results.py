@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import pathlib
+from collections.abc import Iterator
 from typing import Any
 
 from . import _core
@@ -13,8 +14,11 @@ from .errors import FileError
 from .quantity import Quantity
 
 
+FILES = ("results.h5", "study.h5", "map.h5", "campbell.h5", "response.h5", "torque_drag.h5", "bha.h5", "buckling.h5", "modes.h5")  # a folder has one of them, or the first and others
+
+
 class Results:
-    """The folder of a run. `results["transient/displacement"]` is a dataset of results.h5, an array with unit and long_name; `summary`
+    """The folder of a run or of an analysis. `results["transient/displacement"]` is a dataset of its HDF5 file (results.h5, campbell.h5), an array with unit and long_name; `summary`
     is summary.json as a dict; `table("motion.csv")` are the rows of a table.
 
     FileError for a folder that holds no results, or a dataset that is not there.
@@ -31,8 +35,11 @@ class Results:
             raise FileError(f"{file} is no summary of a run: {error}.") from error
 
     def _open(self) -> _core.ResultsFile:
-        name = "study.h5" if (self.folder / "study.h5").exists() else "results.h5"
+        name = next((name for name in FILES if (self.folder / name).exists()), FILES[0])
         return _core.ResultsFile(str(self.folder / name))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.datasets())
 
     def datasets(self) -> list[str]:
         """Paths of all datasets, without the leading slash."""

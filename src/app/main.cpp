@@ -467,6 +467,15 @@ int run(int argc, char** argv) {
   });
 }
 
+/// What went to the standard output may not have arrived: a full disk, say.
+int afterOutput(int exit) {
+  std::cout.flush();
+  const bool written = std::cout.good() && std::fflush(stdout) == 0;
+  if (written || exit != code(ExitCode::Done)) return exit;
+  say(std::cerr, "tooljoint: The standard output could not be written; its disk may be full.\n");
+  return code(ExitCode::Files);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -479,5 +488,5 @@ int main(int argc, char** argv) {
   std::optional<tooljoint::parallel::QuickStart> quick(std::in_place);
   const Tpetra::ScopeGuard scope(&none, &nothing);
   quick.reset();
-  return run(argc, argv);
+  return afterOutput(run(argc, argv));
 }

@@ -90,14 +90,16 @@ void listWork(const Case& one, const CaseOutline& outline) {
   listTransient(one);
 }
 
-void listAnalyses(const Case& one) {
+std::vector<OutlineItem> analysesOf(const Case& one) {
+  std::vector<OutlineItem> found;
   for (const auto& analysis : AnalysisLists::instance().lists()) {
     if (!one.list().isSublist(analysis.name)) continue;
     std::string name = analysis.name;
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    list({true, name, analysis.describe(one)});
+    found.push_back({true, name, analysis.describe(one)});
   }
+  return found;
 }
 
 /// Solves for the state at rest and reduces the case to know both models.
@@ -118,13 +120,14 @@ void listCost(const Case& one) {
 
 void check(const Case& one, bool cost) {
   one.verify();
+  const auto outline = one.outline();
+  const auto analyses = analysesOf(one);
   log::info(one.deck().file() + " is a valid deck.");
   announce(one);
-  const auto outline = one.outline();
   log::info("modelled:");
   for (const auto& item : outline.modelled) list(item);
   listWork(one, outline);
-  listAnalyses(one);
+  for (const auto& item : analyses) list(item);
   if (cost) listCost(one);
 }
 

@@ -6,13 +6,18 @@
 #include <complex>
 #include <cstdio>
 #include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "cases/ReducedCase.hpp"
+#include "cases/run/AnalysisFiles.hpp"
 #include "cases/run/Report.hpp"
 #include "cases/run/Run.hpp"
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
@@ -46,27 +51,46 @@ std::string dampedHeading(double t) {
 /// Growth rates below this fraction of |s| are within the accuracy of s.
 constexpr double noGrowth = 1e-8;
 
-/// What the damped modes say of the stability of the state. \param held point sets whose states
-/// they leave as they are at rest
-std::string verdict(const std::vector<std::complex<double>>& values,
-                    const std::vector<std::string>& held) {
-  const std::string without = stability::withoutStates(held);
-  std::size_t growing = 0;
-  double fastest = 0;
+/// Damped modes that grow.
+struct Growth {
+  long modes = 0;
+  double fastest = 0.0;  ///< [1/s]
+};
+
+Growth growthOf(const std::vector<std::complex<double>>& values) {
+  Growth growth;
   for (const auto& s : values)
     if (s.real() > noGrowth * std::abs(s)) {
-      ++growing;
-      fastest = std::max(fastest, s.real());
+      ++growth.modes;
+      growth.fastest = std::max(growth.fastest, s.real());
     }
-  if (growing == 0)
-    return "None of the " + std::to_string(values.size()) + " damped modes listed grows." + without;
-  return std::to_string(growing) + " of the " + std::to_string(values.size()) +
-         " damped modes listed " + (growing == 1 ? "grows" : "grow") + ", the fastest as exp(" +
-         fmt::format("{:.3g}", fastest) + " t): the state is unstable." + without;
+  return growth;
 }
 
-void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder,
-                const std::string& name) {
+/// What the damped modes say of the stability of the state. \param held point sets whose states
+/// they leave as they are at rest
+std::string verdict(const Growth& growth, std::size_t listed,
+                    const std::vector<std::string>& held) {
+  const std::string without = stability::withoutStates(held);
+  if (growth.modes == 0)
+    return "None of the " + std::to_string(listed) + " damped modes listed grows." + without;
+  return std::to_string(growth.modes) + " of the " + std::to_string(listed) +
+         " damped modes listed " + (growth.modes == 1 ? "grows" : "grow") +
+         ", the fastest as exp(" + fmt::format("{:.3g}", growth.fastest) +
+         " t): the state is unstable." + without;
+}
+
+/// What is listed, for the files.
+struct ListedModes {
+  std::optional<io::Csv> undamped, damped;  ///< modes.csv, damped_modes.csv
+  Vector hertz;                             ///< of the undamped modes
+  std::optional<Growth> growth;             ///< of the damped modes
+  std::optional<double> error, estimate;    ///< of the coupled frequencies, the largest
+  Matrix shapes;                            ///< undamped modes of the full model, dofs x modes
+  model::SecondOrderModel model;            ///< the full model, where there are shapes
+};
+
+io::Csv tableOf(const std::vector<estimate::ModeComparison>& modes) {
   io::Csv table({{"mode", ""},
                  {"full", "Hz"},
                  {"full_damping", ""},
@@ -91,7 +115,45 @@ void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::s
                ofCoupled(m.definite ? 1.0 : 0.0), formatNumber(m.fullImHz()),
                ofCoupled(m.coupledImHz())});
   }
-  table.writeInto(folder, name);
+  return table;
+}
+
+/// A mode whose displacements have less than this part of its squares moves by rotations alone.
+constexpr double noDisplacement = 1e-6;
+
+/// The largest displacement is 1; of a mode without displacements the largest rotation.
+/// \param shape rows of the recovery, a node after the other
+Vector scaled(const Vector& shape, const model::ComponentNames& components) {
+  const auto width = sizeOf(components);
+  const Matrix all = shape.reshaped<Eigen::RowMajor>(shape.size() / width, width);
+  Matrix moved = all;
+  for (int c = 0; c < width; ++c)
+    if (components[at(c)].rfind("theta", 0) == 0) moved.col(c).setZero();
+  if (moved.squaredNorm() <= noDisplacement * all.squaredNorm()) moved = all;
+  Eigen::Index node = 0, component = 0;
+  moved.cwiseAbs().maxCoeff(&node, &component);
+  const double largest = moved(node, component);
+  return largest == 0.0 ? shape : Vector(shape / largest);
+}
+
+/// Group /modes.
+void writeShapes(const ListedModes& listed, io::ResultsFile& file) {
+  const auto& model = listed.model;
+  const std::size_t nodes = model.recoveryNodes.size(), width = model.componentNames.size(),
+                    count = static_cast<std::size_t>(listed.shapes.cols());
+  std::vector<double> rows;
+  rows.reserve(count * nodes * width);
+  const Matrix recovered = model.recovery * listed.shapes;
+  for (Eigen::Index j = 0; j < recovered.cols(); ++j) {
+    const Vector shape = scaled(recovered.col(j), model.componentNames);
+    rows.insert(rows.end(), shape.begin(), shape.end());
+  }
+  file.write("/modes/frequency", listed.hertz, {count}, "Hz",
+             "omega / 2 pi of undamped modes of the full model, negative where omega^2 < 0");
+  file.write(
+      "/modes/shape", rows, {count, nodes, width}, "1",
+      "Displacements, the largest scaled to 1, and rotations; of a mode without displacements "
+      "the largest rotation");
 }
 
 /// More modes than these are told of before they are computed.
@@ -107,7 +169,8 @@ int modesOf(const model::SecondOrderModel& model, int wanted) {
 }
 
 /// Undamped and damped modes of one model.
-void listFullModes(const model::SecondOrderModel& full, const ModesOptions& options, double t) {
+ListedModes listFullModes(const model::SecondOrderModel& full, const ModesOptions& options,
+                          double t) {
   const int count = modesOf(full, options.count);
   const auto pairs = coupling::lowestModes(full, count);
   const auto values =
@@ -123,7 +186,11 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
     log::info(line);
     table.row({static_cast<double>(i + 1), values(i).imag() / constants::twoPi});
   }
-  if (!options.output.empty()) table.writeInto(options.output, "modes.csv");
+  ListedModes listed;
+  listed.undamped = table;
+  listed.hertz = values.imag() / constants::twoPi;
+  listed.shapes = pairs.vectors;
+  listed.model = full;
   const auto m = estimate::linearise(full, t);
   const auto damped =
       linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, count, model::namer(full));
@@ -140,27 +207,43 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
     dampedTable.row(
         {static_cast<double>(i + 1), size / constants::twoPi, ratio, s.imag() / constants::twoPi});
   }
+  listed.growth = growthOf({damped.values.begin(), damped.values.end()});
   log::info(
-      verdict({damped.values.begin(), damped.values.end()}, model::setsWithMovingStates(full, t)));
+      verdict(*listed.growth, at(damped.values.size()), model::setsWithMovingStates(full, t)));
   logStageTimes();
-  if (!options.output.empty()) dampedTable.writeInto(options.output, "damped_modes.csv");
+  listed.damped = dampedTable;
+  return listed;
 }
 
 /// Full and coupled modes side by side, undamped and with the matrices of time t.
 /// \param maps of the full model where it was coupled from the parts, see estimate::compareModes
-void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps,
-                       const std::vector<model::Substructure>& parts,
-                       const coupling::Synthesis& synthesis, const ModesOptions& options,
-                       double t) {
+ListedModes listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps,
+                              const std::vector<model::Substructure>& parts,
+                              const coupling::Synthesis& synthesis, const ModesOptions& options,
+                              double t) {
   log::info("reduced     " + std::to_string(full.size()) + " dofs to " +
             std::to_string(synthesis.coupled.model.size()));
   const int count = modesOf(full, options.count);
-  const auto undamped = estimate::compareModes(full, parts, synthesis, count, maps);
+  const auto exact = estimate::modesToCompare(full, count);
+  const auto undamped = estimate::compareModes(full, exact, count, parts, synthesis, maps);
   log::info(std::string(undampedHeading) +
             ". Columns: full mode, coupled mode of the same shape (repeated modes: of the same "
             "subspace), its relative error, and the estimate of the error without the full model:");
   log::info(estimate::comparisonTable(undamped, false));
-  if (!options.output.empty()) writeTable(undamped, options.output, "modes.csv");
+  const auto listedCount = static_cast<Eigen::Index>(undamped.size());
+  ListedModes listed;
+  listed.undamped = tableOf(undamped);
+  listed.hertz.resize(listedCount);
+  for (Eigen::Index i = 0; i < listedCount; ++i) {
+    const auto& mode = undamped[at(i)];
+    listed.hertz[i] = mode.fullHz();
+    if (mode.coupledMode < 0) continue;
+    listed.error = std::max(listed.error.value_or(0.0), std::abs(mode.error));
+    if (mode.estimated)
+      listed.estimate = std::max(listed.estimate.value_or(0.0), std::abs(mode.estimate));
+  }
+  listed.shapes = exact.vectors.leftCols(listedCount);
+  listed.model = full;
   const auto damped = estimate::compareDampedModes(full, parts, synthesis, count, t, maps);
   log::info(dampedHeading(t) + ", errors of s:");
   log::info(estimate::comparisonTable(damped, true));
@@ -168,13 +251,15 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
     log::info("Errors of damped modes are not estimated beside an interface reduction.");
   std::vector<std::complex<double>> values;
   for (const auto& mode : damped) values.push_back(mode.full);
-  log::info(verdict(values, model::setsWithMovingStates(full, t)));
+  listed.growth = growthOf(values);
+  log::info(verdict(*listed.growth, values.size(), model::setsWithMovingStates(full, t)));
   logStageTimes();
-  if (!options.output.empty()) writeTable(damped, options.output, "damped_modes.csv");
+  listed.damped = tableOf(damped);
+  return listed;
 }
 
 /// Modes of the coupled model without those of the full one.
-void listCoupledModes(const ReducedCase& reduced, const ModesOptions& options) {
+ListedModes listCoupledModes(const ReducedCase& reduced, const ModesOptions& options) {
   const auto& parts = reduced.unreduced.parts;
   const auto& synthesis = reduced.outcome.synthesis;
   const auto& coupled = synthesis.coupled.model;
@@ -195,7 +280,6 @@ void listCoupledModes(const ReducedCase& reduced, const ModesOptions& options) {
     }
   }
   logStageTimes();
-  if (options.output.empty()) return;
   io::Csv table({{"mode", ""}, {"coupled", "Hz"}, {"estimate", ""}, {"definite", ""}});
   for (std::size_t i = 0; i < modes.size(); ++i)
     table.row({formatNumber(static_cast<double>(i + 1)), formatNumber(modes[i].frequency()),
@@ -203,7 +287,59 @@ void listCoupledModes(const ReducedCase& reduced, const ModesOptions& options) {
                !estimated          ? ""
                : modes[i].definite ? "1"
                                    : "0"});
-  table.writeInto(options.output, "modes.csv");
+  ListedModes listed;
+  listed.undamped = table;
+  listed.hertz.resize(static_cast<Eigen::Index>(modes.size()));
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    listed.hertz[static_cast<Eigen::Index>(i)] = modes[i].frequency();
+    if (estimated)
+      listed.estimate = std::max(listed.estimate.value_or(0.0), std::abs(modes[i].error));
+  }
+  return listed;
+}
+
+void summarise(const ListedModes& listed, io::Summary& summary) {
+  const auto set = [&](const char* key, const auto& value) {
+    if (value) summary.set(key, *value);
+  };
+  summary.set("modes.count", static_cast<long>(listed.hertz.size()));
+  if (listed.hertz.size() > 0) {
+    summary.set("modes.lowest_hz", listed.hertz.minCoeff());
+    summary.set("modes.highest_hz", listed.hertz.maxCoeff());
+  }
+  set("modes.largest_error", listed.error);
+  set("modes.largest_estimate", listed.estimate);
+  if (!listed.growth) return;
+  summary.set("modes.growing", listed.growth->modes);
+  summary.set("modes.fastest_growth", listed.growth->fastest);
+}
+
+ListedModes listModes(const Case& one, const RestingCase& rest, const ModesOptions& options) {
+  const auto text = rest.describe();
+  if (!text.empty()) log::info(text);
+  const double t = options.time.value_or(timeOfLaws(one));
+  if (!one.reduces()) {
+    if (options.coupledOnly)
+      throw UsageError(
+          "`modes --coupled` lists the modes of a reduced model, but the deck has no list "
+          "\"Reduction\". Add the list, or leave --coupled out.");
+    return listFullModes(rest.full().model, options, t);
+  }
+  const auto reduced = reduce(one, rest);
+  log::info(describeCoupling(reduced.coupled()));
+  ListedModes listed;
+  if (options.coupledOnly) {
+    listed = listCoupledModes(reduced, options);
+  } else {
+    const auto full = rest.full();
+    listed = listComparedModes(full.model, full.maps, reduced.unreduced.parts,
+                               reduced.outcome.synthesis, options, t);
+  }
+  if (!reduced.outcome.rounds.empty()) log::info(estimate::roundTable(reduced.outcome.rounds));
+  log::info(reduction::summaryTable(reduced.parts()));
+  if (options.bases)
+    for (const auto& part : reduced.parts()) log::info(part.report.table());
+  return listed;
 }
 
 }  // namespace
@@ -213,32 +349,22 @@ double timeOfLaws(const Case& one) {
 }
 
 void listModes(const Case& one, const ModesOptions& options) {
-  announce(one);
-  const auto rest = one.atRest();
-  const auto text = rest->describe();
-  if (!text.empty()) log::info(text);
-  const double t = options.time.value_or(timeOfLaws(one));
-  if (!one.reduces()) {
-    if (options.coupledOnly)
-      throw UsageError(
-          "`modes --coupled` lists the modes of a reduced model, but the deck has no list "
-          "\"Reduction\". Add the list, or leave --coupled out.");
-    listFullModes(rest->full().model, options, t);
-    return;
-  }
-  const auto reduced = reduce(one, *rest);
-  log::info(describeCoupling(reduced.coupled()));
-  if (options.coupledOnly) {
-    listCoupledModes(reduced, options);
-  } else {
-    const auto full = rest->full();
-    listComparedModes(full.model, full.maps, reduced.unreduced.parts, reduced.outcome.synthesis,
-                      options, t);
-  }
-  if (!reduced.outcome.rounds.empty()) log::info(estimate::roundTable(reduced.outcome.rounds));
-  log::info(reduction::summaryTable(reduced.parts()));
-  if (options.bases)
-    for (const auto& part : reduced.parts()) log::info(part.report.table());
+  std::shared_ptr<const RestingCase> rest;
+  ListedModes listed;
+  const auto list = [&] {
+    announce(one);
+    rest = one.atRest();
+    listed = listModes(one, *rest, options);
+  };
+  if (options.output.empty()) return list();
+  AnalysisFiles files(one, options.output, "modes", Beside::Results);
+  files.complete(list, [&](io::ResultsFile& file) {
+    if (listed.undamped) listed.undamped->stage(files.folder().file("modes.csv"));
+    if (listed.damped) listed.damped->stage(files.folder().file("damped_modes.csv"));
+    rest->writeProfile(file);
+    if (listed.shapes.cols() > 0) writeShapes(listed, file);
+    summarise(listed, files.summary());
+  });
 }
 
 }  // namespace tooljoint::cases

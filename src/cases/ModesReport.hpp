@@ -14,7 +14,7 @@ struct ModesOptions {
   int count = 20;              ///< modes listed
   std::optional<double> time;  ///< of the matrices of the damped modes [s]; none: the end of the
                                ///< motion
-  std::string output;          ///< folder of modes.csv and damped_modes.csv; empty: no files
+  std::string output;          ///< folder of the tables, modes.h5 and summary.json; empty: no files
   bool coupledOnly = false;    ///< undamped modes of the coupled model alone, with estimated errors
   bool bases = false;          ///< the vectors of all bases too, behind the frequencies
 };
@@ -25,7 +25,8 @@ double timeOfLaws(const Case& one);
 
 /// Lists the undamped and damped modes of the full model and, where the deck reduces, those of the
 /// coupled model beside them with MAC values, true and estimated errors; or those of the coupled
-/// model alone. DeckError, ModelError, ConvergenceError, FileError. Collective.
+/// model alone. The shapes are those of the undamped modes of the full model. DeckError,
+/// ModelError, ConvergenceError, FileError. Collective.
 void listModes(const Case& one, const ModesOptions& options);
 
 }  // namespace tooljoint::cases

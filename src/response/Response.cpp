@@ -276,7 +276,8 @@ class Sweep {
   /// A local maximum of the amplitude: between the neighbours of a point.
   struct Bracket {
     int load = 0, output = 0;
-    double from = 0.0, to = 0.0;
+    double from = 0.0, middle = 0.0, to = 0.0;
+    double size = 0.0;  ///< at the point
   };
 
   std::vector<Bracket> brackets(const std::vector<ResponsePoint>& points, int load,
@@ -285,7 +286,8 @@ class Sweep {
     const auto size = [&](std::size_t i) { return std::abs(points[i].x(output, load)); };
     for (std::size_t i = 1; i + 1 < points.size(); ++i)
       if (size(i) > size(i - 1) && size(i) >= size(i + 1))
-        found.push_back({load, output, whereOf(points[i - 1]), whereOf(points[i + 1])});
+        found.push_back({load, output, whereOf(points[i - 1]), whereOf(points[i]),
+                         whereOf(points[i + 1]), size(i)});
     return found;
   }
 
@@ -302,22 +304,22 @@ class Sweep {
       out.peaks.push_back({all[i].load, all[i].output, found[i]});
   }
 
-  /// By golden section.
+  /// By golden section of the larger side of the largest point, which so is never lost.
   ResponsePoint peak(const Bracket& bracket) const {
-    const auto size = [&](const ResponsePoint& point) {
-      return std::abs(point.x(bracket.output, bracket.load));
-    };
-    const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-    double a = bracket.from, b = bracket.to;
-    ResponsePoint left = at(b - ratio * (b - a), false), right = at(a + ratio * (b - a), false);
+    const double section = 0.5 * (3.0 - std::sqrt(5.0));
+    double a = bracket.from, best = bracket.middle, b = bracket.to, most = bracket.size;
     for (int k = 0; k < goldenSteps; ++k) {
-      if (size(left) > size(right)) {
-        b = whereOf(right), right = left, left = at(b - ratio * (b - a), false);
+      const bool above = b - best > best - a;
+      const double probe = best + section * (above ? b - best : a - best);
+      const double size = std::abs(at(probe, false).x(bracket.output, bracket.load));
+      if (size > most) {
+        (above ? a : b) = best;
+        best = probe, most = size;
       } else {
-        a = whereOf(left), left = right, right = at(a + ratio * (b - a), false);
+        (above ? b : a) = probe;
       }
     }
-    return at(whereOf(size(left) > size(right) ? left : right));
+    return at(best);
   }
 
   const RotatingCase& rotating_;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/Constants.hpp"
@@ -24,32 +25,45 @@ double apart(const Extreme& a, const Extreme& b) {
   return std::hypot(std::abs(a.axes[0] - b.axes[0]), std::abs(a.axes[1] - b.axes[1]));
 }
 
+using Points = std::vector<const ResponsePoint*>;
+
+/// The points of the sweep and the largest amplitudes between them, in the order of the sweep.
+Points everyPoint(const HarmonicResponse& response) {
+  Points all;
+  for (const auto& point : response.points) all.push_back(&point);
+  for (const auto& peak : response.peaks) all.push_back(&peak.at);
+  std::stable_sort(all.begin(), all.end(), [](const auto* a, const auto* b) {
+    return std::pair(a->speed, a->frequency) < std::pair(b->speed, b->frequency);
+  });
+  return all;
+}
+
 /// Of a place of a profile: the point at which `profile` is least or largest there.
-std::size_t pointAt(const std::vector<ResponsePoint>& points, Eigen::Index place,
-                    Vector StringResponse::*profile, bool largest) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const double value = (points[i].along.*profile)[place],
-                 before = (points[best].along.*profile)[place];
-    if (largest ? value > before : value < before) best = i;
+const ResponsePoint& pointAt(const Points& points, Eigen::Index place,
+                             Vector StringResponse::*profile, bool largest) {
+  const ResponsePoint* best = points.front();
+  for (const auto* point : points) {
+    const double value = (point->along.*profile)[place], before = (best->along.*profile)[place];
+    if (largest ? value > before : value < before) best = point;
   }
-  return best;
+  return *best;
 }
 
 }  // namespace
 
 const ResponsePoint* StringReport::firstTouch() const {
   if (response_.nodes.empty()) return nullptr;
-  for (const auto& point : response_.points)
-    if (point.along.margin->value < 0.0) return &point;
+  for (const auto* point : everyPoint(response_))
+    if (point->along.margin->value < 0.0) return point;
   return nullptr;
 }
 
 const ResponsePoint* StringReport::mostBent() const {
   if (response_.elements.empty()) return nullptr;
-  return &*std::max_element(
-      response_.points.begin(), response_.points.end(),
-      [](const auto& a, const auto& b) { return a.along.moment->value < b.along.moment->value; });
+  const auto points = everyPoint(response_);
+  return *std::max_element(points.begin(), points.end(), [](const auto* a, const auto* b) {
+    return a->along.moment->value < b->along.moment->value;
+  });
 }
 
 void StringReport::print() const {
@@ -97,7 +111,7 @@ void StringReport::addColumns(Columns& table) const {
 }
 
 Columns StringReport::bendingTable() const {
-  const auto& points = response_.points;
+  const auto points = everyPoint(response_);
   Columns table{{{"depth", "m", "Depth of the middle of the element", {}},
                  {"moment", "N m", "Largest amplitude of the bending moment in the sweep", {}},
                  {"stress", "Pa", "Bending stress of that at the outer wall", {}},
@@ -105,7 +119,7 @@ Columns StringReport::bendingTable() const {
                  {"frequency", "Hz", "Frequency of the excitation there", {}}}};
   for (std::size_t e = 0; e < response_.elements.size(); ++e) {
     const auto place = static_cast<Eigen::Index>(e);
-    const auto& at = points[pointAt(points, place, &StringResponse::moments, true)];
+    const auto& at = pointAt(points, place, &StringResponse::moments, true);
     const double moment = at.along.moments[place];
     const auto& element = response_.elements[e];
     const std::array<double, 5> row{element.depth, moment, moment * element.stressPerMoment,
@@ -116,7 +130,7 @@ Columns StringReport::bendingTable() const {
 }
 
 Columns StringReport::marginTable() const {
-  const auto& points = response_.points;
+  const auto points = everyPoint(response_);
   Columns table{{{"node", "1", "Node that is open at rest", {}},
                  {"depth", "m", "Its depth", {}},
                  {"gap", "m", "Distance to the wall at rest", {}},
@@ -125,7 +139,7 @@ Columns StringReport::marginTable() const {
                  {"frequency", "Hz", "Frequency of the excitation there", {}}}};
   for (std::size_t i = 0; i < response_.nodes.size(); ++i) {
     const auto place = static_cast<Eigen::Index>(i);
-    const auto& at = points[pointAt(points, place, &StringResponse::margins, false)];
+    const auto& at = pointAt(points, place, &StringResponse::margins, false);
     const auto& node = response_.nodes[i];
     const std::array<double, 6> row{static_cast<double>(node.number), node.depth, node.gap,
                                     at.along.margins[place],          at.speed,   at.frequency};

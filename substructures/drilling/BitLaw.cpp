@@ -51,7 +51,8 @@ PointOnString bitOnString(const BitSettings& bit, int node, const loads::RotaryS
        [rotary](double t) {
          return FramePosition{rotary.angle(t), rotary.speed(t)};
        },
-       {"torque_on_bit", "N m", "Torque of the rock on the bit, positive against rotation"},
+       {"torque_on_bit", "N m",
+        "Torque of the rock on the bit, positive against a rotation to the right"},
        -1.0});
   return onString(bitSet, node, coordinates, bit.law->make(weightOnBit));
 }

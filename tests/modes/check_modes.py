@@ -6,6 +6,7 @@ Free and pinned beams (closed forms), frames and solids with repeated frequencie
 values against scipy's dense solver of the companion form, counts and times against what the documentation promises.
 """
 import csv
+import json
 import pathlib
 import resource
 import subprocess
@@ -97,6 +98,16 @@ def undamped():
         expect("pinned beam: pairs of the closed form", error < 1e-5, f"{error:.1e}")
         expect("pinned beam: damped modes are the undamped ones", np.abs(column(damped, "full_im") / column(rows, "full") - 1).max() < 1e-9 and
                np.all(column(damped, "full_damping") == 0))
+        with h5py.File("pinned_beam_out/modes.h5") as file:
+            shapes = file["modes/shape"][:]
+        sizes = np.linalg.norm(shapes[:, :, :3], axis=2)
+        waves = np.abs(np.sin(np.pi * np.outer(np.repeat(np.arange(1, 6), 2), np.linspace(0, 1, shapes.shape[1]))))
+        error = np.abs(sizes / sizes.max(axis=1)[:, None] - waves / waves.max(axis=1)[:, None]).max()
+        expect("pinned beam: shapes are sines", shapes.shape == (10, 101, 6) and error < 1e-5, f"{error:.1e}")
+        expect("pinned beam: the largest displacement is 1", np.abs(np.abs(shapes[:, :, :3]).max(axis=(1, 2)) - 1).max() < 1e-12)
+        found = json.loads(pathlib.Path("pinned_beam_out/summary.json").read_text(encoding="utf-8"))["modes"]
+        expect("pinned beam: frequencies of the summary", found["count"] == 10 and found["growing"] == 0 and
+               np.allclose([found["lowest_hz"], found["highest_hz"]], [exact[0], exact[-1]], rtol=1e-5))
         expect("pinned beam: time", cpu < SECONDS, f"{cpu:.1f} s for {beam.M.shape[0]} dofs")
     for name, structure in (("free_solid", st.solid(3, 3, 9, (0.3, 0.3, 2.0))), ("free_frame", st.frame(1, 4, fixed=False)), ("frame", st.frame(2, 7))):
         rows, damped, text, cpu = modes(name, structure, 16)

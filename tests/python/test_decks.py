@@ -191,7 +191,7 @@ class Interrupts(unittest.TestCase):
         threading.Thread(target=interrupt, daemon=True).start()
         begin = time.perf_counter()
         with self.assertRaisesRegex(KeyboardInterrupt, "--restart"):
-            tj.run(FRAME, {"Transient/End Time": 1e4, "Transient/Step": 1e-4}, ["Reduction"], output="interrupted")
+            tj.run(FRAME, {"Transient/End Time": 1e3, "Transient/Step": 1e-5}, ["Reduction"], output="interrupted")
         self.assertLess(time.perf_counter() - begin, 20)
         self.assertEqual(tj.read("interrupted").summary["status"], "interrupted")
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)

@@ -364,7 +364,7 @@ def analyses():
     expect("campbell: the diagram stands before the critical speeds", 0 < text.index('<figure id="campbell"') < text.index(f"<summary>{len(ratios)} critical speeds"))
     expect("campbell: damping ratios have four decimals, negative ones are marked", cells(text, 4) == [f"{ratio:.4f}" + (" UNSTABLE" if ratio < -1e-9 else "") for ratio in ratios], cells(text, 4)[:3])
     analysis("Harmonic response", "response", str(EFFECTS / "rotor.xml"), {"response"})
-    text, _ = analysis("Modes", "modes", STRING, {"modes-frequencies", "damped-modes-frequencies", "mode-damping", "mode-errors"}, "--count", "6")
+    text, _ = analysis("Modes", "modes", STRING, {"modes-frequencies", "damped-modes-frequencies", "mode-damping", "mode-errors", "mode-shapes"}, "--count", "6")
     expect("modes: frequencies have the same decimals", len({len(value.partition(".")[2]) for value in cells(text, 1)}) == 1 and max(map(len, cells(text, 1))) <= 7, cells(text, 1))
     expect("modes: the lowest frequency", '<div class="name">Lowest frequency</div>' in text)
 

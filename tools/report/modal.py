@@ -2,8 +2,10 @@
 """Sections of modes.csv, damped_modes.csv and basis.csv."""
 import math
 
+import h5py
+
 import plots
-from plots import COLOURS, GREY
+from plots import COLOURS, GREY, rotating
 from report import tables
 from report.figures import Figure
 from report.page import cards
@@ -33,6 +35,12 @@ def basis_table(folder):
     return f"<details><summary>Vectors of the bases{more}</summary>{table}</details>"
 
 
+def whole_numbers(axes):
+    """Ticks of modes, and room for their marks."""
+    axes.xaxis.set_major_locator(plots.plt.MaxNLocator(integer=True))
+    axes.margins(y=0.08)
+
+
 def modes_figure(name, rows, columns, label, caption, zero=False):
     """Columns of a full and of a reduced model, a mark for each mode; none where all are missing or 0."""
     made, axes = plots.figure(plots.WIDE, 2.8)
@@ -47,6 +55,7 @@ def modes_figure(name, rows, columns, label, caption, zero=False):
     else:
         axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
     axes.set_xlabel("mode"), axes.set_ylabel(label)
+    whole_numbers(axes)
     plots.legend_above(axes)
     return [Figure(name, made, caption, True)]
 
@@ -63,8 +72,18 @@ def errors_figure(rows):
         axes.plot(numbers(estimated, "mode"), numbers(estimated, "estimate"), "s", markersize=4, markerfacecolor="none", color=COLOURS[1], label="estimate")
     plots.logarithmic(axes.yaxis)
     axes.set_xlabel("mode"), axes.set_ylabel("relative error of the frequency [1]")
+    whole_numbers(axes)
     plots.legend_above(axes)
     return [Figure("mode-errors", made, "Errors of the coupled frequencies, and their estimates without the full model.", True)]
+
+
+def shapes_figure(folder):
+    """The lowest modes of a string in the hole."""
+    if not (folder / "modes.h5").is_file():
+        return []
+    with h5py.File(folder / "modes.h5", "r") as results:
+        made = rotating.mode_shapes_figure(results)
+    return [] if made is None else [Figure("mode-shapes", made, "The lowest undamped modes of the full model in the hole.", large=True)]
 
 
 def table_of(rows, damped):
@@ -88,6 +107,10 @@ def grows(rows):
     return [row for row in rows if any(isinstance(row.get(name), float) and row[name] < 0 for name in ("full_damping", "coupled_damping"))]
 
 
+def growing(count):
+    return "no mode grows" if count == 0 else "1 mode grows" if count == 1 else f"{count} modes grow"
+
+
 def headline(results):
     """Cards of the lowest frequency, the least damping and the largest error."""
     found = []
@@ -102,7 +125,7 @@ def headline(results):
         ratios = [(value, mode) for mode, value in enumerate(numbers(rows, f"{kind}_damping"), 1) if math.isfinite(value)] if f"{kind}_damping" in rows[0] and what else []
         if ratios:
             least, mode = min(ratios)
-            found.append(("Least damping ratio", f"{least:.3g}", f"mode {mode}", f"{len(grows(rows))} modes grow" if grows(rows) else "no mode grows", least < 0))
+            found.append(("Least damping ratio", f"{least:.3g}", f"mode {mode}", growing(len(grows(rows))), least < 0))
         errors = [abs(row["error"]) for row in rows if isinstance(row.get("error"), float)]
         if errors:
             found.append((f"Largest error{what}", percent(max(errors)), "", "of the reduced model", False))
@@ -121,5 +144,5 @@ def add(page, folder):
             unstable = "; below 0 the motion grows" if grows(rows) else ""
             figures += modes_figure("mode-damping", rows, ratios, "damping ratio", f"Damping ratios of the modes{unstable}.", zero=True)
         else:
-            figures += errors_figure(rows)
+            figures += errors_figure(rows) + shapes_figure(folder)
         page.plots(name, title, figures, after=table_of(rows, damped))

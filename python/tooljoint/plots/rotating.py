@@ -115,9 +115,8 @@ def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
                 axes.plot(part.real, depth, color=whirl_colour(whirl), linewidth=1.0, linestyle=dashes)
             said = whirl_word(whirl)
         else:
-            along, about = np.max(np.abs(shape[:, 2])), np.max(np.abs(shape[:, 5]))
-            part, said = (shape[:, 2], "axial") if along > about else (shape[:, 5], "torsional")
-            axes.plot(part.real / np.max(np.abs(part)), depth, color=COLOURS[2], linewidth=1.0)
+            part, said = axial_or_torsional(shape)
+            axes.plot(part, depth, color=COLOURS[2], linewidth=1.0)
         axes.plot(np.full(len(closed), -1.12), closed, "_", color="0.3", markersize=3)
         axes.set_xlim(-1.2, 1.2)
         whole_ticks(axes, 3, 8)
@@ -130,6 +129,39 @@ def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
         axes.set_title(f"{format(group['frequency'][place], '#.4g').rstrip('.')} Hz\n{RPM * group['speed'][place]:.2f} rpm{', ' + met if met else ''}\n{said}\ndamping {damping if abs(damping) > ROUNDING else 0:.3f}{', grows' if grows else ''}",
                        fontsize=7.5, fontweight="normal", color=UNSTABLE if grows else "black")
     made.supxlabel("displacement over the largest one; solid: u, dashed: v, grey: orbits; ticks on the left: nodes on the wall", fontsize=8)
+    return made
+
+
+def axial_or_torsional(shape: Any) -> tuple[Any, str]:
+    """What moves of a shape (nodes x components) without motion across the axis, over its largest, and the word for it."""
+    along, about = np.max(np.abs(shape[:, 2])), np.max(np.abs(shape[:, 5]))
+    part, said = (shape[:, 2], "axial") if along > about else (shape[:, 5], "torsional")
+    return part.real / np.max(np.abs(part)), said
+
+
+def mode_shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
+    """The lowest undamped modes of a string in the hole: displacements across the axis against depth, or along or about it; None without a string."""
+    if "modes/shape" not in results or "profile/s" not in results:
+        return None
+    depth, shapes, frequency = results["profile/s"][:], results["modes/shape"][:most], results["modes/frequency"][:most]
+    closed = depth[results["profile/normal_force"][:] > 0]
+    made, row = plt.subplots(1, len(shapes), figsize=(1.15 + 1.35 * len(shapes), 6.2), squeeze=False, constrained_layout=True)
+    for number, (axes, shape) in enumerate(zip(row[0], shapes)):
+        if np.max(np.abs(shape[:, :2])) > NO_LATERAL * np.max(np.abs(shape)):
+            said = "lateral"
+            for part, dashes in ((shape[:, 0], "-"), (shape[:, 1], "--")):
+                axes.plot(part, depth, color=COLOURS[0], linewidth=1.0, linestyle=dashes)
+        else:
+            part, said = axial_or_torsional(shape)
+            axes.plot(part, depth, color=COLOURS[2], linewidth=1.0)
+        axes.plot(np.full(len(closed), -1.12), closed, "_", color="0.3", markersize=3)
+        axes.set_xlim(-1.2, 1.2)
+        whole_ticks(axes, 3, 8)
+        depth_axis(axes, (depth[0], depth[-1]))
+        if number:
+            axes.set_ylabel(""), axes.tick_params(labelleft=False)
+        axes.set_title(f"mode {number + 1}\n{format(frequency[number], '#.4g').rstrip('.')} Hz\n{said}", fontsize=7.5, fontweight="normal", color=UNSTABLE if frequency[number] < 0 else "black")
+    made.supxlabel("displacement over the largest one; solid: u, dashed: v; ticks on the left: nodes on the wall", fontsize=8)
     return made
 
 

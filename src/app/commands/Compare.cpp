@@ -37,11 +37,12 @@ void compare(const CompareOptions& options) {
                   errors.vibration);
     log::info(line);
   }
-  if (options.failAbove && errors.vibration > *options.failAbove)
-    throw ConvergenceError("The vibration error of " + options.folder + " is " +
-                           formatNumber(errors.vibration) + ", more than the " +
-                           formatNumber(*options.failAbove) +
-                           " of --fail-above. Reduce Transient/Step, or keep more modes.");
+  if (!options.failAbove || errors.vibration <= *options.failAbove) return;
+  char found[32];
+  std::snprintf(found, sizeof found, "%.4g", errors.vibration);
+  throw ConvergenceError("The vibration error of " + options.folder + " is " + found +
+                         ", more than the " + formatNumber(*options.failAbove) +
+                         " of --fail-above. Reduce Transient/Step, or keep more modes.");
 }
 
 }  // namespace tooljoint::app

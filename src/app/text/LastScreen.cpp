@@ -121,7 +121,8 @@ void ofString(const Json& summary, const std::string& folder) {
   line("hook load", quantity(*number(summary, "/static/top_axial_force"), "kN", 1),
        "effective tension at the surface");
   if (const auto torque = number(summary, "/static/top_torque"))
-    line("surface torque", quantity(-*torque, "kN m", 2), "at rest, against the rotation");
+    line("surface torque", quantity(-*torque, "kN m", 2),
+         "at rest, against a rotation to the right");
   const auto force = number(summary, "/static/max_normal_force");
   const auto node = number(summary, "/static/max_normal_force_node");
   if (!force || !node || *node < 1.0) return;  // nothing touches

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <vector>
 
 #include "cases/recording/RecordedNodes.hpp"
+#include "cases/run/DeckCommand.hpp"
 #include "cases/run/ResultsWriter.hpp"
 #include "cases/run/RunIdentity.hpp"
 #include "common/Parallel.hpp"
@@ -64,7 +66,9 @@ double expectedBytes(const Case& one) {
 }
 
 RunFiles::RunFiles(const RunOptions& options, const Case& one)
-    : options_(options), deck_(one.deck().file()), identity_(runIdentity(one.deck())) {
+    : options_(options),
+      deck_(inShellQuotes(one.deck().file()) + overrideSwitches(one.deck())),
+      identity_(runIdentity(one.deck())) {
   const auto folderName = resultsFolder(options, one);
   onFirstRank([&] {
     if (options_.restart.empty()) return;
@@ -197,10 +201,10 @@ transient::TransientReport RunFiles::integrate(const model::SecondOrderModel& mo
 
 void RunFiles::requireComplete(const transient::TransientReport& report) const {
   if (!report.interrupted) return;
-  throw InterruptedError("Interrupted at " + formatNumber(report.end) +
-                         " s. The results so far are in " + folder_->folder() +
-                         "; continue with: tooljoint run " + deck_ + " --restart " +
-                         folder_->folder());
+  throw InterruptedError(fmt::format(
+      "Interrupted at {:g} s. The results so far are in {}; continue with: tooljoint run {} "
+      "--restart {}",
+      report.end, folder_->folder(), deck_, inShellQuotes(folder_->folder())));
 }
 
 void RunFiles::complete(const std::function<void()>& stages, const std::function<void()>& tables) {

@@ -67,7 +67,7 @@ class RunFiles {
   std::string at(const char* name) const;
 
   const RunOptions& options_;
-  std::string deck_;  ///< file
+  std::string deck_;  ///< file and overrides, as words of a command
   Stopwatch watch_;
   std::string identity_;
   bool samePlace_ = false;  ///< --restart names the output folder

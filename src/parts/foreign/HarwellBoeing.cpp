@@ -219,9 +219,14 @@ class HbFile {
       if (!next())
         fail("is the last line, with number " + std::to_string(done) + " of " +
              std::to_string(count) + " " + what + ": the file is cut short");
+      // numbers between blanks may stand in other columns than the format says (SciPy's do)
+      const auto apart = wordsOf(text_);
+      const bool counted = apart.size() == std::min(format.count, count - done);
       for (std::size_t i = 0; i < format.count && done < count; ++i, ++done) {
         const auto at = i * format.width;
-        const auto text = at < text_.size() ? trim(text_.substr(at, format.width)) : "";
+        const auto text = counted             ? apart[i]
+                          : at < text_.size() ? trim(text_.substr(at, format.width))
+                                              : "";
         if (text.empty())
           fail("has " + std::to_string(i) + " numbers, expected " +
                std::to_string(std::min(format.count, count - done + i)) + " in fields of " +

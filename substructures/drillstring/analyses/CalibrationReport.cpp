@@ -85,8 +85,8 @@ CalibrationResults calibrationOf(const Scene& scene,
   if (settings.measured) {
     std::string file = *settings.measured;
     if (file[0] != '/' && !scene.deck.folder().empty()) file = scene.deck.folder() + "/" + file;
-    const auto measured = readMeasurements(file, softstring::operationNames());
-    for (const auto& one : measured) requireReach(scene, one.bit, file + ": the table holds");
+    auto measured = readMeasurements(file, softstring::operationNames());
+    for (auto& one : measured) one.bit = withinReach(scene, one.bit, file + ": the table holds");
     found.fit = calibrate(scene, settings, measured);
     print(*found.fit);
   }

@@ -21,6 +21,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+/// Of the length of the string, by which a depth in other units may exceed it by rounding.
+constexpr double roundedDepth = 1e-6;
 /// Speed of operations that turn when neither list gives one [rad/s].
 constexpr double usualSpeed = 120.0 * constants::rpm;
 /// When the start of the rotation counts as over [s].
@@ -96,7 +98,7 @@ std::vector<softstring::Stretch> stretches(const Scene& scene) {
 }
 
 softstring::Hole holeOf(const Scene& scene) {
-  if (!scene.contact || !scene.contact->friction)
+  if (!scene.contact || !scene.list().sublist("Contact").isSublist("Friction"))
     throw DeckError(scene.deck.file() +
                     ": torque and drag needs friction between string and wall. Add the list "
                     "Contact with a list Friction.");
@@ -149,7 +151,7 @@ softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
     for (int i = 1; i <= settings.count; ++i)
       settings.depths.push_back(scene.string.length() * i / settings.count);
   const std::string depths = scene.deck.error("Torque and Drag/Depths", "holds");
-  for (const double depth : settings.depths) requireReach(scene, depth, depths);
+  for (double& depth : settings.depths) depth = withinReach(scene, depth, depths);
   if (const auto twice = repeated(settings.depths); twice != settings.depths.end())
     throw DeckError(depths + " " + deck::printed(*twice, "m", 8) + " twice. Leave one out.");
   if (const auto twice = repeated(settings.operations); twice != settings.operations.end())
@@ -158,12 +160,13 @@ softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
   return settings;
 }
 
-void requireReach(const Scene& scene, double bit, const std::string& where) {
+double withinReach(const Scene& scene, double bit, const std::string& where) {
   const double deepest = scene.string.length();
-  if (bit > deepest * (1.0 + 1e-12))
+  if (bit > deepest * (1.0 + roundedDepth))
     throw DeckError(where + " " + deck::printed(bit, "m", 8) +
                     ", but the string of the deck ends at " + deck::printed(deepest, "m", 8) +
                     ". Give depths down to there, or a longer string.");
+  return std::min(bit, deepest);
 }
 
 SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene)}; }
@@ -233,6 +236,10 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
       row.largestSideForce = loads.sideForce[i];
       row.sideForceDepth = s;
     }
+  }
+  if (locked) {  // loads at the point of lock-up have no bound
+    row.yield = row.sinusoidal = row.helical = {infinite, bit};
+    row.neutralDepth = row.largestSideForce = row.sideForceDepth = none;
   }
   return profile;
 }

@@ -47,7 +47,7 @@ struct TorqueDragProfile {
 softstring::TorqueDragSettings torqueDragSettings(const Scene& scene);
 
 /// DeckError, which begins with `where`: the string does not reach the depth `bit` [m].
-void requireReach(const Scene& scene, double bit, const std::string& where);
+double withinReach(const Scene& scene, double bit, const std::string& where);
 
 /// A deck's string in its hole as the soft-string model sees them.
 struct SoftModel {

@@ -53,7 +53,8 @@ void print(const TorqueDragRow& row) {
 /// "+1.2 %" of the soft string's value.
 std::string beside(double stiff, double soft) {
   if (!std::isfinite(soft) || soft == 0.0) return "-";
-  return fmt::format("{:+.1f} %", 100.0 * (stiff / soft - 1.0));
+  const std::string text = fmt::format("{:+.1f}", 100.0 * (stiff / soft - 1.0));
+  return (text == "-0.0" || text == "+0.0" ? "0.0" : text) + " %";
 }
 
 void printStiff(const Scene& scene, const TorqueDragProfile& profile,
@@ -110,9 +111,9 @@ void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, boo
   files.complete(
       [&] {
         cases::announce(one);
+        calibration = calibrationOf(scene, settings);  // its faults before the long work
         profiles = torqueDrag(scene, {one, files.folder().folder(), fresh});
         print(scene, profiles, settings);
-        calibration = calibrationOf(scene, settings);
       },
       [&](io::ResultsFile& file) {
         stageTables(profiles, settings, files.folder());

@@ -28,8 +28,8 @@ struct BucklingTheory {
   /// to the helical limit.
   double spontaneous = 0.0;
   /// Hinged pipe of this length in a straight hole, min over n of E I (n pi/L)^2 + (w sin/r) (L/(n
-  /// pi))^2 (Dawson and Paslay 1984; Euler without weight); 0 for a string of several sections, or
-  /// in a hole that bends.
+  /// pi))^2 (Dawson and Paslay 1984; Euler without weight); 0 for a string of several sections, in
+  /// a hole that bends, or where the weight along the hole is more than a tenth of it.
   double finiteLength = 0.0;
   int finiteHalfWaves = 0;
 

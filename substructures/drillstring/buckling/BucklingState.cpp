@@ -31,6 +31,8 @@ constexpr double oneWay = 0.9;
 constexpr double middleBegin = 0.25, middleEnd = 0.75;
 /// Largest compression of a sinusoidal state over that where it begins (Mitchell 1997).
 constexpr double lateralLimit = 2.8;
+/// Weight along the hole, of the load of a hinged pipe, that its formula may leave out.
+constexpr double littleAlong = 0.1;
 /// Holes of less inclination have no sides [rad].
 constexpr double vertical = 1e-3;
 /// Equal to rounding.
@@ -216,6 +218,7 @@ BucklingTheory BucklingMeasure::theory(const Vector& tension) const {
   if (bends || !uniform(rigidity_) || !uniform(clearance_) || !uniform(weight_)) return theory;
   const double L = depth_.back(), EI = rigidity_.front();
   const double across = weight_.front() * std::sin(scene_.well.inclination(0.5 * L));
+  const double along = weight_.front() * std::cos(scene_.well.inclination(0.5 * L)) * L;
   theory.finiteLength = std::numeric_limits<double>::infinity();
   for (int n = 1;; ++n) {
     const double q = n * constants::pi / L;
@@ -223,6 +226,8 @@ BucklingTheory BucklingMeasure::theory(const Vector& tension) const {
     if (!(F < theory.finiteLength)) break;
     theory.finiteLength = F, theory.finiteHalfWaves = n;
   }
+  if (std::abs(along) > littleAlong * theory.finiteLength)
+    theory.finiteLength = 0.0, theory.finiteHalfWaves = 0;
   return theory;
 }
 

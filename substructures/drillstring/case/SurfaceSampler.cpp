@@ -34,7 +34,8 @@ void SurfaceSampler::sample(const cases::Sample& sample) {
   const Vector& D = sample.displacement;
   speed_ = scene_.rotary.speed(sample.t) + sample.velocity(thetaZ);
   hookLoad_ = axialOffset_ + axialStiffness_ * stretch(D, w);
-  torque_ = -(torqueOffset_ + torsionalStiffness_ * stretch(D, thetaZ));
+  const double sense = scene_.rotary.speed(sample.t) < 0.0 ? -1.0 : 1.0;
+  torque_ = -sense * (torqueOffset_ + torsionalStiffness_ * stretch(D, thetaZ));
 }
 
 }  // namespace tooljoint::drillstring
