@@ -47,6 +47,21 @@ def laval():
     expect("laval: two planes of the same value do not whirl", np.all(crossings["whirl"] == 0.0))
 
 
+def neighbours():
+    """Two resonances between the points of the sweep: no point is above the largest amplitude found about it, whatever the points."""
+    K = np.array([[2.0e5, -1.2e4], [-1.2e4, 2.05e5]])
+    part("neighbours.h5", ["u", "v"], np.eye(2), K, 2e-5 * K)
+    for points in range(6, 40, 3):
+        scene = deck("neighbours", "neighbours.h5",
+                     lists("Response", values(Excitation="Harmonic", Highest_Frequency=120.0, Lowest_Frequency=20.0, Points=points) +
+                           lists("Loads", lists("push", values(Node=1, Component="u"))) + lists("Outputs", lists("x", values(Node=1, Component="u")))))
+        run("response", scene, "neighbours")
+        size = table("neighbours", "response")["x_amplitude"]
+        inner = size[1:-1][(size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])]
+        peaks = table("neighbours", "peaks")["amplitude"]
+        expect(f"neighbours: largest amplitudes of {points} points", len(peaks) == len(inner) and np.all(peaks >= inner * (1 - 1e-12)), f"{peaks} {inner}")
+
+
 def overhung():
     """A disc at the end of a cantilever without mass: the gyroscopic moment splits its modes, forward and backward."""
     m, diametral, polar, length, bending = 8.0, 0.05, 0.1, 0.4, 5e4
@@ -158,6 +173,8 @@ def walls():
     close("walls: its phase", scene["middle_phase"][1:], ours["middle_phase"][1:], 1e-9)
     expect("walls: the middle moves", ours["middle_amplitude"][-1] > 1e-7, ours["middle_amplitude"])
     close("walls: the circle of the middle and what it leaves are the clearance", ours["contact_margin"] + ours["middle_amplitude"], 0.9, 1e-12)
+    margins, largest = table("walls", "margins"), np.max(np.append(table("walls", "peaks")["amplitude"], ours["middle_amplitude"]))
+    close("walls: the least margin counts the amplitudes between the points", margins["margin"][margins["node"] == 21], 0.9 - largest, 1e-9)
     expect("walls: the middle is nearest", np.all(ours["contact_node"][1:] == 21), ours["contact_node"])
 
 
@@ -239,7 +256,7 @@ def refusals():
 
 
 if sys.argv[4] == "rotors":
-    for check in (laval, overhung, excitations, bearing, nelson, friswell, anisotropic, damped, transfer, shaft, window, walls, bending, states.states, pictures, refusals):
+    for check in (laval, neighbours, overhung, excitations, bearing, nelson, friswell, anisotropic, damped, transfer, shaft, window, walls, bending, states.states, pictures, refusals):
         check()
 else:
     string()

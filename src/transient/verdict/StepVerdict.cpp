@@ -28,6 +28,9 @@ constexpr double speedTolerance = 2.5;
 /// Times `Step Error Warning` by which velocities may differ: vibration that is too fast for the
 /// step has little of the displacement.
 constexpr double velocityTolerance = 4;
+/// V from which velocities are others, and the part of `Step Error Warning` up to which
+/// displacements are right all the same: 2 % at its default.
+constexpr double lostVelocities = 0.8, nearlyRight = 0.4;
 
 /// What is known of the steps of a run.
 struct Findings {
@@ -41,11 +44,12 @@ struct Findings {
 
   /// Means that are far from those of the shorter steps, of motion that is not theirs: what
   /// chatters on after a landing says nothing.
-  bool isSlow() const {
-    return shorter && shorter->size > warning && shorter->speeds * (1 + speedTolerance * limit) < 1;
-  }
-  bool isFast() const {
-    return shorter && shorter->size > warning && shorter->speeds > 1 + speedTolerance * limit;
+  bool isSlow() const { return isOther() && shorter->speeds * (1 + speedTolerance * limit) < 1; }
+  bool isFast() const { return isOther() && shorter->speeds > 1 + speedTolerance * limit; }
+  /// Displacements that are not right; or nearly so, and velocities that are not those at all.
+  bool isOther() const {
+    return shorter && (shorter->size > warning || (shorter->size > nearlyRight * warning &&
+                                                   shorter->velocities > lostVelocities));
   }
   /// S is as large as the motion, and the motion not found within the limit in all its length.
   bool isLost() const {

@@ -19,9 +19,10 @@ namespace tooljoint::transient {
 /// and D within the limit. Where S is above half of `Step Error Limit`, or the scheme damps more
 /// than a fifth of `Step Error Warning`, or contact rests on walls too stiff for the step, its
 /// motion is compared (StepComparison.hpp): it fails when D is above the limit, unless neighbours
-/// part as far, and when its speeds are more than 2.5 limits off; right is a D within `Step Error
-/// Warning`, with speeds as near and velocities four times as near. A limit of 1 and more is one of
-/// S alone. Throws ConvergenceError. Collective.
+/// part as far, and when its speeds are more than 2.5 limits off while D is above the warning, or
+/// above 0.4 times that with V above 0.8; right is a D within `Step Error Warning`, with speeds as
+/// near and velocities four times as near. A limit of 1 and more is one of S alone. Throws
+/// ConvergenceError. Collective.
 double judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
                   const std::function<StepComparison()>& comparison);
 
