@@ -20,6 +20,9 @@ class Quantity(np.ndarray):
     ('m', 'm')
     >>> type(length * length).__name__, float(length.sum())
     ('ndarray', 3.0)
+    >>> import pickle
+    >>> pickle.loads(pickle.dumps(length)).label
+    'Length [m]'
     """
 
     def __new__(cls, values: ArrayLike, unit: str = "", long_name: str = "") -> Quantity:
@@ -30,6 +33,14 @@ class Quantity(np.ndarray):
     def __array_finalize__(self, source):
         self.unit = getattr(source, "unit", "")
         self.long_name = getattr(source, "long_name", "")
+
+    def __reduce__(self):
+        rebuild, arguments, state = super().__reduce__()
+        return rebuild, arguments, (*state, self.unit, self.long_name)
+
+    def __setstate__(self, state):
+        super().__setstate__(state[:-2])
+        self.unit, self.long_name = state[-2:]
 
     def __array_ufunc__(self, ufunc, method, *inputs, **options):
         plain = [np.asarray(each) if isinstance(each, Quantity) else each for each in inputs]

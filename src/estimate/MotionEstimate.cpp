@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <utility>
 
@@ -466,8 +467,8 @@ MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderM
   auto estimate = estimator.result();
   if (!report.interrupted) return estimate;
   if (interruptRequested())
-    throw InterruptedError("Interrupted at " + formatNumber(report.end) +
-                           " s of a transient for the mode selection.");
+    throw InterruptedError(
+        fmt::format("Interrupted at {:g} s of a transient for the mode selection.", report.end));
   estimate.reached = (report.end - options.start) / (options.end - options.start);
   // errors / reached over the motion expected in the end; estimate.error is that over the motion so
   // far

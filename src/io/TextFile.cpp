@@ -16,7 +16,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, int number) {
   throw FileError("The file " + path + " cannot be written: " + std::strerror(number) +
-                  ". Make room or name another folder with --output.");
+                  ". Make room or name another folder.");
 }
 
 }  // namespace

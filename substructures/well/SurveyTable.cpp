@@ -203,6 +203,7 @@ class SurveyReader {
   }
 
   void finish() {
+    if (line_ == 0) faults_.push_back(file_ + " is empty; a survey needs at least two stations.");
     if (table_.stations.size() < 2 && faults_.empty())
       fault("a survey needs at least two stations.");
     raise();

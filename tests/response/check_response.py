@@ -173,8 +173,10 @@ def walls():
     close("walls: its phase", scene["middle_phase"][1:], ours["middle_phase"][1:], 1e-9)
     expect("walls: the middle moves", ours["middle_amplitude"][-1] > 1e-7, ours["middle_amplitude"])
     close("walls: the circle of the middle and what it leaves are the clearance", ours["contact_margin"] + ours["middle_amplitude"], 0.9, 1e-12)
-    margins, largest = table("walls", "margins"), np.max(np.append(table("walls", "peaks")["amplitude"], ours["middle_amplitude"]))
-    close("walls: the least margin counts the amplitudes between the points", margins["margin"][margins["node"] == 21], 0.9 - largest, 1e-9)
+    run("response", "walls.xml", "walls_resonant", "Response/Highest Speed=2000", "Response/Points=8")
+    margins, peaks = table("walls_resonant", "margins"), table("walls_resonant", "peaks")
+    close("walls: the least margin is that of the largest amplitude between the points", margins["margin"][margins["node"] == 21], 0.9 - peaks["amplitude"].max(), 1e-9)
+    expect("walls: that is behind the wall", peaks["amplitude"].max() > 1.0, peaks["amplitude"])
     expect("walls: the middle is nearest", np.all(ours["contact_node"][1:] == 21), ours["contact_node"])
 
 

@@ -177,7 +177,8 @@ def response_headline(results):
     for peak in results.value("response.peaks") or []:
         if peak["amplitude"] > largest.get(peak["output"], peak)["amplitude"] or peak["output"] not in largest:
             largest[peak["output"]] = peak
-    found = [(f"Largest amplitude, {output}", f"{peak['amplitude']:.3g} {peak['unit']}", f"{peak['hz']:.4g} Hz", f"at {fixed(peak['speed_rpm'], 1)} rpm, load {peak['load']}", False)
+    several = len({peak["load"] for peak in results.value("response.peaks") or []}) > 1
+    found = [(f"Largest amplitude, {output}", f"{peak['amplitude']:.3g} {peak['unit']}", f"{peak['hz']:.4g} Hz", f"at {fixed(peak['speed_rpm'], 1)} rpm{', load ' + peak['load'] if several else ''}", False)
              for output, peak in list(largest.items())[:MOST_PEAKS]]
     moment = results.value("response.bending_moment")
     if moment is not None:

@@ -302,7 +302,7 @@ def figures_of_bit(run):
     found = run.value("transient.figures") or {}
     rows = []
     if found.get("stick_slip_index") is not None:
-        rows.append(("Stick-slip index", fixed(found["stick_slip_index"], 2), f"(max - min) / (2 mean) of the bit speed; stick-slip from 1 on; {window(found)}"))
+        rows.append(("Stick-slip index", fixed(found["stick_slip_index"], 3), f"(max - min) / (2 mean) of the bit speed; stick-slip from 1 on; {window(found)}"))
     if found.get("stuck_share") is not None:
         rows.append(("Time the bit is stuck", f"{fixed(100 * found['stuck_share'], 1)} %", f"below {found['stuck_speed_rpm']:.3g} rpm"))
     for name, key, quantity in (("Mean weight on bit", "weight_on_bit", "hook load"), ("Mean torque on bit", "torque_on_bit", "torque"), ("Rate of penetration", "rate_of_penetration", "penetration"),

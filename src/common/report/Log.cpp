@@ -49,8 +49,8 @@ std::size_t hangingIndent(const std::string& line) {
 /// The line broken at blanks; a word longer than a line stays whole.
 std::string wrapped(std::string line) {
   std::string text;
+  const std::size_t indent = hangingIndent(line);
   while (line.size() > columns) {
-    const std::size_t indent = hangingIndent(line);
     std::size_t end = line.rfind(' ', columns);
     if (end <= indent) end = line.find(' ', columns);
     if (end == std::string::npos) break;

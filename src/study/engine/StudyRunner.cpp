@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <set>
 #include <utility>
 
@@ -163,10 +164,10 @@ Execution integrate(const cases::Case& scene, const cases::Measures& measures,
     setupCpu = watch.cpu() - execution.report.cpu;
     setupWall = watch.wall() - execution.report.wall;
     if (execution.report.interrupted && !late)
-      throw InterruptedError("Interrupted at " + formatNumber(execution.report.end) + " s.");
+      throw InterruptedError(fmt::format("Interrupted at {:g} s.", execution.report.end));
   });
   if (parallel::maximum(late ? 1.0 : 0.0) > 0.0)
-    throw TimeLimitError("It was given up at " + formatNumber(execution.report.end) + " s, after " +
+    throw TimeLimitError(fmt::format("It was given up at {:g} s, after ", execution.report.end) +
                          formatNumber(*options.timeLimit) + " s of CPU time (Study/Time Limit).");
   execution.cpu = parallel::sum(cpu);
   execution.wall = parallel::maximum(wall);

@@ -122,7 +122,11 @@ class Report {
       if (std::isfinite(value) && value > 0.0) summary.set(key, value);
     };
     summary.set("buckling.end", endName());
-    summary.set("buckling.explanation", path_.report.explanation);
+    summary.set("buckling.explanation", path_.report.end == statics::PathEnd::Reached
+                                            ? "The path reached its end at " +
+                                                  quantity(path_.report.parameter, "kN", 2) +
+                                                  " on the bit."
+                                            : path_.report.explanation);
     summary.set("buckling.steps", path_.report.steps);
     summary.set("buckling.halved_steps", path_.report.failedSteps);
     summary.set("buckling.last_weight_on_bit", path_.report.parameter);

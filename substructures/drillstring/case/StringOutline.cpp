@@ -43,7 +43,10 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
        scene.statics.geometricStiffness ? "of the static axial force and torque"
                                         : "switched off in Static"},
       {scene.damping.present(), "Rayleigh damping",
-       scene.damping.present() ? "" : "no Damping list"}};
+       scene.damping.present()
+           ? formatNumber(scene.damping.massCoefficient) + " 1/s of the mass, " +
+                 formatNumber(scene.damping.stiffnessCoefficient) + " s of the stiffness"
+           : "no Damping list"}};
   items.push_back({scene.bit.has_value(), "rock at the bit",
                    scene.bit ? scene.bit->name + ": " + scene.bit->law->describe()
                              : "no Bit list: constant weight and torque"});
