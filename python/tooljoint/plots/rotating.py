@@ -94,6 +94,21 @@ def shape_places(group: Any, most: int = MOST_SHAPES) -> list[int]:
     return sorted((int(i) for i in chosen), key=lambda i: float(group["frequency"][i]))
 
 
+def in_hole(axes: Any, depth: Any, closed: Any, first: bool) -> None:
+    """Axes of a shape against depth, with ticks for nodes on the wall; the first ones have the depths."""
+    axes.plot(np.full(len(closed), -1.12), closed, "_", color="0.3", markersize=3)
+    axes.set_xlim(-1.2, 1.2)
+    whole_ticks(axes, 3, 8)
+    depth_axis(axes, (depth[0], depth[-1]))
+    if not first:
+        axes.set_ylabel(""), axes.tick_params(labelleft=False)
+
+
+def row_of_shapes(count: int) -> tuple[Any, Any]:
+    made, row = plt.subplots(1, count, figsize=(1.15 + 1.35 * count, 6.2), squeeze=False, constrained_layout=True)
+    return made, row[0]
+
+
 def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
     """Modes in the hole: displacements across the axis against depth, at two instants a quarter period apart, and what the orbits reach; None without a string."""
     if "shapes" not in results or "profile/s" not in results:
@@ -102,8 +117,8 @@ def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
     closed = depth[results["profile/normal_force"][:] > 0]
     names = [""] + texts(results["excitations"])
     places = shape_places(group, most)
-    made, row = plt.subplots(1, len(places), figsize=(1.15 + 1.35 * len(places), 6.2), squeeze=False, constrained_layout=True)
-    for number, (axes, place) in enumerate(zip(row[0], places)):
+    made, row = row_of_shapes(len(places))
+    for number, (axes, place) in enumerate(zip(row, places)):
         shape = group["real"][place] + 1j * group["imaginary"][place]
         u, v = shape[:, 0], shape[:, 1]
         whirl = float(group["whirl"][place])
@@ -117,12 +132,7 @@ def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
         else:
             part, said = axial_or_torsional(shape)
             axes.plot(part, depth, color=COLOURS[2], linewidth=1.0)
-        axes.plot(np.full(len(closed), -1.12), closed, "_", color="0.3", markersize=3)
-        axes.set_xlim(-1.2, 1.2)
-        whole_ticks(axes, 3, 8)
-        depth_axis(axes, (depth[0], depth[-1]))
-        if number:
-            axes.set_ylabel(""), axes.tick_params(labelleft=False)
+        in_hole(axes, depth, closed, number == 0)
         met = names[int(group["excitation"][place])]
         damping = float(group["damping"][place])
         grows = damping < -ROUNDING
@@ -145,8 +155,8 @@ def mode_shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
         return None
     depth, shapes, frequency = results["profile/s"][:], results["modes/shape"][:most], results["modes/frequency"][:most]
     closed = depth[results["profile/normal_force"][:] > 0]
-    made, row = plt.subplots(1, len(shapes), figsize=(1.15 + 1.35 * len(shapes), 6.2), squeeze=False, constrained_layout=True)
-    for number, (axes, shape) in enumerate(zip(row[0], shapes)):
+    made, row = row_of_shapes(len(shapes))
+    for number, (axes, shape) in enumerate(zip(row, shapes)):
         if np.max(np.abs(shape[:, :2])) > NO_LATERAL * np.max(np.abs(shape)):
             said = "lateral"
             for part, dashes in ((shape[:, 0], "-"), (shape[:, 1], "--")):
@@ -154,12 +164,7 @@ def mode_shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
         else:
             part, said = axial_or_torsional(shape)
             axes.plot(part, depth, color=COLOURS[2], linewidth=1.0)
-        axes.plot(np.full(len(closed), -1.12), closed, "_", color="0.3", markersize=3)
-        axes.set_xlim(-1.2, 1.2)
-        whole_ticks(axes, 3, 8)
-        depth_axis(axes, (depth[0], depth[-1]))
-        if number:
-            axes.set_ylabel(""), axes.tick_params(labelleft=False)
+        in_hole(axes, depth, closed, number == 0)
         axes.set_title(f"mode {number + 1}\n{format(frequency[number], '#.4g').rstrip('.')} Hz\n{said}", fontsize=7.5, fontweight="normal", color=UNSTABLE if frequency[number] < 0 else "black")
     made.supxlabel("displacement over the largest one; solid: u, dashed: v; ticks on the left: nodes on the wall", fontsize=8)
     return made
