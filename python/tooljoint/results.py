@@ -14,7 +14,7 @@ from .errors import FileError
 from .quantity import Quantity
 
 
-FILES = ("results.h5", "study.h5", "map.h5", "campbell.h5", "response.h5", "torque_drag.h5", "bha.h5", "buckling.h5", "modes.h5")  # a folder has one of them, or the first and others
+FILES = ("study.h5", "results.h5", "map.h5", "campbell.h5", "response.h5", "torque_drag.h5", "bha.h5", "buckling.h5", "modes.h5")  # a folder has one of them, or the first and others
 
 
 class Results:
