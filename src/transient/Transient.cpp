@@ -360,21 +360,21 @@ class Run {
   void judgeSteps() {
     if (integrator_->judgesSteps()) return;
     if (stepError_) {
-      judged_ =
-          transient::judgeSteps(*integrator_, *stepError_, options_, [this] { return again(); });
+      judged_ = transient::judgeSteps(
+          *integrator_, *stepError_, options_,
+          [this](const State& from, double span) { return again(from, span); });
       return;
     }
     log::info("accuracy    not known: the integrator \"" + options_.integrator +
               "\" does not measure its steps. Compare with a run of half the step.");
   }
 
-  /// The motion from its beginning, to be compared with others.
-  StepComparison again() {
-    const State& from = stepError_->beginning();
+  /// `span` [s] of the motion from a state on, to be compared with others.
+  StepComparison again(const State& from, double span) {
     return {model_,
             [this] { return make(); },
             Window{from.t, options_.end, options_.sampling, integrator_->equalStep()},
-            stepError_->span(),
+            span,
             from,
             [this] { return isStopped(); }};
   }

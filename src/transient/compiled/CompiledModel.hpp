@@ -154,7 +154,9 @@ class CompiledModel {
   void addDamping(const double* x, double* y) const { addDamping(x, y, all()); }
   void addStiffness(const double* x, double* y) const { addStiffness(x, y, all()); }
   /// x' M x. Collective.
-  double massForm(const double* x) const { return cut().sum(massProduct_.form(mass_.data(), x)); }
+  double massForm(const double* x) const { return cut().sum(ownMassForm(x)); }
+  /// The share of this rank in it.
+  double ownMassForm(const double* x) const { return massProduct_.form(mass_.data(), x); }
   /// The same for the rows of some blocks, M times a factor.
   void addMass(const double* x, double* y, linalg::BlockRange rows, double factor = 1.0) const {
     massProduct_.addTo(mass_.data(), x, y, factor, rows);

@@ -24,6 +24,8 @@ constexpr double negligibleMotion = 1e-3;
 constexpr double quiet = 1e-6;
 /// Over longer times [s] contact parts any two motions.
 constexpr double longest = 3.0;
+/// Times T that a run lasts in which later motion is looked at for itself.
+constexpr double longer = 1.2;
 /// Motion begins anew where it is so many times as large as before; it is compared from there when
 /// that is after this part of T, of which too little would be left.
 constexpr double risen = 100, lateStart = 0.5;
@@ -44,6 +46,8 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
       stride_(std::max(std::clamp(steps_ / fewest, inWindow, usualStride), steps_ / most)),
       last_(start),
       calm_(start) {
+  if (window.end - window.begin > longer * turning_)
+    busiest_.emplace(model, window, turning_, start);
   plan();
 }
 
@@ -79,6 +83,7 @@ void StepError::watchCalm(const State& from) {
 
 void StepError::after(const State& from, const State& to) {
   damping_.look(norm_, from, to);
+  if (busiest_) busiest_->look(from, to);
   if (end_ < 0) return;
   const auto square = [&](const Vector& a, const Vector& b) {
     difference_ = a - b;
@@ -134,6 +139,7 @@ void StepError::save(std::vector<double>& memory) const {
   last_.save(memory);
   calm_.save(memory);
   damping_.save(memory);
+  if (busiest_) busiest_->save(memory);
   window_.save(memory, end_ >= 0);
 }
 
@@ -147,6 +153,7 @@ void StepError::restore(const double*& memory) {
   last_.restore(memory);
   calm_.restore(memory);
   damping_.restore(memory);
+  if (busiest_) busiest_->restore(memory);
   plan();
   window_.restore(memory, end_ >= 0);
 }

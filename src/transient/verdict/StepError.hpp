@@ -14,10 +14,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "transient/Integrator.hpp"
 #include "transient/accuracy/MotionNorm.hpp"
+#include "transient/verdict/BusiestSpan.hpp"
 #include "transient/verdict/DampingSamples.hpp"
 #include "transient/verdict/RetakenWindow.hpp"
 
@@ -44,6 +46,11 @@ class StepError {
   /// From where the motion is worth comparing: the start of the run, or, where the motion begins
   /// after half of T, its state at the last window before.
   const State& beginning() const { return calm_; }
+  /// Where the run has most to follow, when that is later and far more than there; null else.
+  const BusiestSpan* later() const {
+    return busiest_ && busiest_->isLater() && busiest_->end() > calm_.t + turning_ ? &*busiest_
+                                                                                   : nullptr;
+  }
 
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
@@ -57,8 +64,9 @@ class StepError {
   MotionNorm norm_;
   RetakenWindow window_;
   DampingSamples damping_;
-  double begin_, h_, turning_;  ///< start of the run, step, T [s]
-  Vector start_;                ///< q(0)
+  std::optional<BusiestSpan> busiest_;  ///< of a run much longer than T
+  double begin_, h_, turning_;          ///< start of the run, step, T [s]
+  Vector start_;                        ///< q(0)
   Vector difference_;
   long steps_;   ///< in the run
   long stride_;  ///< mean distance of windows in steps

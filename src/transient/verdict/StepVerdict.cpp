@@ -32,10 +32,12 @@ constexpr double velocityTolerance = 4;
 /// displacements are right all the same: 2 % at its default.
 constexpr double lostVelocities = 0.8, nearlyRight = 0.4;
 
-/// What is known of the steps of a run.
+/// What is known of the steps of a run, or of its busiest span alone.
 struct Findings {
   double limit = 0, warning = 0;  ///< of the deck
-  double error = 0;               ///< S
+  bool late = false;              ///< of the busiest span
+  double begin = 0, span = 0;     ///< of what is compared [s]
+  double error = 0;               ///< S, of the run
   double damped = 0;              ///< part of the amplitude that the scheme takes
   bool rests = false;             ///< contact, on walls too stiff for the step
   double shorterStep = 0;         ///< [s]
@@ -44,8 +46,12 @@ struct Findings {
 
   /// Means that are far from those of the shorter steps, of motion that is not theirs: what
   /// chatters on after a landing says nothing.
-  bool isSlow() const { return isOther() && shorter->speeds * (1 + speedTolerance * limit) < 1; }
-  bool isFast() const { return isOther() && shorter->speeds > 1 + speedTolerance * limit; }
+  bool isSlow() const {
+    return isOther() && !isParting() && shorter->speeds * (1 + speedTolerance * limit) < 1;
+  }
+  bool isFast() const {
+    return isOther() && !isParting() && shorter->speeds > 1 + speedTolerance * limit;
+  }
   /// Displacements that are not right; or nearly so, and velocities that are not those at all.
   bool isOther() const {
     return shorter && (shorter->size > warning || (shorter->size > nearlyRight * warning &&
@@ -61,6 +67,14 @@ struct Findings {
     return neighbour &&
            (shorter->sizes <= limit || neighbour->sizes > chaoticShare * shorter->sizes).all();
   }
+  /// In the busiest span neighbours part as far as all that is not right: so short a span has no
+  /// means either.
+  bool isParting() const {
+    return late && neighbour &&
+           (shorter->sizes <= warning || neighbour->sizes > chaoticShare * shorter->sizes).all() &&
+           (shorter->velocities <= velocityTolerance * warning ||
+            neighbour->velocities > chaoticShare * shorter->velocities);
+  }
   /// By the damping of the scheme, and by nothing else that is known.
   bool isHeldDown() const { return isSlow() && !isLost() && !rests; }
   bool isRight() const {
@@ -74,21 +88,37 @@ struct Findings {
   /// the part of V that counts as much.
   double stepError() const {
     if (!shorter) return error;
+    if (isParting()) return 0.0;
     if (isRight()) return shorter->size;
     return std::max({error, shorter->size, shorter->velocities / velocityTolerance});
+  }
+  /// Whether the motion from the start is to be compared.
+  bool isDue() const {
+    return error > comparedError * limit || damped > comparedDamping * warning || rests;
   }
   bool isWide() const { return stepError() > warning || isUnknown(); }
   /// What the summary holds: 0 where a step error within the warning is not known to be all.
   double reported() const { return isUnknown() && stepError() <= warning ? 0.0 : stepError(); }
-  bool isTooLarge() const { return isLost() || isSlow() || isFast() || (neighbour && !isChaos()); }
+  bool isTooLarge() const {
+    return isLost() || isSlow() || isFast() || (neighbour && shorter->size > limit && !isChaos());
+  }
+  /// Whether neighbours have to be asked.
+  bool isInDoubt() const {
+    return shorter && !isLost() && (shorter->size > limit || (late && !isRight()));
+  }
 };
 
-std::string describe(const Findings& found, const StepError& error) {
+std::string describe(const Findings& found) {
   std::ostringstream text;
-  text << "step error " << (found.isUnknown() ? "at least " : "") << percent(found.stepError());
+  if (found.isParting())
+    text << "later motion parts from its neighbours, which says nothing of the step";
+  else
+    text << "step error " << (found.isUnknown() ? "at least " : "") << percent(found.stepError());
   if (found.shorter)
-    text << std::setprecision(2) << ": estimated " << percent(found.error) << "; in the "
-         << error.span() << " s from t = " << error.beginning().t << " s the motion differs by "
+    text << std::setprecision(2)
+         << (found.late ? std::string(": in the ")
+                        : ": estimated " + percent(found.error) + "; in the ")
+         << found.span << " s from t = " << found.begin << " s the motion differs by "
          << percent(found.shorter->size) << ", and its velocities by "
          << percent(found.shorter->velocities) << ", from that in steps of " << found.shorterStep
          << " s without numerical damping, at " << percent(found.shorter->speeds)
@@ -108,8 +138,7 @@ void compare(StepComparison motions, Findings& found) {
     found.shorterStep = motions.shorterStep();
     found.shorter = motions.withShorter();
     found.neighbour.reset();
-    if (found.shorter && found.shorter->size > found.limit && !found.isLost())
-      found.neighbour = motions.withDisturbed();
+    if (found.isInDoubt()) found.neighbour = motions.withDisturbed();
   } while (found.shorter && found.shorter->unresolved && !found.isTooLarge() && motions.shorten());
   if (!found.shorter || !found.shorter->still || found.shorter->unresolved) return;
   found.shorter.reset();  // nothing moves that could be compared
@@ -127,18 +156,29 @@ void warnOfDamping(const Findings& found, const StepError& error, double step) {
 }  // namespace
 
 double judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
-                  const std::function<StepComparison()>& comparison) {
+                  const Comparison& comparison) {
   Findings found;
   found.limit = options.stepErrorLimit;
   found.warning = options.stepErrorWarning;
+  found.rests = error.damping().hasUnresolvedContact();
+  Findings later = found;
+  found.begin = error.beginning().t;
+  found.span = error.span();
   found.error = error.value();
   found.damped = error.damped();
-  found.rests = error.damping().hasUnresolvedContact();
-  const bool due = found.error > comparedError * found.limit ||
-                   found.damped > comparedDamping * found.warning || found.rests;
-  if (due && found.limit < lostMotion) {
-    compare(comparison(), found);
-    log::info("accuracy    " + describe(found, error));
+  const bool compared = found.limit < lostMotion;
+  if (compared && found.isDue()) {
+    compare(comparison(error.beginning(), found.span), found);
+    log::info("accuracy    " + describe(found));
+  }
+  const BusiestSpan* busiest = error.later();
+  if (compared && busiest != nullptr && !found.isTooLarge()) {
+    later.late = true;
+    later.begin = busiest->start().t;
+    later.span = busiest->length();
+    compare(comparison(busiest->start(), later.span), later);
+    if (later.shorter) log::info("accuracy    " + describe(later));
+    if (later.isTooLarge() || later.stepError() > found.stepError()) found = later;
   }
   const bool tooLarge = found.isTooLarge();
   if (!tooLarge && found.isRight()) return found.reported();
@@ -147,7 +187,7 @@ double judgeSteps(const Integrator& run, const StepError& error, const Transient
   if (!tooLarge && !found.isWide()) return found.reported();
   std::ostringstream text;
   text << "The time step (" << step << " s) is " << (tooLarge ? "too large" : "coarse") << ": "
-       << describe(found, error) << ". "
+       << describe(found) << ". "
        << (found.isHeldDown() && error.damping().scheme() != nullptr
                ? error.damping().scheme()->dampingAdvice()
                : run.stepAdvice());

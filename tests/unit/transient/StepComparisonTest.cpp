@@ -195,6 +195,36 @@ TEST(StepComparison, beginsWhereTheMotionDoes) {
   EXPECT_EQ(saidOf(model, 8, 1e-3), "");
 }
 
+/// A mass swings; after 6 s a load leaves a second one vibrating with a thirtieth of its
+/// displacement and, at 1.2 radians in a step, more than its velocity.
+TEST(StepComparison, looksAtTheBusiestMotionThatComesLater) {
+  Matrix K = Matrix::Zero(2, 2);
+  K.diagonal() << 0.25 * w * w, 900 * w * w;
+  auto model = denseModel(Matrix::Identity(2, 2), Matrix(), K);
+  model.initialDisplacement << 0.3, 0;
+  EXPECT_EQ(saidOf(model, 12, 4e-3), "");
+  const int late = model.lawIndex({"late", [](double t) { return t < 6 ? 0.0 : 1.0; }});
+  const auto loaded = [&](double offset) {
+    model.loads = {{"late", (Vector(2) << 0, 900 * w * w * offset).finished(), late}};
+    return saidOf(model, 12, 4e-3);
+  };
+  const auto said = loaded(0.01);
+  EXPECT_NE(said.find("step error"), std::string::npos) << said;
+  const auto from = said.find("in the 1 s from t = ");
+  ASSERT_NE(from, std::string::npos) << said;
+  EXPECT_GT(std::stod(said.substr(from + 20)), 5) << said;
+  EXPECT_EQ(loaded(1e-5), "");
+}
+
+/// Balls that swing against each other fall after 6 s: on a hard floor they part from any
+/// neighbour, and that says nothing of the step.
+TEST(StepComparison, saysNothingOfLaterChaos) {
+  auto model = droppedBalls(6, 1e7, 0, 7e11, 2e4);
+  model.loads[0].law = model.lawIndex({"late", [](double t) { return t < 6 ? 0.0 : 1.0; }});
+  const auto said = saidOf(model, 10, 1e-3, 0.8);
+  EXPECT_EQ(said, "");
+}
+
 /// A fast rotation beside a slow translation, in one model: lost where it has the energy, and of no
 /// weight as a trifle.
 TEST(StepComparison, seesRotationsBesideTranslations) {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/verdict/BusiestSpan.hpp"
+
+#include <algorithm>
+
+#include "common/Index.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+/// Length of a span: so many seconds, but no more of the run than this part. It is compared at
+/// three to seven times the cost of its motion.
+constexpr double longestSpan = 1, largestPart = 0.1;
+/// Times the numerator of the known spans from which another one is busier: twice the changes of
+/// velocity in a step.
+constexpr double busier = 4;
+/// J up to which steps follow the motion: vibration of w h = 0.1 and less.
+constexpr double followed = 0.01;
+/// Of times, in parts of a span.
+constexpr double untimely = 1e-9;
+
+}  // namespace
+
+BusiestSpan::BusiestSpan(const CompiledModel& model, const Window& window, double known,
+                         const State& like)
+    : model_(&model),
+      begin_(window.begin),
+      part_(std::min(longestSpan, largestPart * (window.end - window.begin)) /
+            static_cast<double>(parts)),
+      known_(known),
+      difference_(like.q) {
+  for (auto& part : last_) part.from = like;
+  best_.from = like;
+}
+
+void BusiestSpan::look(const State& from, const State& to) {
+  Part& part = last_[at(closed_ % static_cast<long>(parts))];
+  if (empty_) {
+    part.from = from;
+    part.sums = {};
+    empty_ = false;
+  }
+  difference_ = (to.t - from.t) * (to.a - from.a);
+  part.sums.jumps += model_->ownMassForm(difference_.data());
+  part.sums.speeds += model_->ownMassForm(to.v.data());
+  if (to.t - begin_ > (static_cast<double>(closed_ + 1) - untimely) * part_) close();
+}
+
+/// The span that ends with the part under way.
+void BusiestSpan::close() {
+  const auto count = static_cast<long>(parts);
+  double sums[2] = {0, 0};
+  for (const auto& part : last_) {
+    sums[0] += part.sums.jumps;
+    sums[1] += part.sums.speeds;
+  }
+  model_->cut().reduce(nullptr, 0, sums, 2);
+  ++closed_;
+  empty_ = true;
+  const bool isKnown = static_cast<double>(closed_) * part_ <= known_ * (1 + untimely);
+  if (isKnown) knownJumps_ = std::max(knownJumps_, sums[0]);
+  if (isKnown || sums[0] <= best_.sums.jumps) return;
+  best_.from = last_[at(closed_ % count)].from;
+  best_.sums = {sums[0], sums[1]};
+}
+
+bool BusiestSpan::isLater() const {
+  return best_.sums.jumps > busier * knownJumps_ &&
+         best_.sums.jumps > followed * followed * best_.sums.speeds;
+}
+
+void BusiestSpan::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {static_cast<double>(closed_), empty_ ? 1.0 : 0.0, knownJumps_});
+  const auto add = [&](const Part& part) {
+    part.from.save(memory);
+    memory.insert(memory.end(), {part.sums.jumps, part.sums.speeds});
+  };
+  for (const auto& part : last_) add(part);
+  add(best_);
+}
+
+void BusiestSpan::restore(const double*& memory) {
+  closed_ = static_cast<long>(*memory++);
+  empty_ = *memory++ != 0;
+  knownJumps_ = *memory++;
+  const auto take = [&](Part& part) {
+    part.from.restore(memory);
+    part.sums.jumps = *memory++;
+    part.sums.speeds = *memory++;
+  };
+  for (auto& part : last_) take(part);
+  take(best_);
+}
+
+}  // namespace tooljoint::transient
