@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/ReducedCase.hpp"
 
+#include <limits>
+
+#include "common/Constants.hpp"
 #include "reduction/selection/ModeSelection.hpp"
 
 namespace tooljoint::cases {
@@ -17,6 +20,17 @@ estimate::MotionOptions motionOptions(const RestingCase& rest) {
 }
 
 }  // namespace
+
+std::vector<double> ReducedCase::cutOffs() const {
+  std::vector<double> ends;
+  for (const auto& part : parts()) {
+    const auto& basis = part.report;
+    const bool whole = basis.modes >= basis.interior;
+    ends.push_back(whole ? std::numeric_limits<double>::infinity()
+                         : 2 * constants::pi * basis.cutOffHz());
+  }
+  return ends;
+}
 
 ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress) {
   ReducedCase out{rest.parts(), {}};

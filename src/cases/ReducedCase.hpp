@@ -20,6 +20,9 @@ struct ReducedCase {
   }
   const coupling::Coupling& coupled() const { return outcome.synthesis.coupled; }
   const model::SecondOrderModel& model() const { return outcome.synthesis.coupled.model; }
+  /// Frequencies [rad/s] at which the modes of the parts end, infinite where none is missing;
+  /// empty where nothing was reduced.
+  std::vector<double> cutOffs() const;
 };
 
 /// Reduces the parts of a case that has the list Reduction. A motion tolerance moves candidates;

@@ -25,6 +25,7 @@
 #include "transient/Sampler.hpp"
 #include "transient/accuracy/LawResolution.hpp"
 #include "transient/ranks/MotionShare.hpp"
+#include "transient/verdict/CutOffEnergy.hpp"
 #include "transient/verdict/EnergyVerdict.hpp"
 #include "transient/verdict/StepError.hpp"
 #include "transient/verdict/StepVerdict.hpp"
@@ -117,6 +118,7 @@ class Run {
     if (stepError_) report.stepError = judged_ ? *judged_ : stepError_->value();
     report.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     report.samples = sampler_.count();
+    if (cutOffEnergy_) report.cutOffEnergy = cutOffEnergy_->share();
     report.hasEnergy = options_.ledger;
     if (options_.ledger) report.energy = ledger_.account(model_, state_);
     report.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
@@ -146,6 +148,7 @@ class Run {
     const Window window{state_.t, options_.end, options_.sampling, options_.step};
     integrator_->prepare(model_, window, state_);
     if (anew) takeMemory(*point);
+    if (!hooks_.cutOffs.empty()) cutOffEnergy_.emplace(model_, hooks_.cutOffs);
     if (integrator_->equalStep() > 0)
       stepError_.emplace(model_, *integrator_, make(), window, state_);
     if (point != nullptr && !anew) return resume(*point);
@@ -228,6 +231,7 @@ class Run {
     integrator_->restore(memory);
     if (options_.ledger) ledger_.restore(model_, integrator_->ledgerStride(), memory);
     if (stepError_) stepError_->restore(memory);
+    if (cutOffEnergy_) cutOffEnergy_->restore(memory);
     if (memory != end)
       throw FileError(
           "The checkpoint holds another amount of memory than this program reads. Go on with the "
@@ -309,6 +313,7 @@ class Run {
     }
     if (options_.ledger) ledger_.save(point.memory);
     if (stepError_) stepError_->save(point.memory);
+    if (cutOffEnergy_) cutOffEnergy_->save(point.memory);
     if (share_) {
       const auto mine = std::move(point.memory);
       RankShare::gatherArrays(mine, point.memory, point.shares);
@@ -336,7 +341,9 @@ class Run {
       if (options_.ledger) ledger_.book(model_, next_);
       const long before = sampler_.count();
       sampler_.step(state_, next_);
-      const bool refused = options_.ledger && sampler_.count() > before && ledger_.isDue() &&
+      const bool sampled = sampler_.count() > before;
+      if (sampled && cutOffEnergy_) cutOffEnergy_->look(next_);
+      const bool refused = options_.ledger && sampled && ledger_.isDue() &&
                            energy_.refuses(ledger_.look(model_, next_));
       std::swap(state_, next_);
       if (refused) energy_.refuse(ledger_.account(model_, state_), state_.t, integrator_->advice());
@@ -426,7 +433,8 @@ class Run {
   EnergyLedger ledger_;
   EnergyVerdict energy_;
   std::optional<StepError> stepError_;  ///< of equal steps
-  std::optional<double> judged_;        ///< what it comes to at the end
+  std::optional<CutOffEnergy> cutOffEnergy_;
+  std::optional<double> judged_;  ///< what it comes to at the end
   State state_, next_;
   long evaluationsBefore_ = 0;
   std::string identity_;

@@ -48,6 +48,7 @@ struct TransientReport {
   double cpu = 0;             ///< [s]
   double realTimeFactor = 0;  ///< simulated seconds per second of wall time
   double stepError = 0;       ///< of equal steps (StepVerdict.hpp), 0 where it is not known
+  double cutOffEnergy = 0;    ///< CutOffEnergy.hpp
   bool hasEnergy = false;
   EnergyAccount energy;
 };
@@ -61,6 +62,9 @@ struct RunHooks {
   /// interval whether or not this is given: some integrators begin anew there.
   std::function<void(const Checkpoint&)> keep;
   std::function<bool()> stop;  ///< looked at each step; default: the interrupt flag
+  /// Of a reduced model: the frequencies [rad/s] at which the modes of each part end, infinite
+  /// where none is missing. With them the report has a cutOffEnergy.
+  std::vector<double> cutOffs;
 };
 
 /// Integrate. Samples go to `sink`; with hooks.resume only those after the checkpoint.

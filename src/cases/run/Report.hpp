@@ -26,6 +26,8 @@ std::string describeCoupling(const coupling::Coupling& coupled);
 std::string describeMotionError(const estimate::MotionEstimate& error);
 /// What to warn of: motion too fast for the samples, and an estimate above a fifth of the motion.
 std::vector<std::string> remarks(const estimate::MotionEstimate& error);
+/// Of a reduced motion with more than a hundredth of its kinetic energy where its modes end.
+std::vector<std::string> remarks(const transient::TransientReport& report);
 /// Integrator, steps and counters, the figures of the case, and the energy balance.
 std::string describeTransient(const transient::TransientReport& report, const MotionRecord& record);
 

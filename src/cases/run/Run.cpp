@@ -127,9 +127,12 @@ class Run {
     if (log_.isCompared()) compareWithLog();
     if (estimates_ && files_.goesOn())
       log::warn("The error of the motion is not estimated in a run restarted from a checkpoint.");
-    const auto report = estimates_ && !files_.goesOn()
-                            ? integrateEstimating(model)
-                            : files_.integrate(model, list, *recorder_, *recorder_);
+    const bool estimating = estimates_ && !files_.goesOn();
+    const auto report =
+        estimating ? integrateEstimating(model)
+                   : files_.integrate(model, list, *recorder_, *recorder_, reduced_.cutOffs());
+    if (!estimating)
+      for (const auto& remark : remarks(report)) log::warn(remark);
     summarise(report, case_.reduces(), files_.summary());
     recorder_->record().summarise(files_.summary());
     files_.requireComplete(report);
@@ -162,7 +165,7 @@ class Run {
   transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {
     const auto estimator = motionEstimator(*rest_, reduced_);
     TeeSink both(*recorder_, *estimator);
-    auto report = files_.integrate(model, case_.transient(), *recorder_, both);
+    auto report = files_.integrate(model, case_.transient(), *recorder_, both, reduced_.cutOffs());
     const auto error = estimator->result();
     log::info(describeMotionError(error));
     for (const auto& remark : remarks(error)) log::warn(remark);

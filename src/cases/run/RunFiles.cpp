@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <utility>
 #include <vector>
 
 #include "cases/recording/RecordedNodes.hpp"
@@ -188,8 +189,10 @@ void RunFiles::keep(const transient::Checkpoint& checkpoint, const Recorder& rec
 
 transient::TransientReport RunFiles::integrate(const model::SecondOrderModel& model,
                                                const Teuchos::ParameterList& transient,
-                                               Recorder& recorder, transient::SampleSink& sink) {
+                                               Recorder& recorder, transient::SampleSink& sink,
+                                               std::vector<double> cutOffs) {
   transient::RunHooks hooks;
+  hooks.cutOffs = std::move(cutOffs);
   if (goesOn()) {
     hooks.resume = &*checkpoint_;
     const double* memory = checkpoint_->recorder.data();

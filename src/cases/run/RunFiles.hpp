@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cases/Case.hpp"
 #include "cases/recording/Recorder.hpp"
@@ -47,10 +48,10 @@ class RunFiles {
   void complete(const std::function<void()>& stages, const std::function<void()>& tables);
 
   /// The motion, with checkpoints, from the start or from the checkpoint. `sink` receives the
-  /// samples and hands them to `recorder`.
+  /// samples and hands them to `recorder`. \param cutOffs as in transient::RunHooks
   transient::TransientReport integrate(const model::SecondOrderModel& model,
                                        const Teuchos::ParameterList& transient, Recorder& recorder,
-                                       transient::SampleSink& sink);
+                                       transient::SampleSink& sink, std::vector<double> cutOffs);
   /// Throws InterruptedError, which says how to go on, when the motion did not reach its end.
   void requireComplete(const transient::TransientReport& report) const;
 

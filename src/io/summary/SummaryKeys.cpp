@@ -107,6 +107,7 @@ const std::vector<std::string>& documentedKeys() {
       "transient.bit_speed_rpm.max",
       "transient.bit_speed_rpm.mean",
       "transient.step_error",
+      "transient.cut_off_energy",
       "transient.energy_residual",
       "transient.max_penetration",
       "transient.max_displacement",

@@ -2,10 +2,13 @@
 /// \file
 /// The run around an integrator: samples, reports, errors, interrupts, energy, allocation.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <utility>
 
 #include "StatefulModels.hpp"
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/report/Log.hpp"
@@ -341,6 +344,30 @@ TEST(Transient, theAccuracyOfStepsThatNobodyMeasuresIsNotKnown) {
 
 // Interrupt
 // -------------------------------------------------------------------------------------------------
+
+/// Two modes of one part, free: in the mean over whole periods the kinetic energy of each is a
+/// quarter of w^2 q(0)^2. The higher one is above half the cut-off, the lower one below.
+TEST(Transient, saysWhatPartOfTheEnergyIsWhereModesEnd) {
+  const double low = 20, high = 100;
+  auto model =
+      denseModel(2 * Matrix::Identity(2, 2), Matrix(),
+                 2 * (Vector(2) << low * low, high * high).finished().asDiagonal().toDenseMatrix());
+  model.dofs = {model::DofLabel::modal(0, 0), model::DofLabel::modal(0, 1)};
+  model.initialDisplacement << 0.3, 0.03;
+  const double expected =
+      std::pow(high * 0.03, 2) / (std::pow(low * 0.3, 2) + std::pow(high * 0.03, 2));
+  for (const auto& [cutOff, share] :
+       {std::pair{high, expected}, {2.1 * high, 0.0}, {0.3 * high, 1.0}}) {
+    RunHooks hooks;
+    hooks.cutOffs = {cutOff};
+    Keep samples;
+    const double end = 20 * constants::pi / low;
+    const auto report = integrate(model, options("RK4", end, 1e-4, 1e-3), samples, hooks);
+    EXPECT_NEAR(report.cutOffEnergy, share, 0.01 * share) << cutOff;
+  }
+  Keep samples;
+  EXPECT_EQ(integrate(model, options("RK4", 0.1, 1e-4, 1e-3), samples).cutOffEnergy, 0.0);
+}
 
 TEST(Transient, anInterruptStopsCleanly) {
   const auto model = oscillator(1, 0, 400, 0.1, 0);

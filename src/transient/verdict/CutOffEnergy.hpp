@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Whether a reduced motion vibrates where its basis ends. With the modal coordinates p_i of a
+/// part, w_i^2 = k_ii / m_ii, and the frequency w_c at which its modes end,
+///
+///     sum over w_i > w_c / 2 of m_ii p'_i^2 over v'M v
+///
+/// in the mean over samples is the part of the kinetic energy in the upper half of the kept
+/// frequencies. What excites them, such as an impact that is shorter than their periods, excites
+/// modes that are not kept as well.
+#pragma once
+
+#include <vector>
+
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+
+class CutOffEnergy {
+ public:
+  /// \param cutOffs w_c of each part [rad/s], by DofLabel::entity; infinite where no mode is
+  /// missing
+  CutOffEnergy(const CompiledModel& model, const std::vector<double>& cutOffs);
+  /// At a sample.
+  void look(const State& state);
+  /// 0 to 1. Collective.
+  double share() const;
+
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  struct Mode {
+    int position;
+    double mass;
+  };
+  const CompiledModel* model_;
+  std::vector<Mode> high_;          ///< above half the cut-off
+  double highest_ = 0, whole_ = 0;  ///< sums of m p'^2 of those, of v'M v, of this rank
+};
+
+}  // namespace tooljoint::transient
