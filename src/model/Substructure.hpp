@@ -21,6 +21,8 @@ struct Substructure {
                                ///< increasing, disjoint from interface
   Vector
       reference;  ///< state the part is linearised about (static displacement), dofs; zero if empty
+  double rounding = 0;  ///< relative difference of entries that the rounding of places leaves
+                        ///< between two parts that are the same; 0: those have the same entries
 
   /// All positions that are neither interface nor retained, increasing.
   std::vector<int> interior() const;

@@ -28,7 +28,8 @@ constexpr const char* excitations[] = {"Unbalance", "Harmonic", "Transfer"};
 ListSpec loadParameters() {
   ListSpec list("load", "A load on one dof; the name is free.");
   cases::declareNode(list, "that is loaded");
-  return list.text("Component", deck::Required{}, "Component of the node.")
+  return list
+      .text("Component", deck::Required{}, "Component of the node, in the frame of the results.")
       .real(
           "Value", "N or N m", 1.0, Range::any(),
           "Amplitude: a force, or a moment about a rotation component. Transfer functions take 1.")
@@ -47,7 +48,8 @@ ListSpec unbalanceParameters() {
 ListSpec outputParameters() {
   ListSpec list("output", "A dof whose response is wanted; the name is that of its columns.");
   cases::declareNode(list, "that is looked at");
-  return list.text("Component", deck::Required{}, "Component of the node.");
+  return list.text("Component", deck::Required{},
+                   "Component of the node, in the frame of the results.");
 }
 
 /// Calls read(name, list) for every list in the sublist `kind`.

@@ -48,14 +48,22 @@ class Report {
     if (!response_.checks.empty())
       log::info(fmt::format(
           "spot checks with the full model: largest error {:.1e} of the largest amplitude of an "
-          "output (estimate {:.1e})",
-          worstError(), worstEstimate(response_.checks)));
+          "output ({})",
+          worstError(),
+          rotating_.estimated() ? fmt::format("estimate {:.1e}", worstEstimate(response_.checks))
+                                : "without an estimate"));
     const double coarse = std::max(worstEstimate(response_.points), worstEstimate(response_.peaks));
     if (coarse > tooCoarse)
       log::warn(fmt::format(
           "The estimated error of the reduced model is {:.0f} % of the largest amplitude of an "
           "output. Keep more modes (Reduction/Mode Selection), or leave the list Reduction out.",
           100.0 * coarse));
+    else if (!response_.checks.empty() && worstError() > tooCoarse)
+      log::warn(fmt::format(
+          "At a spot check the reduced model is off the full one by {:.0f} % of the largest "
+          "amplitude of an output. Keep more modes (Reduction/Mode Selection), or leave the list "
+          "Reduction out.",
+          100.0 * worstError()));
     StringReport(response_, settings_.bySpeed(), rotating_.estimated()).print();
   }
 
@@ -97,7 +105,7 @@ class Report {
   }
 
  private:
-  /// Of the largest amplitude: a larger estimate is worth a warning.
+  /// Of the largest amplitude: a larger estimate, or error, is worth a warning.
   static constexpr double tooCoarse = 0.05;
   static constexpr double degrees = 180.0 / constants::pi;
   static double rpm(double speed) { return speed * rpmPerRadianPerSecond; }

@@ -31,25 +31,29 @@ bool isSymmetric(const Sparse& A) {
 /// fit leaves: proportional damping, none at all included.
 struct Proportional {
   double alpha = 0, beta = 0;
+  bool isThat(const ScaledPencil& pencil) const {
+    const Sparse difference = pencil.C - alpha * pencil.M - beta * pencil.K;
+    const Vector size = std::abs(alpha) * pencil.M.diagonal().cwiseAbs() +
+                        std::abs(beta) * pencil.K.diagonal().cwiseAbs();
+    for (int i = 0; i < difference.outerSize(); ++i)
+      for (Sparse::InnerIterator it(difference, i); it; ++it)
+        if (std::abs(it.value()) > 1e-12 * std::sqrt(size[i] * size[it.col()])) return false;
+    return true;
+  }
 };
+
+/// One coefficient alone where that is enough: the other would be rounding, and move what rests.
 std::optional<Proportional> proportionalDamping(const ScaledPencil& pencil) {
   const double mm = pencil.M.squaredNorm(), kk = pencil.K.squaredNorm(),
                mk = pencil.M.cwiseProduct(pencil.K).sum();
   const double cm = pencil.C.cwiseProduct(pencil.M).sum(),
                ck = pencil.C.cwiseProduct(pencil.K).sum(), determinant = mm * kk - mk * mk;
-  Proportional fit;
-  if (determinant > 1e-12 * mm * kk) {
-    fit = {(cm * kk - ck * mk) / determinant, (ck * mm - cm * mk) / determinant};
-  } else if (mm > 0) {
-    fit = {cm / mm, 0.0};
-  }
-  const Sparse difference = pencil.C - fit.alpha * pencil.M - fit.beta * pencil.K;
-  const Vector size = std::abs(fit.alpha) * pencil.M.diagonal().cwiseAbs() +
-                      std::abs(fit.beta) * pencil.K.diagonal().cwiseAbs();
-  for (int i = 0; i < difference.outerSize(); ++i)
-    for (Sparse::InnerIterator it(difference, i); it; ++it)
-      if (std::abs(it.value()) > 1e-12 * std::sqrt(size[i] * size[it.col()])) return std::nullopt;
-  return fit;
+  std::vector<Proportional> fits{{0.0, kk > 0 ? ck / kk : 0.0}, {mm > 0 ? cm / mm : 0.0, 0.0}};
+  if (determinant > 1e-12 * mm * kk)
+    fits.push_back({(cm * kk - ck * mk) / determinant, (ck * mm - cm * mk) / determinant});
+  for (const auto& fit : fits)
+    if (fit.isThat(pencil)) return fit;
+  return std::nullopt;
 }
 
 /// Roots with Im s >= 0 of s^2 + c s + lambda = 0; a double zero once.

@@ -141,32 +141,39 @@ double farWanted(const ScaledPencil& pencil, const Upper& found, std::size_t wan
 }
 
 /// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 tells the wanted values
-/// apart and Jordan chains at zero do not swamp them.
-double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer& name) {
+/// apart and Jordan chains at zero do not swamp them. Where all that is wanted are these, a shift
+/// as small as they are has no inverse, and the one before serves.
+std::unique_ptr<ShiftedInverse> goodInverse(const ScaledPencil& pencil, std::size_t wanted,
+                                            const DofNamer& name) {
   double stiff = 0, mass = 0;
   for (int i = 0; i < pencil.K.rows(); ++i)
     stiff += std::abs(pencil.K.coeff(i, i)), mass += pencil.M.coeff(i, i);
   double shift = mass > 0 && stiff > 0 ? 1e-4 * std::sqrt(stiff / mass) : 1.0;
   constexpr int rounds = 4;
+  auto inverse = inverseNear(pencil, shift, name);
   for (int round = 0; round < rounds; ++round) {
-    const auto inverse = inverseNear(pencil, shift, name);
     GrowingKrylov<double> space([&](const Matrix& z) { return (*inverse)(z); }, 2 * pencil.size());
     space.start(startColumns, 11);
     space.grow(static_cast<int>(wanted) + 4 * startColumns);
     const RitzPairs ritz = space.ritz();
     const Upper found(ritz, inverse->shift(),
                       pencil.singularMass ? infiniteNu(ritz, inverse->shift()) : 0.0);
-    if (found.s.empty()) return shift;
+    if (found.s.empty()) return inverse;
     const double far = farWanted(pencil, found, wanted);
     double near = far;
     for (const Complex& s : found.s)
       if (std::abs(s) > 1e-3 * far) near = std::min(near, std::abs(s));
-    if (!(near > 0)) return shift;
+    if (!(near > 0)) return inverse;
     const double ratio = near / shift;
     shift = near;
+    try {
+      inverse = inverseNear(pencil, shift, name);
+    } catch (const ModelError&) {
+      return inverse;
+    }
     if (ratio > 0.25 && ratio < 4.0) break;
   }
-  return shift;
+  return inverse;
 }
 
 /// One mode of each independent motion at zero, the first ones of `values`. A free body without
@@ -258,7 +265,7 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
 DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& name) {
   const int all = 2 * static_cast<int>(pencil.size());
   auto wanted = static_cast<std::size_t>(count);
-  const auto inverse = inverseNear(pencil, goodShift(pencil, wanted, name), name);
+  const auto inverse = goodInverse(pencil, wanted, name);
   GrowingKrylov<double> space([&](const Matrix& z) { return (*inverse)(z); }, all);
   if (all <= 2 * denseBelow)
     space.startWhole();

@@ -11,17 +11,6 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Relative difference of the entries of two parts of `dofs` up to which they are the same part.
-/// Positions of some kilometres are rounded to u = 5e-13 m; over an element of length l this is a
-/// strain u / l and a tension E A u / l, which changes its bending stiffness 12 E I / l^3 by (A l^2
-/// / 10 I) u / l: 3e-10 for 10 m of pipe, less on a finer mesh. The softest motion of a chain of n
-/// elements feels a change of tension as n^2 times the change of its entries, so that what is the
-/// same shrinks with n^2 as well: the lowest frequency is met to 1e-8.
-double sameEntry(int dofs) {
-  const double few = 90.0 / std::max(1, dofs);
-  return std::min(1e-9, 5e-11 * std::max(1.0, few * few));
-}
-
 /// Raises size_i to the largest entry of row i.
 void raiseToRows(const Sparse& a, Vector& size) {
   if (a.rows() != size.size()) return;
@@ -42,7 +31,7 @@ bool near(const double* x, const double* y, const double* room, Eigen::Index n) 
 }
 
 /// A matrix others are compared with: a_ij ~ b_ij where |a_ij - b_ij| <= s_i s_j with s_i^2 =
-/// sameEntry(n) r_i, r the size of the rows: as strict for moments as for forces.
+/// Substructure::rounding r_i, r the size of the rows: as strict for moments as for forces.
 class MatrixPattern {
  public:
   MatrixPattern(const model::SharedSparse& a, Vector s) : a_(a), s_(std::move(s)) {
@@ -104,7 +93,7 @@ class Pattern {
  public:
   explicit Pattern(const model::Substructure& part) : part_(part) {
     const auto& m = part.model;
-    const double same = sameEntry(m.size());
+    const double same = part.rounding;
     const auto add = [&](const model::SharedSparse& matrix, const Vector& rows) {
       matrices_.emplace_back(matrix, (same * rows).cwiseSqrt());
     };
@@ -123,7 +112,7 @@ class Pattern {
   bool matches(const model::Substructure& other) const {
     const auto& a = part_.model;
     const auto& b = other.model;
-    if (a.size() != b.size() || part_.interface != other.interface ||
+    if (a.size() != b.size() || part_.rounding != other.rounding || part_.interface != other.interface ||
         part_.retained != other.retained)
       return false;
     if (!sameTerms(a.stiffness, b.stiffness, b) || !sameTerms(a.damping, b.damping, b))

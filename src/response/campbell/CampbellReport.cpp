@@ -69,9 +69,9 @@ Columns crossingTable(const CampbellDiagram& diagram, const CampbellSettings& se
   return table;
 }
 
-Columns checkTable(const CampbellDiagram& diagram) {
+Columns checkTable(const CampbellDiagram& diagram, bool estimated) {
   const auto& rows = diagram.checks;
-  return {{
+  Columns table{{
       {"speed", "rad/s", "Rotary speed", collect(rows, [](const auto& r) { return r.speed; })},
       {"mode", "1", "Number of the mode, 0 for one that is not followed",
        collect(rows, [](const auto& r) { return r.mode; })},
@@ -81,11 +81,13 @@ Columns checkTable(const CampbellDiagram& diagram) {
        collect(rows, [](const auto& r) { return r.reduced.imag() / twoPi; })},
       {"error", "1", "|s - s_full| / |s_full|",
        collect(rows, [](const auto& r) { return r.error; })},
-      {"estimate", "1", "The same estimated without the full model",
-       collect(rows, [](const auto& r) { return r.estimate; })},
-      {"mac", "1", "Modal assurance criterion of both shapes",
-       collect(rows, [](const auto& r) { return r.mac; })},
   }};
+  if (estimated)
+    table.columns.push_back({"estimate", "1", "The same estimated without the full model",
+                             collect(rows, [](const auto& r) { return r.estimate; })});
+  table.columns.push_back({"mac", "1", "Modal assurance criterion of both shapes",
+                           collect(rows, [](const auto& r) { return r.mac; })});
+  return table;
 }
 
 Columns stateTable(const CampbellDiagram& diagram) {
@@ -131,26 +133,36 @@ void print(const CampbellDiagram& diagram, const CampbellSettings& settings, boo
       std::max_element(diagram.checks.begin(), diagram.checks.end(),
                        [](const auto& a, const auto& b) { return a.error < b.error; });
   if (worst != diagram.checks.end())
-    log::info(
-        fmt::format("spot checks with the full model: largest error {:.1e} (estimate {:.1e}), at "
-                    "{:.2f} rpm and "
-                    "{:.4f} Hz",
-                    worst->error, worst->estimate, worst->speed * rpmPerRadianPerSecond,
-                    worst->full.imag() / twoPi));
+    log::info(fmt::format(
+        "spot checks with the full model: largest error {:.1e} ({}), at {:.2f} rpm and "
+        "{:.4f} Hz",
+        worst->error,
+        estimated ? fmt::format("estimate {:.1e}", worst->estimate) : "without an estimate",
+        worst->speed * rpmPerRadianPerSecond, worst->full.imag() / twoPi));
 }
 
-/// Of |s|: a larger estimate is worth a warning.
+/// Of |s|: a larger estimate, or error, is worth a warning.
 constexpr double tooCoarse = 0.01;
 
 void warnOfCoarseness(const CampbellDiagram& diagram) {
   const auto worst =
       std::max_element(diagram.rows.begin(), diagram.rows.end(),
                        [](const auto& a, const auto& b) { return a.error < b.error; });
+  const auto checked =
+      std::max_element(diagram.checks.begin(), diagram.checks.end(),
+                       [](const auto& a, const auto& b) { return a.error < b.error; });
   if (worst != diagram.rows.end() && worst->error > tooCoarse)
     log::warn(fmt::format(
         "The estimated error of mode {} of the reduced model is {:.1f} % at {:.2f} rpm. Keep more "
         "modes (Reduction/Mode Selection), or leave the list Reduction out.",
         worst->mode, 100.0 * worst->error, worst->speed * rpmPerRadianPerSecond));
+  else if (checked != diagram.checks.end() && checked->error > tooCoarse)
+    log::warn(fmt::format(
+        "At a spot check at {:.2f} rpm the reduced model is off the mode of {:.4g} Hz of the full "
+        "one by {:.1f} %. Keep more modes (Reduction/Mode Selection), or leave the list Reduction "
+        "out.",
+        checked->speed * rpmPerRadianPerSecond, checked->full.imag() / twoPi,
+        100.0 * checked->error));
 }
 
 /// Damped modes whose damping ratio is below this grow, beyond rounding.
@@ -285,7 +297,7 @@ void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) 
         const bool estimated = rotating.estimated();
         rowTable(diagram, estimated).write("campbell", files.folder(), file);
         crossingTable(diagram, settings, estimated).write("crossings", files.folder(), file);
-        checkTable(diagram).write("spot_checks", files.folder(), file);
+        checkTable(diagram, estimated).write("spot_checks", files.folder(), file);
         stateTable(diagram).write("states", files.folder(), file);
         writeLines(settings, file);
         rotating.rest().writeProfile(file);

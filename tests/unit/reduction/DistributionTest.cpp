@@ -36,6 +36,7 @@ std::vector<model::Substructure> pipes(int count) {
     if (p > 0) ends.push_back(1 + 8 * p);
     if (p + 1 < count) ends.push_back(9 + 8 * p);
     samples::classify(parts.back(), ends);
+    parts.back().rounding = 1e-9;  // as parts of a string
   }
   return parts;
 }
@@ -79,6 +80,18 @@ TEST(FindTwins, FindsIdenticalPartsWhateverTheirLabelsAndLoads) {
   parts[1].model.stiffness.own()[1].matrix *= 1e6;
   EXPECT_EQ(findIdenticalParts(parts, requests), (std::vector<int>{0, 1, 2, 3, 4}))
       << "another force";
+}
+
+/// Springs to the ground of 20 and 60 N/m beside 1e11 N/m within the bars: rounding in a string,
+/// all that holds an imported part.
+TEST(FindTwins, ImportedPartsHaveTheSameEntries) {
+  std::vector<model::Substructure> parts;
+  for (const double ground : {20.0, 60.0, 20.0}) {
+    parts.push_back(samples::bar("bar", 1, 8, 1e11, 2.0));
+    parts.back().model.stiffness.own()[0].matrix.coeffRef(0, 0) += ground;
+  }
+  const std::vector<ModeRequest> requests(3);
+  EXPECT_EQ(findIdenticalParts(parts, requests), (std::vector<int>{0, 1, 0}));
 }
 
 TEST(FindTwins, IdenticalPartsAreReducedOnce) {
