@@ -44,13 +44,14 @@ void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double
   for (const auto& batch : model.points()) {
     const std::size_t rows = at(batch.points()) * at(batch.width());
     const int w = batch.width();
-    sets_.push_back({std::vector<double>(rows, 0.0), std::vector<double>(rows * at(w), 0.0)});
+    sets_.push_back({std::vector<double>(rows, 0.0), std::vector<double>(rows * at(w), 0.0),
+                     std::vector<double>(w == 1 ? rows : 0, 0.0)});
     for (int p : batch.active())
       std::copy_n(batch.force() + p * w, w, &sets_.back().force[at(p * w)]);
     for (int p : batch.everyPoint())
       batch.project(p, mass.inverse(), &sets_.back().mobility[at(p * w * w)]);
   }
-  squares_ = time_ = unseen_ = calm_ = 0;
+  squares_ = time_ = unseen_ = seen_ = calm_ = 0;
   kept_ = 0;
   recovering_ = false;
 }
@@ -89,10 +90,20 @@ double ImpactResolution::square() const {
   return std::max(current_, time_ > 0 ? squares_ / time_ : 0.0);
 }
 
+/// Sets <v^2> for a point.
+void ImpactResolution::measureBy(int b, int point) {
+  const auto& own = sets_[at(b)].squares;
+  reference_ = square() / norm_.mass();
+  alone_ = !own.empty() && seen_ > 0;
+  if (alone_)
+    reference_ = std::clamp(own[at(point)] / seen_, Tuned::counted * Tuned::counted * reference_,
+                            reference_);
+  reference_ = std::max(Tuned::quiet * Tuned::quiet, reference_);
+}
+
 /// Whether what changes by this, (dv)^2, is worth a shorter step.
 bool ImpactResolution::matters(double change) const {
-  return change >
-         4 * Tuned::mostLost * std::max(Tuned::quiet * Tuned::quiet, square() / norm_.mass());
+  return change > 4 * Tuned::mostLost * reference_;
 }
 
 /// Whether the wall turns the point within few steps, so that an impact in them is none.
@@ -103,8 +114,12 @@ bool ImpactResolution::isFast(const MetWall& wall, double change, double h) cons
 }
 
 bool ImpactResolution::losesMuch(const MetWall& wall, double change, double h) const {
-  return isFast(wall, change, h) &&
-         matters(reboundLoss(wall.frequency() * h, radius_) * change * change);
+  if (!isFast(wall, change, h)) return false;
+  const double square = change * change, wh = wall.frequency() * h;
+  if (matters(reboundLoss(wh, radius_) * square)) return true;
+  if (!alone_) return false;
+  const Scatter part(wh, wall.damping(0.5 * change * h) * h);
+  return (part.spring + part.damper) * square > 4 * Tuned::mostMisplaced * reference_;
 }
 
 /// (spring max(1/W, m/n) + damper/W) dv^2. A point lighter than a coordinate of the model is on
@@ -128,6 +143,7 @@ void ImpactResolution::visitTurned(const State& from, const State& to, double h,
     const int w = batch.width();
     for (int p : batch.active()) {
       const double* last = &sets_[at(b)].force[at(p * w)];
+      measureBy(b, p);
       const auto [change, speed] = bound(b, p, to.t, h, last);
       if (!matters(change * (change + 2 * speed))) continue;
       met_.face(batch, p, mobility(b, p), to.t);
@@ -201,6 +217,7 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
       met_.measure(fastest, h);
       if (met_.frequency() * h <= Tuned::resolved) continue;
       const double reversal = 2 * std::abs(met_.along(to.v));
+      measureBy(b, p);
       needed = std::max(
           needed, losesMuch(met_, reversal, h) ? unbounded : constants::pi / met_.frequency());
       sum += misplaced(met_, reversal, h);
@@ -237,6 +254,12 @@ void ImpactResolution::keep(const State& to, double h) {
   if (++kept_ % Tuned::lookStride != 0) return;
   squares_ += model_->massForm(to.v.data()) * unseen_;
   time_ += unseen_;
+  for (std::size_t b = 0; b < sets_.size(); ++b)
+    for (std::size_t p = 0; p < sets_[b].squares.size(); ++p)
+      sets_[b].squares[p] +=
+          std::pow(model_->points()[b].rowTimesVector(static_cast<int>(p), to.v.data()), 2) *
+          unseen_;
+  seen_ += unseen_;
   unseen_ = 0;
 }
 
@@ -253,13 +276,18 @@ void ImpactResolution::takeUp(const double*& numbers) {
 
 void ImpactResolution::save(std::vector<double>& memory) const {
   carry(memory);
-  for (const auto& set : sets_) memory.insert(memory.end(), set.force.begin(), set.force.end());
+  memory.push_back(seen_);
+  for (const auto& set : sets_)
+    for (const auto* values : {&set.force, &set.squares})
+      memory.insert(memory.end(), values->begin(), values->end());
 }
 
 void ImpactResolution::restore(const double*& memory) {
   takeUp(memory);
+  seen_ = *memory++;
   for (auto& set : sets_)
-    for (double& force : set.force) force = *memory++;
+    for (auto* values : {&set.force, &set.squares})
+      for (double& value : *values) value = *memory++;
 }
 
 }  // namespace tooljoint::transient

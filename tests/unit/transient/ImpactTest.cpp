@@ -79,6 +79,24 @@ TEST_P(Rebound, IsThatOfTheWallBesideAHeavyBodyThatMoves) {
   }
 }
 
+/// A body of the same mass that swings with 2.5 m/s and touches nothing: the light fall, 0.14 m/s,
+/// is resolved as if it were alone.
+TEST_P(Rebound, IsThatOfTheWallBesideABodyThatIsFaster) {
+  const auto [h, radius] = GetParam();
+  const double fast = 2 * constants::pi * 8.0, low = 0.001;
+  for (double k : {1e7, 1e9, 1e11}) {
+    auto model = denseModel(mass * Matrix::Identity(2, 2), Matrix(),
+                            Eigen::Vector2d(0.0, mass * fast * fast).asDiagonal());
+    model.loads.push_back({"weight", Eigen::Vector2d(-mass * gravity, 0.0), 0});
+    model.initialDisplacement = Eigen::Vector2d(low, 0.05);
+    addFloor(model, k, 0, 7e11);
+    model.points[0].offset[1] = 1.0;
+    auto o = options("Generalized-alpha", 0.02, std::min(h, 1e-3), 0.02);
+    o.own.set("Spectral Radius", radius);
+    EXPECT_NEAR(apex(model, o), 1.0, 0.03) << k;
+  }
+}
+
 /// The error of a step is that of a smooth motion; impacts shorten the steps that it allows.
 TEST_P(Rebound, IsThatOfTheWallInStepsChosenByTheirError) {
   const auto [h, radius] = GetParam();
