@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "model/SharedList.hpp"
 
@@ -14,6 +15,9 @@ namespace tooljoint::model {
 struct ScalarLaw {
   std::string name;                     ///< "1", "Omega", "sqrt|Omega|", "dOmega/dt", ...
   std::function<double(double)> value;  ///< value at time t [s]
+  /// Increasing times [s] at which the value or its rate changes at once: steps that choose their
+  /// length end there, and steps of one length are told what they miss.
+  std::vector<double> corners = {};
 
   /// The law that is 1 at all times; every model has it at index 0.
   static ScalarLaw one() {

@@ -54,6 +54,9 @@ class Harmonic : public TimeLaw {
   double value(double t) const override {
     return t < start_ || t >= end_ ? mean_ : mean_ + amplitude_ * std::sin(pulsation_ * t + phase_);
   }
+  std::vector<double> corners() const override {
+    return std::isfinite(end_) ? std::vector<double>{start_, end_} : std::vector<double>{start_};
+  }
 
  private:
   double mean_, amplitude_, pulsation_, phase_, start_, end_;
@@ -70,6 +73,7 @@ class Ramp : public TimeLaw {
   double value(double t) const override {
     return from_ + (to_ - from_) * std::clamp((t - start_) / duration_, 0.0, 1.0);
   }
+  std::vector<double> corners() const override { return {start_, start_ + duration_}; }
 
  private:
   double from_, to_, start_, duration_;
@@ -87,6 +91,7 @@ class Table : public TimeLaw {
     const double x = (t - places_[i - 1]) / (places_[i] - places_[i - 1]);
     return values_[i - 1] + x * (values_[i] - values_[i - 1]);
   }
+  std::vector<double> corners() const override { return places_; }
 
  protected:
   Table(const ParameterList& list, const std::string& name, const std::string& what,
@@ -213,11 +218,12 @@ model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list,
                                   [law](double omega) { return Complex(law->value(omega)); }}};
   }
   const auto inTime = [law](double t) { return law->value(t); };
+  const auto corners = law->corners();
   if (name == rotarySpeedName)
-    return {name, model::SpeedLaw{inTime, [](double omega) { return Complex(omega); }}};
+    return {name, model::SpeedLaw{inTime, [](double omega) { return Complex(omega); }}, corners};
   if (name == "dOmega/dt")
-    return {name, model::SpeedLaw{inTime, [](double /*omega*/) { return Complex(0.0); }}};
-  return {name, inTime};
+    return {name, model::SpeedLaw{inTime, [](double /*omega*/) { return Complex(0.0); }}, corners};
+  return {name, inTime, corners};
 }
 
 }  // namespace tooljoint::parts

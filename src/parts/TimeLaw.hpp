@@ -6,6 +6,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "deck/ListSpec.hpp"
 #include "deck/Registry.hpp"
@@ -21,6 +22,8 @@ class TimeLaw {
  public:
   virtual ~TimeLaw() = default;
   virtual double value(double t) const = 0;
+  /// As ScalarLaw::corners.
+  virtual std::vector<double> corners() const { return {}; }
   /// True: value() takes the rotary speed [rad/s] in the place of the time.
   virtual bool ofSpeed() const { return false; }
 };

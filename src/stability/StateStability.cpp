@@ -33,8 +33,10 @@ namespace tooljoint::stability {
 namespace {
 
 /// Modes of the symmetric tangent that the damped equations are projected on: so many beyond those
-/// of negative pivots, and at most.
-constexpr int modesBeyond = 12, mostModes = 60;
+/// of negative pivots, and at most; of models with few dofs more, for so many entries of all
+/// shapes.
+constexpr int modesBeyond = 12, mostModes = 60, mostBeyond = 80;
+constexpr int entriesOfShapes = 200000;
 /// A model of so few dofs is not projected on fewer modes than it has.
 constexpr int fewDofs = 60;
 /// Growing modes of the projection that are looked at in the whole equations.
@@ -300,9 +302,10 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
     const bool floats = linalg::eigenvaluesBelow(symmetric, tangent.mass, slowest) > 0;
     options.shift = floats ? floatingShift : -4 * slowest;  // below all
   }
-  const int wanted = model.size() <= fewDofs
+  const int beyond = std::clamp(entriesOfShapes / model.size(), modesBeyond, mostBeyond);
+  const int wanted = model.size() <= std::max(fewDofs, beyond)
                          ? model.size()
-                         : std::min(mostModes, found.negativePivots + modesBeyond);
+                         : std::min(std::max(mostModes, beyond), found.negativePivots + beyond);
   const auto share = parallel::size() > 1 && !linalg::hasMasslessDofs(tangent.mass)
                          ? shareOf(model, symmetric, tangent.mass)
                          : nullptr;

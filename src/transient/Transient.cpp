@@ -397,16 +397,16 @@ class Run {
   /// Laws of time that change faster than steps of one length follow.
   void judgeLaws() const {
     const Counters& c = integrator_->counters();
-    if (c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
+    const double equal = integrator_->equalStep(), h = equal > 0 ? equal : c.maxStep;
+    if (!(equal > 0) && c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
     for (const auto& law : model_.source().laws) {
-      const auto [missed, lost] = missedParts(law, options_.start, state_.t, c.maxStep);
+      const double missed = missedPart(law, options_.start, state_.t, h);
       if (missed <= unresolved) continue;
-      const std::string text = "The time step (" + formatNumber(c.maxStep) +
-                               " s) is too large for the law \"" + law.name +
-                               "\". The steps do not resolve " +
-                               formatNumber(std::round(1e3 * missed) / 10.0) +
-                               " % of its integral over time. " + integrator_->advice() + ".";
-      if (lost > lostLaw && options_.stepErrorLimit < 1) throw ConvergenceError(text);
+      const std::string text =
+          "The time step (" + formatNumber(h) + " s) is too large for the law \"" + law.name +
+          "\". The steps do not resolve " + formatNumber(std::round(1e3 * missed) / 10.0) +
+          " % of its integral over time. " + integrator_->advice() + ".";
+      if (missed > lostLaw && options_.stepErrorLimit < 1) throw ConvergenceError(text);
       log::warn(text);
     }
   }

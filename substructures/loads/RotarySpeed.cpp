@@ -106,9 +106,11 @@ model::ScalarLaw RotarySpeed::scalar(const std::string& name) const {
   if (it == forms().end())
     throw Error(ExitCode::Internal, "\"" + name + "\" is no scalar law of the rotary speed.");
   const Form& form = it->second;
-  return {name, model::SpeedLaw{
-                    [self = *this, inTime = form.inTime](double t) { return inTime(self, t); },
-                    form.steady, form.order}};
+  return {
+      name,
+      model::SpeedLaw{[self = *this, inTime = form.inTime](double t) { return inTime(self, t); },
+                      form.steady, form.order},
+      law_ ? law_->corners() : std::vector<double>()};
 }
 
 }  // namespace tooljoint::loads

@@ -7,12 +7,9 @@
 
 namespace tooljoint::transient {
 
-/// Parts of the sum of |T_{h/8}|, with T the trapezoidal sums of a law over a step and over its
-/// eighths.
-struct LawParts {
-  double missed = 0;  ///< sum of |T_h - T_{h/8}|
-  double lost = 0;    ///< of it where |T_h| is the smaller: the steps do not see the law
-};
-LawParts missedParts(const model::ScalarLaw& law, double start, double end, double h);
+/// sum |T_h - T_{h/8}| / sum |T_{h/8}|, with T the trapezoidal sums of a law over a step and over
+/// its eighths and corners. What the first step has too much is left out: a load that is let go at
+/// the start has its value there alone, and no integral to compare that with.
+double missedPart(const model::ScalarLaw& law, double start, double end, double h);
 
 }  // namespace tooljoint::transient

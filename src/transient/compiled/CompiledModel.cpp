@@ -259,6 +259,15 @@ double CompiledModel::largest(const Vector& x) const {
   return pattern_.cut().largest(x.cwiseAbs().maxCoeff());
 }
 
+double CompiledModel::nextCorner(double t, double end) const {
+  const double after = t + Tuned::rounding * std::max(std::abs(t), std::abs(end));
+  for (const auto& law : model_.laws) {
+    const auto next = std::upper_bound(law.corners.begin(), law.corners.end(), after);
+    if (next != law.corners.end()) end = std::min(end, *next);
+  }
+  return end;
+}
+
 void CompiledModel::setTime(double t) {
   if (timeSet_ && t == time_) return;
   time_ = t;

@@ -127,6 +127,8 @@ class CompiledModel {
   /// Evaluate the laws at t and recombine what changed. Cheap when nothing did.
   void setTime(double t);
   double time() const { return time_; }
+  /// The first corner of a law after t and before `end`; else `end`.
+  double nextCorner(double t, double end) const;
   /// What setTime() has left, for somebody who takes the model to other times and wants to leave no
   /// trace. Allocates once.
   struct Snapshot {

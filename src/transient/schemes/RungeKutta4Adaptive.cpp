@@ -76,14 +76,14 @@ class RungeKutta4Adaptive final : public Integrator {
 
   void advance(const State& from, State& to) override {
     for (;;) {
-      // The last step ends where the run ends, without a sliver after it.
-      const double left = end_ - from.t;
+      // A step ends where the run does, or a law has a corner, without a sliver before it.
+      const double end = rhs_.model().nextCorner(from.t, end_), left = end - from.t;
       const bool last = step_ >= left * (1 - 1e-9);
       const double h = last ? left : step_;
       const double error = tryStep(from, to, h);
       const bool missesImpact = error <= tolerance_ && isLongAtWalls(to, h);
       if (error <= tolerance_ && !missesImpact) {
-        to.t = last ? end_ : from.t + h;
+        to.t = last ? end : from.t + h;
         rhs_.accept(to);
         counters_.accept(h);
         if (error <= tolerance_ / 100 && !last) step_ *= growth_;

@@ -220,6 +220,19 @@ TEST(Integrators, generalizedAlphaIsOfFirstOrderWhereTheForceJumps) {
   EXPECT_GT(0.25 * std::log2(coarse / fine), 0.8);
 }
 
+/// Steps of RK4 adaptive end where a law has a corner: none flies over a pulse from rest.
+TEST(Integrators, adaptiveStepsOfRungeKuttaEndAtCorners) {
+  auto model = oscillator(1.0, 0.0, 0.01, 0.0, 0.0);
+  const auto pulse = [](double t) {
+    return std::max(0.0, 500 * (1 - std::abs(t - 8.002) / 0.002));
+  };
+  model.loads.push_back(
+      {"kick", Vector::Ones(1), model.lawIndex({"kick", pulse, {8.0, 8.002, 8.004}})});
+  Keep samples;
+  integrate(model, options("RK4 adaptive", 9.0, 0, 3.0), samples);
+  EXPECT_NEAR(samples.v.back()[0], std::cos(0.1), 1e-3);
+}
+
 // Parameters
 // -------------------------------------------------------------------------------------------------
 

@@ -76,6 +76,7 @@ TEST_P(Sundials, warnOfAMotionAsSmallAsTheirTolerances) {
     log::clearWarnings();
     Keep samples;
     auto o = options(GetParam(), 3.0, 0, 0.01);
+    o.own = with("Maximum Step", 3.0);
     o.ledger = false;
     integrate(oscillator(1.0, 0.0, 400.0, amplitude, 0.0), o, samples);
     const auto& warnings = log::warnings();
@@ -128,8 +129,9 @@ TEST_P(Sundials, theErrorFollowsTheTolerance) {
 TEST_P(Sundials, samplesDoNotDependOnTheInterval) {
   const auto model = oscillator(1, 0.4, 400, 0.1, 0);
   Keep few, many;
-  const auto coarse = run(model, GetParam(), 1.0, 0.25, tolerance(1e-6), few);
-  const auto fine = run(model, GetParam(), 1.0, 0.0025, tolerance(1e-6), many);
+  const auto own = with("Maximum Step", 1.0, tolerance(1e-6));
+  const auto coarse = run(model, GetParam(), 1.0, 0.25, own, few);
+  const auto fine = run(model, GetParam(), 1.0, 0.0025, own, many);
   // The interpolation is as good as the steps, which the samples do not shorten.
   EXPECT_NEAR(static_cast<double>(fine.counters.steps), static_cast<double>(coarse.counters.steps),
               2.0);
@@ -139,6 +141,23 @@ TEST_P(Sundials, samplesDoNotDependOnTheInterval) {
     const double wd = std::sqrt(400 - 0.04), t = many.time[i];
     EXPECT_NEAR(many.q[i][0],
                 0.1 * std::exp(-0.2 * t) * (std::cos(wd * t) + 0.2 / wd * std::sin(wd * t)), 2e-4);
+  }
+}
+
+/// Steps end where a law has a corner and are no longer than the sampling interval: from rest none
+/// flies over a pulse of 4 ms, and one of 1 s needs no corner. An impulse of 1 N s moves 1 kg.
+TEST_P(Sundials, fromRestNoPulseIsFlownOver) {
+  for (const double half : {0.002, 0.5}) {
+    auto model = oscillator(1.0, 0.0, 0.01, 0.0, 0.0);
+    const auto pulse = [=](double t) {
+      return std::max(0.0, (1 - std::abs(t - 8 - half) / half) / half);
+    };
+    model::ScalarLaw law{"kick", pulse};
+    if (half < 0.1) law.corners = {8.0, 8 + half, 8 + 2 * half};
+    model.loads.push_back({"kick", Vector::Ones(1), model.lawIndex(law)});
+    Keep samples;
+    run(model, GetParam(), 9.0, 0.25, tolerance(1e-4), samples);
+    EXPECT_NEAR(samples.v.back()[0], std::cos(0.1 * (1 - half)), 0.01) << half;
   }
 }
 

@@ -51,8 +51,10 @@ void addCommon(deck::ListSpec& spec) {
             "Length of the first step; by default Transient/Step, and without that what SUNDIALS "
             "estimates.")
       .expert()
-      .real("Maximum Step", "s", deck::Optional{}, deck::Range::positive(),
-            "Longest step allowed; by default there is no limit.")
+      .real(
+          "Maximum Step", "s", deck::Optional{}, deck::Range::positive(),
+          "Longest step allowed; by default Sampling Interval. Steps also end where a law of time "
+          "has a corner.")
       .expert()
       .integer("Maximum Newton Iterations", 3, deck::Range::atLeast(2),
                "Newton iterations before a step is tried shorter.")
@@ -130,6 +132,7 @@ class Sundials final : public Integrator {
     form_.bind(model, name_);
     window_ = window;
     if (!(options_.firstStep > 0)) options_.firstStep = window.step;
+    if (!(options_.maxStep > 0)) options_.maxStep = window.sampling;
     form_.setStates(state.x);
     y_.setZero(form_.size());
     form_.pack(state, y_.data());
@@ -223,6 +226,7 @@ class Sundials final : public Integrator {
       throw ConvergenceError(text.str());
     }
     const double before = stepper_->time();
+    stepper_->stopAt(form_.model().nextCorner(before, window_.end));
     const SundialsTrouble trouble = stepper_->step();
     count();
     if (trouble != SundialsTrouble::None) giveUp(from, trouble);

@@ -175,9 +175,9 @@ class Arkode final : public Stepper {
     else
       require(ARKStepReInit(memory_, nullptr, rightHandSide, t, y_), "ARKStepReInit");
     require(ARKStepSetInitStep(memory_, firstStep), "ARKStepSetInitStep");
-    require(ARKStepSetStopTime(memory_, end), "ARKStepSetStopTime");
     end_ = end;
   }
+  void stopAt(double t) override { require(ARKStepSetStopTime(memory_, t), "ARKStepSetStopTime"); }
 
   SundialsTrouble step() override {
     interpolates_ = false;
@@ -301,9 +301,9 @@ class Cvode final : public Stepper {
     else
       require(CVodeReInit(memory_, t, y_), "CVodeReInit");
     require(CVodeSetInitStep(memory_, firstStep), "CVodeSetInitStep");
-    require(CVodeSetStopTime(memory_, end), "CVodeSetStopTime");
     end_ = end;
   }
+  void stopAt(double t) override { require(CVodeSetStopTime(memory_, t), "CVodeSetStopTime"); }
 
   SundialsTrouble step() override {
     const int flag = CVode(memory_, end_, y_, &time_, CV_ONE_STEP);

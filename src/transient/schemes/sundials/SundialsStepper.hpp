@@ -43,6 +43,8 @@ class SundialsStepper {
   virtual ~SundialsStepper() = default;
   /// Begin at (t, y) and never step past `end`; firstStep 0 leaves the first step to SUNDIALS.
   virtual void restart(double t, const double* y, double end, double firstStep) = 0;
+  /// Steps do not pass this time, which is not after that end.
+  virtual void stopAt(double t) = 0;
   /// One step, however short. Rethrows what the model throws; a ConvergenceError (a delay shorter
   /// than the step) only when a shorter step meets it too.
   virtual SundialsTrouble step() = 0;
