@@ -54,11 +54,14 @@ ModelPointer makeModel(const py::object& mass, const py::object& stiffness, cons
     throw ModelError("The mass matrix has " + std::to_string(model->size()) + " rows, but " +
                      std::to_string(nodes.size()) + " nodes and " +
                      std::to_string(components.size()) + " components name them.");
+  const Vector inertia = model->mass.diagonal();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (components[i] < 0 || components[i] >= static_cast<int>(names.size()))
       throw ModelError("Dof " + std::to_string(i) + " has component " +
-                       std::to_string(components[i]) + "; expected is one below " +
-                       std::to_string(names.size()) + ".");
+                       std::to_string(components[i]) + ", but component_names has " +
+                       std::to_string(names.size()) + " names. Give a name to each component.");
+    if (inertia[static_cast<Eigen::Index>(i)] < 0)
+      throw ModelError("The mass of dof " + std::to_string(i) + " is negative.");
     model->dofs.push_back(model::DofLabel::physical(nodes[i], components[i]));
   }
   model->initialDisplacement = model->initialVelocity = Vector::Zero(model->size());

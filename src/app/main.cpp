@@ -137,7 +137,7 @@ std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
     std::ostringstream err;
     const int cliCode = program.exit(error, out, err);
     say(std::cout, out.str());
-    say(std::cerr, err.str());
+    if (!err.str().empty()) say(std::cerr, "tooljoint: " + err.str());
     return cliCode == 0 ? ExitCode::Done : ExitCode::Usage;
   }
   return std::nullopt;

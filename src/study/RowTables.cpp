@@ -152,7 +152,7 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
   const bool frequencies = std::any_of(rows.begin(), rows.end(),
                                        [](const StudyRow& row) { return row.modeErrors.known(); });
   char line[512];
-  std::snprintf(line, sizeof line, "%-*s %6s %s%9s %9s %9s %10s %7s %9s %9s  %s",
+  std::snprintf(line, sizeof line, "%-*s %6s %s%15s %9s %9s %10s %7s %9s %9s  %s",
                 static_cast<int>(width), "run", "dofs", frequencies ? "frequency " : "",
                 "vibration_error", "eps_t max", "eps_n max", "CPU s / s", "spread", "baseline",
                 "best full", "counts");
@@ -180,7 +180,7 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
     if (frequencies)
       std::snprintf(worst, sizeof worst, "%9s ",
                     row.modeErrors.known() ? scientific(row.modeErrors.worst()).c_str() : "-");
-    std::snprintf(line, sizeof line, "%-*s %6ld %s%9s %9s %9s %10.3g %5.0f %% %9s %9s  %ld steps",
+    std::snprintf(line, sizeof line, "%-*s %6ld %s%15s %9s %9s %10.3g %5.0f %% %9s %9s  %ld steps",
                   static_cast<int>(width), row.plan.label.c_str(), row.dofs, worst, error[0],
                   error[1], error[2], row.cpuPerSimulatedSecond(), 100.0 * row.spread(),
                   ratioText(ratios[i].baseline).c_str(), ratioText(ratios[i].bestFull).c_str(),

@@ -116,13 +116,16 @@ void line(const std::string& name, const std::string& value, const std::string& 
             (remark.empty() ? value : padded(value) + remark));
 }
 
+/// Torque [N m] that is none in the digits that are printed.
+constexpr double noTorque = 5;
+
 /// Hook load, surface torque and the largest side force of a string at rest.
 void ofString(const Json& summary, const std::string& folder) {
   line("hook load", quantity(*number(summary, "/static/top_axial_force"), "kN", 1),
        "effective tension at the surface");
   if (const auto torque = number(summary, "/static/top_torque"))
     line("surface torque", quantity(-*torque, "kN m", 2),
-         "at rest, against a rotation to the right");
+         std::abs(*torque) < noTorque ? "at rest" : "at rest, against a rotation to the right");
   const auto force = number(summary, "/static/max_normal_force");
   const auto node = number(summary, "/static/max_normal_force_node");
   if (!force || !node || *node < 1.0) return;  // nothing touches

@@ -140,15 +140,26 @@ double farWanted(const ScaledPencil& pencil, const Upper& found, std::size_t wan
   return far > 0 ? far : std::abs(found.s[std::min(found.s.size(), wanted) - 1]);
 }
 
+/// 1e-4 sqrt(k_ii / m_ii) of the median dof. A mean would be that of dofs that hardly move: where
+/// little residual flexibility is left, boundary dofs of MacNeal's basis have 1e15 times the
+/// stiffness of the modes and no mass of their own.
+double firstShift(const ScaledPencil& pencil) {
+  const Vector k = pencil.K.diagonal().cwiseAbs(), m = pencil.M.diagonal();
+  std::vector<double> squares;
+  for (Eigen::Index i = 0; i < k.size(); ++i)
+    if (m[i] > 0 && k[i] > 0) squares.push_back(k[i] / m[i]);
+  if (squares.empty()) return 1.0;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return 1e-4 * std::sqrt(*middle);
+}
+
 /// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 tells the wanted values
 /// apart and Jordan chains at zero do not swamp them. Where all that is wanted are these, a shift
 /// as small as they are has no inverse, and the one before serves.
 std::unique_ptr<ShiftedInverse> goodInverse(const ScaledPencil& pencil, std::size_t wanted,
                                             const DofNamer& name) {
-  double stiff = 0, mass = 0;
-  for (int i = 0; i < pencil.K.rows(); ++i)
-    stiff += std::abs(pencil.K.coeff(i, i)), mass += pencil.M.coeff(i, i);
-  double shift = mass > 0 && stiff > 0 ? 1e-4 * std::sqrt(stiff / mass) : 1.0;
+  double shift = firstShift(pencil);
   constexpr int rounds = 4;
   auto inverse = inverseNear(pencil, shift, name);
   for (int round = 0; round < rounds; ++round) {

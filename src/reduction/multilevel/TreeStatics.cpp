@@ -23,7 +23,9 @@ Vector dots(const Matrix& A, const Matrix& B) {
   return A.cwiseProduct(B).colwise().sum().transpose();
 }
 
-/// K X = B; the largest error of its columns, |X - K^-1 B|_K / |X|_K.
+/// K X = B; the largest error of its columns, |X - K^-1 B|_K / |X|_K. The factors are positive
+/// definite; a K that is not (a buckled interior) has few directions of negative curvature, and
+/// costs an iteration more for each.
 double solve(const Sparse& K, const TreeFactor& factor, const Matrix& B, Matrix& X) {
   X = factor.solve(B);
   Matrix R = B - K * X;
@@ -45,7 +47,7 @@ double solve(const Sparse& K, const TreeFactor& factor, const Matrix& B, Matrix&
     const Vector curvature = dots(P, KP);
     Vector step(rho.size()), turn(rho.size());
     for (Eigen::Index j = 0; j < rho.size(); ++j)
-      step[j] = curvature[j] > 0.0 ? rho[j] / curvature[j] : 0.0;
+      step[j] = curvature[j] != 0.0 ? rho[j] / curvature[j] : 0.0;
     X += P * step.asDiagonal();
     R -= KP * step.asDiagonal();
     Z = factor.solve(R);

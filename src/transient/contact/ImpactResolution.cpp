@@ -44,14 +44,13 @@ void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double
   for (const auto& batch : model.points()) {
     const std::size_t rows = at(batch.points()) * at(batch.width());
     const int w = batch.width();
-    sets_.push_back({std::vector<double>(rows, 0.0), std::vector<double>(rows * at(w), 0.0),
-                     std::vector<double>(w == 1 ? rows : 0, 0.0)});
+    sets_.push_back({std::vector<double>(rows, 0.0), std::vector<double>(rows * at(w), 0.0)});
     for (int p : batch.active())
       std::copy_n(batch.force() + p * w, w, &sets_.back().force[at(p * w)]);
     for (int p : batch.everyPoint())
       batch.project(p, mass.inverse(), &sets_.back().mobility[at(p * w * w)]);
   }
-  squares_ = time_ = unseen_ = seen_ = calm_ = 0;
+  squares_ = time_ = unseen_ = calm_ = 0;
   kept_ = 0;
   recovering_ = false;
 }
@@ -90,14 +89,18 @@ double ImpactResolution::square() const {
   return std::max(current_, time_ > 0 ? squares_ / time_ : 0.0);
 }
 
-/// Sets <v^2> for a point.
-void ImpactResolution::measureBy(int b, int point) {
-  const auto& own = sets_[at(b)].squares;
+/// Speed at which the wall was met: that of the point, and what the wall has taken of it.
+double ImpactResolution::impactSpeed(double speed) const {
+  return std::hypot(speed, met_.push() * met_.mobility() / met_.frequency());
+}
+
+/// Sets <v^2> for a point that meets its wall with that speed.
+void ImpactResolution::measureBy(int b, double speed) {
   reference_ = square() / norm_.mass();
-  alone_ = !own.empty() && seen_ > 0;
+  alone_ = model_->points()[at(b)].width() == 1;
   if (alone_)
-    reference_ = std::clamp(own[at(point)] / seen_, Tuned::counted * Tuned::counted * reference_,
-                            reference_);
+    reference_ =
+        std::clamp(speed * speed, Tuned::counted * Tuned::counted * reference_, reference_);
   reference_ = std::max(Tuned::quiet * Tuned::quiet, reference_);
 }
 
@@ -143,8 +146,8 @@ void ImpactResolution::visitTurned(const State& from, const State& to, double h,
     const int w = batch.width();
     for (int p : batch.active()) {
       const double* last = &sets_[at(b)].force[at(p * w)];
-      measureBy(b, p);
       const auto [change, speed] = bound(b, p, to.t, h, last);
+      measureBy(b, 0);
       if (!matters(change * (change + 2 * speed))) continue;
       met_.face(batch, p, mobility(b, p), to.t);
       met_.measure(change + speed, h);
@@ -152,6 +155,7 @@ void ImpactResolution::visitTurned(const State& from, const State& to, double h,
       // What a force passes on to its neighbours is no change of velocity; what has begun to turn
       // goes on to its reversal.
       const double begin = met_.along(from.v), end = met_.along(to.v);
+      measureBy(b, impactSpeed(std::max(std::abs(begin), std::abs(end))));
       const double reversal =
           std::max({std::min(h * met_.mobility() * std::abs(met_.push() - met_.along(last)),
                              2 * std::abs(end - begin)),
@@ -217,7 +221,7 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
       met_.measure(fastest, h);
       if (met_.frequency() * h <= Tuned::resolved) continue;
       const double reversal = 2 * std::abs(met_.along(to.v));
-      measureBy(b, p);
+      measureBy(b, impactSpeed(0.5 * reversal));
       needed = std::max(
           needed, losesMuch(met_, reversal, h) ? unbounded : constants::pi / met_.frequency());
       sum += misplaced(met_, reversal, h);
@@ -254,12 +258,6 @@ void ImpactResolution::keep(const State& to, double h) {
   if (++kept_ % Tuned::lookStride != 0) return;
   squares_ += model_->massForm(to.v.data()) * unseen_;
   time_ += unseen_;
-  for (std::size_t b = 0; b < sets_.size(); ++b)
-    for (std::size_t p = 0; p < sets_[b].squares.size(); ++p)
-      sets_[b].squares[p] +=
-          std::pow(model_->points()[b].rowTimesVector(static_cast<int>(p), to.v.data()), 2) *
-          unseen_;
-  seen_ += unseen_;
   unseen_ = 0;
 }
 
@@ -276,18 +274,13 @@ void ImpactResolution::takeUp(const double*& numbers) {
 
 void ImpactResolution::save(std::vector<double>& memory) const {
   carry(memory);
-  memory.push_back(seen_);
-  for (const auto& set : sets_)
-    for (const auto* values : {&set.force, &set.squares})
-      memory.insert(memory.end(), values->begin(), values->end());
+  for (const auto& set : sets_) memory.insert(memory.end(), set.force.begin(), set.force.end());
 }
 
 void ImpactResolution::restore(const double*& memory) {
   takeUp(memory);
-  seen_ = *memory++;
   for (auto& set : sets_)
-    for (auto* values : {&set.force, &set.squares})
-      for (double& value : *values) value = *memory++;
+    for (double& force : set.force) force = *memory++;
 }
 
 }  // namespace tooljoint::transient

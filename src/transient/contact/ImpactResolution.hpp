@@ -16,8 +16,8 @@
 /// small beside what a point of the string has, and what all misplace beside what the whole has.
 /// 1/W is there at least the mass of a coordinate of the model on average. Nodes in a borehole move
 /// alike. A point of one row, such as a stop, may move far less than the rest of the model and is
-/// seen by itself: there <v^2> is its own mean where that is smaller, and what it misplaces,
-/// scatter dv^2 / 4, is at most b of it.
+/// seen by itself: the speed v at which it meets its wall stands for the mean, from a tenth of that
+/// on, and what it misplaces, scatter dv^2 / 4, is at most b of v^2.
 #pragma once
 
 #include <array>
@@ -63,7 +63,6 @@ class ImpactResolution {
   struct Set {
     std::vector<double> force;     ///< rows, at the end of the last step kept
     std::vector<double> mobility;  ///< R M^-1 R' per point, width x width, row-major
-    std::vector<double> squares;   ///< integral of v^2 of each point of one row [m2/s]
   };
   /// What a step can do to a point, from the rows its wall pushes along [m/s].
   struct Bound {
@@ -78,7 +77,8 @@ class ImpactResolution {
   double calmNeeded(const State& to, double h);
   double square() const;
   double mostMisplaced() const;
-  void measureBy(int batch, int point);
+  double impactSpeed(double speed) const;
+  void measureBy(int batch, double speed);
   bool matters(double change) const;
   template <class Visit>
   void visitTurned(const State& from, const State& to, double h, const Visit& visit);
@@ -92,7 +92,6 @@ class ImpactResolution {
   double squares_ = 0, time_ = 0;  ///< integral of v'M v over the time looked at [J s]
   double unseen_ = 0;              ///< time since the last look
   double current_ = 0;             ///< v'M v of the step looked at, once it is asked for
-  double seen_ = 0;                ///< time of the means of single points
   double reference_ = 0;           ///< <v^2> that a point is measured by [m2/s2]
   bool alone_ = false;             ///< it is seen by itself
   long kept_ = 0;                  ///< steps

@@ -79,7 +79,8 @@ std::vector<softstring::Stretch> stretches(const Scene& scene) {
   const double gravity = gravityOf(scene);
   if (!(gravity > 0.0))
     throw DeckError(scene.deck.file() +
-                    ": torque and drag needs the weight of the string. Add the list Loads.");
+                    ": torque and drag needs the weight of the string. Add the list Loads, with "
+                    "Gravity above 0.");
   std::vector<softstring::Stretch> found;
   const auto& string = scene.string;
   const auto weight = weights(scene);

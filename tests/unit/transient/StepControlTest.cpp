@@ -311,8 +311,9 @@ TEST(ControlledSteps, theLedgerCloses) {
   double last = 1;
   for (const double tolerance : {1e-6, 1e-8}) {
     Steps samples;
-    const auto report = integrate(droppedBalls(6, 1e6, 2e3, 7e11, 2e4),
-                                  controlled(tolerance, 0.3, 2e-3, 0.01), samples);
+    auto o = controlled(tolerance, 0.3, 2e-3, 0.01);
+    o.own.set("Resolve Impacts", false);  // whose steps are short for themselves
+    const auto report = integrate(droppedBalls(6, 1e6, 2e3, 7e11, 2e4), o, samples);
     EXPECT_LT(std::abs(report.energy.residual()), last / 2) << tolerance;
     last = std::abs(report.energy.residual());
   }

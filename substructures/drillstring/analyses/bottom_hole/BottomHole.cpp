@@ -147,7 +147,8 @@ void check(const Scene& scene, const BottomHoleSettings& settings, double whole)
         ": a bottom-hole assembly needs contact with the wall of the hole. Add the list Contact.");
   if (!scene.list().isSublist("Loads"))
     throw DeckError(scene.deck.file() +
-                    ": a bottom-hole assembly needs its weight. Add the list Loads.");
+                    ": a bottom-hole assembly needs its weight. Add the list Loads, with Gravity "
+                    "above 0.");
   if (!(loads::acceleration(scene.loads).norm() > 0.0))
     refuse(scene, "Loads/Gravity",
            "is 0, but a bottom-hole assembly needs its weight. Give 9.81 m/s2.");
