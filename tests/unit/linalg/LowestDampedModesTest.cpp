@@ -401,6 +401,46 @@ TEST(LowestDampedModes, FaintDampingOnAMasslessDofIsFound) {
   }
 }
 
+// MacNeal's basis with little residual flexibility g^-1 left: boundary dofs u = Phi p without mass,
+// k = [g, -g Phi; ., Lambda + g Phi'Phi]. The modes are those of p alone.
+TEST(LowestDampedModes, BoundaryDofsWithoutMassMayBeStiffBeyondAllModes) {
+  constexpr int boundary = 6, modes = 110;
+  const double g = 1e20;
+  Matrix Phi(boundary, modes);
+  for (int j = 0; j < modes; ++j)
+    for (int i = 0; i < boundary; ++i) Phi(i, j) = 1e-9 * std::sin(1.0 + 0.7 * i + 1.3 * j);
+  const Vector w = Vector::LinSpaced(modes, 10, 10.0 * modes);
+  const Vector c = 0.02 * w.array() + 0.3 * Eigen::ArrayXd::LinSpaced(modes, 0, 1);
+  Matrix M = Matrix::Zero(boundary + modes, boundary + modes), C = M, K = M;
+  M.diagonal().tail(modes).setOnes();
+  C.diagonal().tail(modes) = c;
+  K.topLeftCorner(boundary, boundary) = g * Matrix::Identity(boundary, boundary);
+  K.topRightCorner(boundary, modes) = -g * Phi;
+  K.bottomLeftCorner(modes, boundary) = -g * Phi.transpose();
+  K.bottomRightCorner(modes, modes) = g * Phi.transpose() * Phi;
+  K.diagonal().tail(modes) += w.cwiseAbs2();
+  const auto found = lowestDampedModes(M.sparseView(), C.sparseView(), K.sparseView(), 12);
+  for (Eigen::Index j = 0; j < 12; ++j) {
+    EXPECT_NEAR(std::abs(found.values[j]), w[j], 1e-6 * w[j]) << j;
+    EXPECT_NEAR(found.values[j].real(), -0.5 * c[j], 1e-5 * c[j]) << j;
+  }
+}
+
+// A free body, C = beta K: its motions at zero are no modes that relax at the rounding of a part of
+// the mass that the damping does not have.
+TEST(LowestDampedModes, StiffnessDampingLeavesWhatRestsAtRest) {
+  constexpr int n = 40;
+  Matrix K = Matrix::Zero(n, n);
+  for (int i = 0; i + 1 < n; ++i) {
+    const double k = 1e5 * (1 + 0.37 * std::sin(2.0 * i));
+    K(i, i) += k, K(i + 1, i + 1) += k, K(i, i + 1) -= k, K(i + 1, i) -= k;
+  }
+  const Matrix M = Matrix::Identity(n, n);
+  const auto found = lowestDampedModes(M.sparseView(), (1e-5 * K).sparseView(), K.sparseView(), 4);
+  EXPECT_EQ(found.values[0], Complex(0));
+  for (Eigen::Index j = 1; j < 4; ++j) EXPECT_GT(std::abs(found.values[j]), 10.0) << j;
+}
+
 // Without damping the stage has nothing to do but to repeat the undamped modes: s = i omega, and
 // +-sqrt(-omega^2) where omega^2 < 0.
 TEST(LowestDampedModes, WithoutDampingTheyAreTheSymmetricModes) {
