@@ -112,8 +112,8 @@ class Pattern {
   bool matches(const model::Substructure& other) const {
     const auto& a = part_.model;
     const auto& b = other.model;
-    if (a.size() != b.size() || part_.rounding != other.rounding || part_.interface != other.interface ||
-        part_.retained != other.retained)
+    if (a.size() != b.size() || part_.rounding != other.rounding ||
+        part_.interface != other.interface || part_.retained != other.retained)
       return false;
     if (!sameTerms(a.stiffness, b.stiffness, b) || !sameTerms(a.damping, b.damping, b))
       return false;
