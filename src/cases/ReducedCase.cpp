@@ -27,7 +27,7 @@ std::vector<double> ReducedCase::cutOffs() const {
     const auto& basis = part.report;
     const bool whole = basis.modes >= basis.interior;
     ends.push_back(whole ? std::numeric_limits<double>::infinity()
-                         : 2 * constants::pi * basis.cutOffHz());
+                         : constants::twoPi * basis.cutOffHz());
   }
   return ends;
 }

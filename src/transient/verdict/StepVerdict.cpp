@@ -161,11 +161,11 @@ double judgeSteps(const Integrator& run, const StepError& error, const Transient
   found.limit = options.stepErrorLimit;
   found.warning = options.stepErrorWarning;
   found.rests = error.damping().hasUnresolvedContact();
+  found.damped = error.damped();
   Findings later = found;
   found.begin = error.beginning().t;
   found.span = error.span();
   found.error = error.value();
-  found.damped = error.damped();
   const bool compared = found.limit < lostMotion;
   if (compared && found.isDue()) {
     compare(comparison(error.beginning(), found.span), found);

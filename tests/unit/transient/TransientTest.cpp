@@ -362,9 +362,6 @@ TEST(Transient, theAccuracyOfStepsThatNobodyMeasuresIsNotKnown) {
   EXPECT_EQ(said("Generalized-alpha").find("not known"), std::string::npos);
 }
 
-// Interrupt
-// -------------------------------------------------------------------------------------------------
-
 /// Two modes of one part, free: in the mean over whole periods the kinetic energy of each is a
 /// quarter of w^2 q(0)^2. The higher one is above half the cut-off, the lower one below.
 TEST(Transient, saysWhatPartOfTheEnergyIsWhereModesEnd) {
@@ -388,6 +385,9 @@ TEST(Transient, saysWhatPartOfTheEnergyIsWhereModesEnd) {
   Keep samples;
   EXPECT_EQ(integrate(model, options("RK4", 0.1, 1e-4, 1e-3), samples).cutOffEnergy, 0.0);
 }
+
+// Interrupt
+// -------------------------------------------------------------------------------------------------
 
 TEST(Transient, anInterruptStopsCleanly) {
   const auto model = oscillator(1, 0, 400, 0.1, 0);
