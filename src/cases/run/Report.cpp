@@ -14,7 +14,7 @@ namespace {
 constexpr double largeError = 0.2;
 /// Part of the kinetic energy in the upper half of the kept frequencies above which a run warns.
 /// Scenes whose reduced motion is within 10 % have 1e-6 to 5e-3, those on walls too stiff for their
-/// modes 0.01 (7 to 40 % off) to 0.4 (more than 100 % off).
+/// modes 0.04 to 0.4 (more than 100 % off).
 constexpr double largeCutOffEnergy = 0.01;
 
 /// Integrator, steps and counters, two lines.
