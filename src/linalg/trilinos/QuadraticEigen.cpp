@@ -154,6 +154,17 @@ double firstShift(const ScaledPencil& pencil) {
   return 1e-4 * std::sqrt(*middle);
 }
 
+/// `near` or a little below, with no value within a tenth: at the shift itself, as one that grows
+/// without vibration would be, its nu leaves all others no digits.
+double besideValues(const Upper& found, double near) {
+  constexpr int attempts = 8;
+  for (int attempt = 0; attempt < attempts; ++attempt, near *= 0.8)
+    if (std::none_of(found.s.begin(), found.s.end(),
+                     [near](Complex s) { return std::abs(s - near) < 0.1 * near; }))
+      break;
+  return near;
+}
+
 /// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 tells the wanted values
 /// apart and Jordan chains at zero do not swamp them. Where all that is wanted are these, a shift
 /// as small as they are has no inverse, and the one before serves.
@@ -175,6 +186,7 @@ std::unique_ptr<ShiftedInverse> goodInverse(const ScaledPencil& pencil, std::siz
     for (const Complex& s : found.s)
       if (std::abs(s) > 1e-3 * far) near = std::min(near, std::abs(s));
     if (!(near > 0)) return inverse;
+    near = besideValues(found, near);
     const double ratio = near / shift;
     shift = near;
     try {

@@ -20,7 +20,8 @@ deck::ListSpec rungeKutta4Parameters() {
             "Fraction of the limit taken as the step when Step is not given: of stability, 2.78 / "
             "lambda, where lambda bounds the rates of the model with gyroscopic, Coriolis and skew "
             "terms at their largest, states of point laws and all contact closed, and of impacts, "
-            "0.5 over the rate of the stiffest contact.");
+            "0.5 over the rate of the stiffest contact. The step is no longer than Sampling "
+            "Interval.");
 }
 
 class RungeKutta4 final : public FixedStepIntegrator {
@@ -46,7 +47,9 @@ class RungeKutta4 final : public FixedStepIntegrator {
   double usualStep(const Window& window, const State& start) override {
     const auto rates = rhs_.largestRates(start, window.end);
     const double least = std::max(rates.all / stabilityLimit, rates.impact / rungeKuttaImpactLimit);
-    return least > 0 ? safety_ / least : (window.end - window.begin) / 100;
+    const double step = least > 0 ? safety_ / least : (window.end - window.begin) / 100;
+    // of a model without fast parts stability bounds nothing that accuracy needs
+    return window.sampling > 0 ? std::min(step, window.sampling) : step;
   }
   void step(const State& from, State& to) override {
     const double h = to.t - from.t;

@@ -80,6 +80,25 @@ TEST(LowestDampedModes, AreTheOnesNearestZeroOfAll) {
     }
 }
 
+/// s and -s of a divergence have the same size as the lowest vibration: a shift of that size would
+/// be the growing one itself.
+TEST(LowestDampedModes, BesideOneThatGrowsWithoutVibrationAreAllAccurate) {
+  for (const double share : {1.02, 1.3, 3.0}) {
+    Shaft s = shaft(50, 0.0, 0.0, false);
+    const auto rest = lowest(s, 1).front();
+    s.K -= Sparse(share * std::norm(rest) * s.M);
+    for (int i = 0; i < 50; ++i)
+      s.K.coeffRef(2 * i, 2 * i + 1) += 1e-3, s.K.coeffRef(2 * i + 1, 2 * i) -= 1e-3;
+    const auto expected = lowest(s, 8);
+    const auto modes = lowestDampedModes(s.M, s.C, s.K, 8);
+    ASSERT_EQ(modes.values.size(), 8);
+    for (Eigen::Index i = 0; i < 8; ++i)
+      EXPECT_NEAR(std::abs(modes.values[i]), std::abs(expected[at(i)]), 1e-8 * std::abs(rest))
+          << share << ", mode " << i;
+    EXPECT_GT(modes.values.real().maxCoeff(), 0.0);
+  }
+}
+
 TEST(LowestDampedModes, AFreeBodyHasItsRigidMotionsAtZero) {
   const Shaft s = shaft(90, 0.0, 0.05, true);
   const auto modes = lowestDampedModes(s.M, s.C, s.K, 6);
