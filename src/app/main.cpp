@@ -343,7 +343,8 @@ void addCompare(CLI::App& program, tooljoint::app::CompareOptions& comparison,
       ->required();
   compareCommand->add_option("--from", comparison.begin, "start of the window [s]")
       ->check(anyNumber);
-  compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)")
+  compareCommand
+      ->add_option("--to", comparison.end, "end of the window [s] (default: 3 s after --from)")
       ->check(anyNumber);
   compareCommand
       ->add_option("--fail-above", comparison.failAbove,

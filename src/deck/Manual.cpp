@@ -112,16 +112,15 @@ std::vector<Located> select(const std::vector<Located>& all, const std::string& 
                    ", the names of parameters, and \"" + unitsTopic + "\".");
 }
 
-/// Text of a table cell: "|" and line ends would break the table, "<" would start HTML.
+/// Text of a table cell: "|" and line ends would break the table, "<" would start HTML. Read on
+/// terminals, too.
 std::string cell(const std::string& text) {
   std::string result;
   for (const char c : text) {
     if (c == '|')
       result += "\\|";
     else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
+      result += "\\<";
     else
       result += c == '\n' ? ' ' : c;
   }

@@ -39,7 +39,9 @@ void stageText(const std::string& path, const std::string& text) {
   // a full disk may show only now
   if (::fsync(file) != 0 && error == 0 && errno != EINVAL && errno != EROFS) error = errno;
   if (::close(file) != 0 && error == 0) error = errno;
-  if (error != 0) fail(part, error);
+  if (error == 0) return;
+  ::unlink(part.c_str());
+  fail(path, error);
 }
 
 void publishStaged(const std::string& path) {

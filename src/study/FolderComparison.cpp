@@ -97,9 +97,11 @@ std::vector<double> timesInside(const Motion& motion, const Window& window) {
   return times;
 }
 
-std::string describeTimes(const std::string& folder, const std::vector<double>& times) {
+std::string describeTimes(const std::string& folder, const Motion& motion,
+                          const std::vector<double>& times) {
   const std::string count = folder + " holds " + std::to_string(times.size()) + " samples";
-  return times.empty() ? count
+  if (times.empty() && motion.time.empty()) return count;
+  return times.empty() ? count + " (it ends at " + formatNumber(motion.time.back()) + " s)"
                        : count + " from " + formatNumber(times.front()) + " to " +
                              formatNumber(times.back()) + " s";
 }
@@ -112,8 +114,8 @@ std::vector<double> commonTimes(const ComparedFolders& folders, const Motion& mo
   const auto same = [](double a, double b) { return std::abs(a - b) < 1e-9; };
   if (mine.empty() || !std::equal(mine.begin(), mine.end(), theirs.begin(), theirs.end(), same))
     throw UsageError("Between " + formatNumber(window.begin) + " and " + formatNumber(window.end) +
-                     " s " + describeTimes(folders.folder, mine) + " and " +
-                     describeTimes(folders.reference, theirs) +
+                     " s " + describeTimes(folders.folder, motion, mine) + " and " +
+                     describeTimes(folders.reference, reference, theirs) +
                      ". Choose a window that both runs reached, with the same Sampling Interval "
                      "(--from, --to).");
   return mine;

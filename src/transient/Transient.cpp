@@ -61,7 +61,8 @@ void checkFinite(const CompiledModel& model, const Integrator& integrator, const
   const int worst = velocity ? v : q;
   const double reached = velocity ? to.v[worst] : to.q[worst];
   std::ostringstream where;
-  where << model.dofName(worst) << " reached " << reached;
+  where << model.dofName(worst) << " reached " << reached
+        << (velocity ? " (m/s, rad/s)" : " (m, rad)");
   std::ostringstream text;
   text << "The motion blew up in the step from t = " << from.t << " s to " << to.t
        << " s: " << model.cut().ofLargest(std::abs(reached), where.str()) << ". "

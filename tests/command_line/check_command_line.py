@@ -84,7 +84,8 @@ def comparisons(times):
     same = json.loads(tooljoint("compare", "full", "full", "--fail-above", "0", "--json").stdout)
     expect("a run is its own equal", same["vibration_error"] == same["eps_t"]["max"] == same["eps_n"]["max"] == 0.0, str(same))
     for arguments, code, sentence in ((["reduced", "full", "--fail-above", "-1"], 1, '--fail-above: "-1" was given; expected is a number from 0 on.'),
-                                      (["reduced", "full", "--fail-above", "nan"], 1, '--fail-above: "nan" was given'), (["reduced", "full", "--from", "7", "--to", "9"], 1, "full holds 0 samples"),
+                                      (["reduced", "full", "--fail-above", "nan"], 1, '--fail-above: "nan" was given'), (["reduced", "full", "--from", "7"], 1, f"full holds 0 samples (it ends at {whole[-1]:g} s)"),
+                                      (["reduced", "full", "--from", "0.1", "--to", "0.05"], 1, "--to 0.05 is before --from 0.1."),
                                       (["brief", "full"], 1, f"brief holds {len(times['brief'])} samples from 0 to 0.1 s and full holds {len(whole)} samples from 0 to 0.2 s"),
                                       (["reduced", "nowhere"], 5, "nowhere"), (["reduced", "parts"], 1, "hold the motion of different scenes")):
         done = tooljoint("compare", *arguments)

@@ -168,7 +168,8 @@ def strings(program):
     rk4 = string(program, "string_rk4", drive, {"Transient/Integrator": "RK4", "Transient/Step": 1e-4})
     reduced = string(program, "string_reduced", drive, {}, Substructures={"Rule": "By component"},
                      Reduction={"Mode Selection": {"Modes": 6}})
-    for name, run, bound in (("full, generalized-alpha", full, 5e-3), ("full, RK4", rk4, 5e-4), ("reduced", reduced, 5e-3)):
+    alone = string(program, "string_alone", drive, {"Supports/Dofs": "torsional"})
+    for name, run, bound in (("full, generalized-alpha", full, 5e-3), ("the same without axial dofs", alone, 5e-3), ("full, RK4", rk4, 5e-4), ("reduced", reduced, 5e-3)):
         near(f"{name}: largest error of theta_z against scipy", np.abs(run.nodes(THETA_Z) - theta).max() / np.abs(theta).max(), 0.0, bound)
         near(f"{name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
         torque = run.data("transient/torque_on_bit")

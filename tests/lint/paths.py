@@ -6,7 +6,6 @@ A path is a name of a list, a "/" and a word; what follows the list must be a li
 parameters paths stand in the text, in pages between backticks.
 """
 import collections
-import html
 import pathlib
 import re
 import sys
@@ -18,9 +17,9 @@ PATH = re.compile(rf"{WORD}(?: [\w-]+)*(?:/{WORD}(?: [\w-]+)*)+")
 def declared(text):
     """Names in each list, by the name of the list: {"Transient": {"Step", "Generalized-alpha", ...}}; None of names a user chooses."""
     inside = collections.defaultdict(set)
-    for line in html.unescape(text).splitlines():
+    for line in text.splitlines():
         if heading := re.match(r"#+ (\S.*)", line):
-            path = [None if name.startswith("<") else name for name in heading.group(1).split("/")]
+            path = [None if name.startswith("\\<") else name for name in heading.group(1).split("/")]
             for outer, inner in zip(path, path[1:]):
                 inside[outer].add(inner)
         elif row := re.match(r"\| `([^`]+)` \|", line):
@@ -53,14 +52,14 @@ def faults(text, inside):
 def complaints(parameters, pages):
     text = parameters.read_text(encoding="utf-8")
     inside = declared(text)
-    texts = [(parameters.name, html.unescape(line)) for line in text.splitlines() if not line.startswith("#")]
+    texts = [(parameters.name, line) for line in text.splitlines() if not line.startswith("#")]
     for page in pages:
         texts += [(page.name, quoted) for quoted in re.findall(r"`([A-Z][^`\n]*)`", page.read_text(encoding="utf-8"))]
     return [f"{name}: {fault}" for name, text in texts for fault in faults(text, inside)]
 
 
 def self_test():
-    inside = declared("## Scene\n### Scene/Reduction\n| `Basis` | string |\n#### Scene/Reduction/Mode Selection\n| `Cut-off Frequency` | double |\n### Scene/Loads/&lt;Load&gt;\n")
+    inside = declared("## Scene\n### Scene/Reduction\n| `Basis` | string |\n#### Scene/Reduction/Mode Selection\n| `Cut-off Frequency` | double |\n### Scene/Loads/\\<Load>\n")
     assert not faults("Reduce Reduction/Mode Selection/Cut-off Frequency below that, or COPPE/UFRJ, Loads/Mine", inside)
     assert len(faults("Path: Reduction/Cut-off Frequency, Basis", inside)) == 1
     assert len(faults("Reduction/Mode Selection/Basis", inside)) == 1

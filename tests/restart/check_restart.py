@@ -232,7 +232,7 @@ def full_disk():
     sizes = [pathlib.Path(whole, name).stat().st_size for name in ("results.h5", "motion.csv")]
     expect("a table larger than the results", sizes[1] > 1.2 * sizes[0], str(sizes))
     done = run("run", STRING, "--output", "full", *table, largest=int(0.95 * sizes[1]))
-    expect("a table beyond the limit of the process ends with 5 and a sentence", done.returncode == 5 and "motion.csv.part cannot be written: File too large" in done.stderr,
+    expect("a table beyond the limit of the process ends with 5 and a sentence", done.returncode == 5 and "motion.csv cannot be written: File too large" in done.stderr,
            f"{done.returncode} {done.stderr[-300:]}")
     done = run("run", STRING, "--restart", "full", *table)
     wrong = differences(whole, "full") if done.returncode == 0 else [done.stderr[-300:]]

@@ -51,7 +51,7 @@ struct CompareOptions {
   std::string folder;
   std::string reference;
   double begin = 0.0;
-  double end = 3.0;
+  std::optional<double> end;        ///< by default 3 s after the beginning
   std::optional<double> failAbove;  ///< largest vibration error that is accepted
   bool json = false;                ///< print JSON in the place of the line for people
 };

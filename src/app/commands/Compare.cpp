@@ -13,8 +13,13 @@
 namespace tooljoint::app {
 
 void compare(const CompareOptions& options) {
+  constexpr double usualSpan = 3.0;  // s, over which motions are told apart by values
+  const double end = options.end.value_or(options.begin + usualSpan);
+  if (end < options.begin)
+    throw UsageError("--to " + formatNumber(end) + " is before --from " +
+                     formatNumber(options.begin) + ".");
   const auto errors =
-      study::compareFolders({options.folder, options.reference}, {options.begin, options.end});
+      study::compareFolders({options.folder, options.reference}, {options.begin, end});
   if (options.json) {
     const nlohmann::ordered_json report{
         {"folder", options.folder},

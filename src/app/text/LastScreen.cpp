@@ -121,8 +121,9 @@ constexpr double noTorque = 5;
 
 /// Hook load, surface torque and the largest side force of a string at rest.
 void ofString(const Json& summary, const std::string& folder) {
-  line("hook load", quantity(*number(summary, "/static/top_axial_force"), "kN", 1),
-       "effective tension at the surface");
+  // exactly none where the string has no axial dofs
+  if (const auto load = number(summary, "/static/top_axial_force"); load && *load != 0.0)
+    line("hook load", quantity(*load, "kN", 1), "effective tension at the surface");
   if (const auto torque = number(summary, "/static/top_torque"))
     line("surface torque", quantity(-*torque, "kN m", 2),
          std::abs(*torque) < noTorque ? "at rest" : "at rest, against a rotation to the right");

@@ -100,11 +100,14 @@ void crossCheckCoupling(const Scene& scene, Faults& faults) {
   }
 }
 
-/// Loads at nodes that do not exist (DeckError) or on held dofs.
+/// Loads at nodes that do not exist (DeckError) or on held dofs. The weight under which a law of
+/// the bit rubs acts in the law alone where the string has no axial dofs.
 void checkLoads(const Scene& scene, Faults& faults) {
+  const bool weightOfBit = scene.bit && !scene.bit->law->givesWeight() && !scene.supports.axial;
   for (const auto& load : loads::pointLoads(scene.loads, scene.string.depths(), scene.rotary)) {
     if (load.parameter.empty() || scene.held[at(kNodeDofs * (load.node - 1) + load.component)] == 0)
       continue;
+    if (weightOfBit && load.parameter == "Loads/Weight On Bit") continue;
     const std::string node =
         load.node == scene.string.nodeCount() ? "the bit" : "node " + std::to_string(load.node);
     faults.add(load.parameter, "acts on a held dof: " + componentNames()[at(load.component)] +

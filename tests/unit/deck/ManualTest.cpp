@@ -62,13 +62,13 @@ TEST(Manual, ShowsEachListAndParameterInTheOrderOfDeclaration) {
        {"## scene\n\nA small scene.\n", "| `Title` | string |  |  | `none` | The title. |",
         "### scene/Contact\n\nThe contact with the borehole wall.\n",
         "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n",
-        "| `Stiffness` | double | N/m | &gt; 0 | required | The nominal contact stiffness. |\n",
+        "| `Stiffness` | double | N/m | > 0 | required | The nominal contact stiffness. |\n",
         "| `Friction` | double |  | in [0, 1] | `0.2` | The friction coefficient. |\n",
         "| `Law` | string |  | Linear, Hertz, Winkler | `Linear` | The contact law. |\n",
         "#### scene/Contact/Intervals\n",
-        "Holds lists with names of your own, each described under &lt;interval&gt;.\n",
-        "##### scene/Contact/Intervals/&lt;interval&gt;\n",
-        "| `Depths` | Array(double) | m | &gt;= 0 | required |",
+        "Holds lists with names of your own, each described under \\<interval>.\n",
+        "##### scene/Contact/Intervals/\\<interval>\n",
+        "| `Depths` | Array(double) | m | >= 0 | required |",
         "| `Friction` | double |  | in [0, 1] | none |",
         "### scene/Transient\n\nThe time integration. Required.\n",
         "| `Fields` | Array(string) |  | u, v, w | `{u, v}` |",
@@ -130,14 +130,14 @@ TEST(Manual, ATopicIsAListWithAllBelow) {
     EXPECT_EQ(text.find("### scene/Contact\n"), 0U) << topic;
   }
   EXPECT_EQ(manualMarkdown(smallScene(), "interval")
-                .find("##### scene/Contact/Intervals/&lt;interval&gt;\n"),
+                .find("##### scene/Contact/Intervals/\\<interval>\n"),
             0U);
 }
 
 TEST(Manual, ATopicMayBeAParameter) {
   const std::string text = manualMarkdown(smallScene(), "friction");
   EXPECT_NE(text.find("### scene/Contact\n"), std::string::npos);
-  EXPECT_NE(text.find("&lt;interval&gt;"), std::string::npos);
+  EXPECT_NE(text.find("\\<interval>"), std::string::npos);
   EXPECT_EQ(text.find("scene/Transient"), std::string::npos);
 }
 
@@ -156,7 +156,7 @@ TEST(Manual, SeveralRootsFollowEachOther) {
       smallScene(),
       ListSpec("library", "Components.").namedLists(ListSpec("component", "One component."))};
   EXPECT_NE(manualMarkdown(roots).find("\n## library\n"), std::string::npos);
-  EXPECT_EQ(manualMarkdown(roots, "component").find("### library/&lt;component&gt;"), 0U);
+  EXPECT_EQ(manualMarkdown(roots, "component").find("### library/\\<component>"), 0U);
 }
 
 TEST(Manual, JsonHoldsWhatTheDescriptionHolds) {
