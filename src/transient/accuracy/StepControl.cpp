@@ -88,11 +88,13 @@ int StepControl::next(double error, int level, long done) {
     return level;
   }
   const int target = level - jump;
-  if (done % (1L << (finest_ - target)) != 0) return level;
+  return done % (1L << (finest_ - target)) == 0 ? target : level;
+}
+
+void StepControl::lengthened() {
   tried_ = true;
   since_ = 0;
   forget();
-  return target;
 }
 
 void StepControl::save(std::vector<double>& memory) const {

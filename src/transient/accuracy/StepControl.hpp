@@ -40,9 +40,12 @@ class StepControl {
   /// Halvings the step has to be tried with after one of this error at this level; beyond deepest()
   /// when nothing helps.
   int shorter(double error, int level);
-  /// Level of the next step after an accepted one; `done` sub-steps of 2^-finest of the longest
-  /// step lie behind, so that longer steps start at multiples of themselves.
+  /// Level that the next step may have after an accepted one; `done` sub-steps of 2^-finest of the
+  /// longest step lie behind, so that longer steps start at multiples of themselves. What is not
+  /// taken is offered again.
   int next(double error, int level, long done);
+  /// The step was lengthened.
+  void lengthened();
   /// The level was changed for another reason.
   void forget() { calm_ = 0, largest_ = 0; }
   int deepest() const { return deepest_; }

@@ -241,7 +241,6 @@ int ImpactResolution::nextLevel(const State& to, double h, const StepGrid& grid)
   calm_ = std::isfinite(needed) ? calm_ + h : 0.0;
   if (calm_ < std::max(needed, Tuned::calmSteps * h)) return grid.level();
   const int level = grid.lowest(least);
-  if (level != grid.level()) calm_ = 0;
   recovering_ = level > 0;
   return level;
 }

@@ -288,7 +288,12 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   if (resolveImpacts_) impacts_.keep(to, h);
   const int accurate =
       controlled_ ? control_.next(error_, grid_.level(), grid_.done()) : grid_.lowest(0);
-  grid_.setLevel(resolveImpacts_ ? std::max(accurate, impacts_.nextLevel(to, h, grid_)) : accurate);
+  const int level =
+      resolveImpacts_ ? std::max(accurate, impacts_.nextLevel(to, h, grid_)) : accurate;
+  if (level == grid_.level()) return;
+  grid_.setLevel(level);
+  if (controlled_) control_.lengthened();
+  if (resolveImpacts_) impacts_.lengthened();
 }
 
 /// False, with a deeper level, when the error of the step just taken is too large.

@@ -98,6 +98,21 @@ TEST(StepControl, lengthensOnlyWhatWasCalmForAWhileAndAtMultiplesOfTheLongerStep
   for (int i = 0; i < 1000; ++i) ASSERT_EQ(control.next(1.3e-7, level, done += 8), 1);
 }
 
+/// What waits for another reason, such as an impact, gets the longer step when that is over.
+TEST(StepControl, offersALongerStepAgainUntilItIsTaken) {
+  StepControl control;
+  control.set(1e-6, 4, 4);
+  ASSERT_EQ(control.shorter(2e-6, 0), 1);
+  long done = 0;
+  for (int i = 0; i < 8; ++i) control.next(5e-8, 1, done += 8);
+  for (int i = 0; i < 8; ++i) {
+    const int level = control.next(5e-8, 1, done += 8);
+    EXPECT_EQ(level, done % 16 == 0 ? 0 : 1) << i;
+  }
+  control.lengthened();
+  EXPECT_EQ(control.next(5e-8, 1, 16), 1);
+}
+
 TEST(StepControl, isMorePatientAfterALongerStepThatFailed) {
   StepControl control;
   control.set(1e-6, 4, 4);
@@ -107,6 +122,7 @@ TEST(StepControl, isMorePatientAfterALongerStepThatFailed) {
   for (int turn = 0; turn < 8; ++turn) {
     int steps = 0;
     while (level == 1) level = control.next(5e-8, level, done += 8), ++steps;
+    control.lengthened();
     waits.push_back(steps);
     level = control.shorter(2e-6, level);
     done += 16;
@@ -290,6 +306,20 @@ TEST(ControlledSteps, resolveAStiffWallAsFarAsAsked) {
     const double lost = std::abs(end - start) / start;
     EXPECT_LT(report.counters.minStep, tolerance < 1e-6 ? 1e-5 : 1e-4);
     EXPECT_LT(lost, 2e-3);
+  }
+}
+
+/// A wall of 1e9 N/m needs steps of 1e-6 s while it is touched, a fiftieth of the time: they grow
+/// again after each impact.
+TEST(ControlledSteps, growAgainAfterAnImpact) {
+  const auto model = droppedBalls(1, 1e9, 0, 7e11);
+  for (const double tolerance : {1e-3, 1e-5}) {
+    Steps samples;
+    auto o = controlled(tolerance, 0.5, 1e-3, 1e-3);
+    o.ledger = false;
+    const auto report = integrate(model, o, samples);
+    EXPECT_LT(report.counters.steps, 15000) << tolerance;
+    EXPECT_EQ(report.counters.maxStep, 1e-3);
   }
 }
 
