@@ -47,7 +47,7 @@ ScaledPencil::ScaledPencil(const Sparse& m, const Sparse& c, const Sparse& k,
   K = scaled(k);
   singularMass = hasSingularMass(m);
   rounding = [this, given, absolute = Sparse(K.cwiseAbs()),
-              fraction = roundingOf(K)](const ComplexVector& phi) {
+              fraction = roundingOf(k)](const ComplexVector& phi) {
     if (given) return given(scale.cast<Complex>().cwiseProduct(phi));
     const Vector size = phi.cwiseAbs();
     return fraction * size.dot(absolute * size);

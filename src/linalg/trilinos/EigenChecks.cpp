@@ -221,6 +221,36 @@ Vector binaryMassScale(const Sparse& K, const Sparse& M) {
       [](double x) { return std::exp2(std::round(std::log2(x))); });
 }
 
+namespace {
+
+/// Decimal digits of x, or more than `most` where it has more.
+int decimalDigits(double x, int most) {
+  const double size = std::abs(x);
+  if (size == 0.0) return 0;
+  const int exponent = static_cast<int>(std::floor(std::log10(size)));
+  int digits = 1;
+  for (; digits <= most; ++digits) {
+    const double shifted = size * std::pow(10.0, digits - 1 - exponent);
+    if (std::abs(shifted - std::round(shifted)) <= 4 * epsilon * shifted) break;
+  }
+  return digits;
+}
+
+/// Half a unit of the last digit of entries that a text file has cut off after 8 to 12 digits; 0
+/// where they have more, or fewer, as numbers that were chosen.
+double roundingOfText(const Sparse& K) {
+  constexpr int fewest = 8, most = 12;
+  int longest = 0;
+  for (int i = 0; i < K.outerSize(); ++i)
+    for (Sparse::InnerIterator it(K, i); it; ++it) {
+      longest = std::max(longest, decimalDigits(it.value(), most));
+      if (longest > most) return 0.0;
+    }
+  return longest < fewest ? 0.0 : 0.5 * std::pow(10.0, 1 - longest);
+}
+
+}  // namespace
+
 double roundingOf(const Sparse& K) {
   constexpr int operations = 8;  // of assembly and rotation, for an entry
   int fullest = 0;
@@ -229,7 +259,7 @@ double roundingOf(const Sparse& K) {
     for (Sparse::InnerIterator it(K, i); it; ++it) ++entries;
     fullest = std::max(fullest, entries);
   }
-  return (fullest + operations) * epsilon;
+  return std::max((fullest + operations) * epsilon, roundingOfText(K));
 }
 
 bool isRounding(double value, const Vector& phi, const Sparse& K) {

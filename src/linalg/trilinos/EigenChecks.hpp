@@ -32,7 +32,8 @@ Vector binaryMassScale(const Sparse& K, const Sparse& M);
 
 /// What rounding may leave of phi'K phi, as a fraction of |phi|'|K||phi|: eps for every entry of
 /// the fullest row and for the few operations that made the entry (N. J. Higham, Accuracy and
-/// Stability of Numerical Algorithms (2002), section 3.5).
+/// Stability of Numerical Algorithms (2002), section 3.5), or half a unit of the last digit that a
+/// text file has left of its entries.
 double roundingOf(const Sparse& K);
 
 /// phi'K phi = value is zero but for rounding: |value| <= roundingOf(K) |phi|'|K||phi|. Rigid-body

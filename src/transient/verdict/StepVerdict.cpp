@@ -18,8 +18,9 @@ namespace {
 /// The motion is compared from this part of `Step Error Limit` on, and from this part of `Step
 /// Error Warning` that the scheme damps: what it holds down from the start has little to lose.
 constexpr double comparedError = 0.5, comparedDamping = 0.2;
-/// Step error as large as the motion, which a comparison saves only of all of the motion.
-constexpr double lostMotion = 1;
+/// Step error as large as the motion, which a comparison saves only of all of the motion, and with
+/// a D up to this part of `Step Error Limit`: steps of first order miss twice D.
+constexpr double lostMotion = 1, savedError = 0.5;
 /// Sensitivity over D from which the motion is chaotic.
 constexpr double chaoticShare = 0.25;
 /// Times `Step Error Limit` by which speeds may be larger or smaller: by half at its default.
@@ -57,10 +58,10 @@ struct Findings {
     return shorter && (shorter->size > warning || (shorter->size > nearlyRight * warning &&
                                                    shorter->velocities > lostVelocities));
   }
-  /// S is as large as the motion, and the motion not found within the limit in all its length.
+  /// S is as large as the motion, and the motion not found right enough in all its length.
   bool isLost() const {
     return error > std::max(lostMotion, limit) &&
-           !(shorter && shorter->whole && shorter->size <= limit);
+           !(shorter && shorter->whole && shorter->size <= savedError * limit);
   }
   /// Of what parts by more than the limit, neighbours part as far as steps and shorter steps do.
   bool isChaos() const {

@@ -51,7 +51,7 @@ class Run:
     def warnings(self):
         """Warnings that tell of the accuracy of the result."""
         return [" ".join(w.split()) for w in self.summary.get("warnings") or []
-                if not w.startswith(OTHER_WARNINGS)]
+                if not w.startswith(OTHER_WARNINGS) and "has no stiffness" not in w]
 
     def work(self):
         """CPU time of the motion [s], or of the command where nothing moves."""
