@@ -256,7 +256,12 @@ void runResponse(const cases::Case& one, const std::string& folder, bool fresh) 
       [&] {
         cases::announce(one);
         rotating = std::make_unique<RotatingCase>(one, settings.friction);
-        if (settings.bySpeed()) rotating->announceLaws();
+        if (settings.bySpeed())
+          rotating->announceLaws();
+        else if (one.list().isSublist("Rotary Speed") && !one.deck().gives("Response/Rotary Speed"))
+          log::warn(
+              "The string turns, but the response is that of 0 rpm. Give Response/Rotary "
+              "Speed, 0 if that is meant.");
         rotating->announceUnknownStates();
         try {
           response = respond(*rotating, settings, {one, files.folder().folder(), fresh});

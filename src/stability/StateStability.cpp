@@ -50,8 +50,11 @@ constexpr double basisAccuracy = 1e-4;
 /// Shift of the modes of a state that some motion leaves without any force [1/s2]: with one as
 /// small as the growth that is looked for, that motion would hide the accuracy of all others.
 constexpr double floatingShift = -1.0;
-/// Growth, and frequencies, below this part of |s| are within the accuracy of s.
+/// Growth below this part of |s| is within the accuracy of s.
 constexpr double noGrowth = 1e-7;
+/// A motion whose frequency is below this part of its growth does not swing: it grows by e^60 in
+/// the first half of a period. A divergence under torque or rotation has such frequencies.
+constexpr double swings = 0.05;
 /// Stiffness between components below this part of the rows leaves each a system of its own.
 constexpr double alone = 0.1;
 /// Skew stiffness below this part of the rows is rounding.
@@ -325,9 +328,12 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   if (!worst) return found;
   found.refined = worst->refined;
   found.growthRate = worst->mode.s.real();
-  if (std::abs(worst->mode.s.imag()) > noGrowth * std::abs(worst->mode.s))
+  if (std::abs(worst->mode.s.imag()) > swings * worst->mode.s.real())
     found.frequency = std::abs(worst->mode.s.imag()) / constants::twoPi;
-  found.shape = worst->mode.shape.real();
+  // at the phase at which its largest entry is largest
+  Eigen::Index largest = 0;
+  worst->mode.shape.cwiseAbs().maxCoeff(&largest);
+  found.shape = (worst->mode.shape / worst->mode.shape[largest]).real();
   found.shape /= found.shape.cwiseAbs().maxCoeff();
   found.outline = outlineOf(model, found.shape);
   return found;

@@ -163,7 +163,10 @@ double vibrationError(const HistoryView& history, const HistoryView& reference,
   if (!std::isfinite(error) || !std::isfinite(vibration))
     refuse("A history to be compared holds numbers that are not finite.");
   if (!(std::sqrt(vibration) > negligibleNorm))
-    refuse("The reference history does not vibrate, so no vibration error can be given.");
+    refuse(
+        "The reference history does not vibrate in the displacements that are compared, of a "
+        "string "
+        "the lateral ones, so no vibration error can be given.");
   return std::sqrt(error / vibration);
 }
 

@@ -123,6 +123,9 @@ def horizontal():
     near("2 sqrt(2) sqrt(E I w/r) in the summary", said["theory"]["helical"], math.sqrt(2) * critical, 1e-6)
     # the hinges hold the ends on the axis, a clearance above where the pipe lies: a tenth of the length is off the wall
     near("first buckling", said["limit"], critical, 2.5e-2)
+    # a torque leads it onto the sinusoid without a negative pivot
+    _, twisted = run(deck("twisted", length, 200, 1.2 * critical, inclination=90.0), "Loads/Torque On Bit=10", "Buckling/Crookedness=0")
+    near("first buckling under a torque of 10 N m", twisted["limit"], said["limit"], 1e-2)
     buckled = [row for row in found if row["weight_on_bit"] > 1.1 * critical]
     near("half wave pi (E I r/w)^(1/4)", buckled[0]["half_wave_length"], math.pi * (RIGIDITY * CLEARANCE / WEIGHT) ** 0.25, 3e-2)
     before = [row for row in found if row["weight_on_bit"] < 0.7 * critical]

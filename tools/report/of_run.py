@@ -8,7 +8,7 @@ def headline(run):
     """Cards of what is asked first."""
     found = []
     if run.is_string and run.value("static.top_axial_force") is not None:
-        found.append(("Hook load", *both(run.value("static.top_axial_force"), "hook load"), "effective tension at the surface", False))
+        found.append(("Hook load", *both(run.value("static.top_axial_force"), "hook load"), "effective tension in the uppermost element", False))
         found.append(("Surface torque", *both(-run.value("static.top_torque"), "torque"), "at rest, against a rotation to the right", False))
         node = run.value("static.max_normal_force_node")
         if node:

@@ -123,7 +123,7 @@ def buckling_headline(results):
     """Cards of the weights on bit at which something happens."""
     found = [(name, *both(weight, "hook load"), remark, False) for name, weight, remark in (
         ("Last weight on bit", results.value("buckling.last_weight_on_bit"), results.value("buckling.explanation") or ""),
-        ("Limit of the straight string", results.value("buckling.limit"), "first negative pivot"),
+        ("Limit of the straight string", results.value("buckling.limit"), "first negative pivot, or half waves"),
         ("Sinusoidal buckling", results.value("buckling.theory.sinusoidal"), "closed form"), ("Helical buckling", results.value("buckling.theory.helical"), "closed form"),
         ("Unstable from", results.value("buckling.unstable_from"), "first unstable state of the crooked string")) if weight is not None]
     return cards(found) if found else ""

@@ -123,7 +123,7 @@ constexpr double noTorque = 5;
 void ofString(const Json& summary, const std::string& folder) {
   // exactly none where the string has no axial dofs
   if (const auto load = number(summary, "/static/top_axial_force"); load && *load != 0.0)
-    line("hook load", quantity(*load, "kN", 1), "effective tension at the surface");
+    line("hook load", quantity(*load, "kN", 1), "effective tension in the uppermost element");
   if (const auto torque = number(summary, "/static/top_torque"))
     line("surface torque", quantity(-*torque, "kN m", 2),
          std::abs(*torque) < noTorque ? "at rest" : "at rest, against a rotation to the right");

@@ -278,6 +278,13 @@ void warnOfCalibration(const Scene& scene, const std::vector<softstring::Operati
   if (!warning.empty()) log::warn(warning);
 }
 
+void warnOfForces(const Scene& scene) {
+  if (scene.list().isSublist("Loads") && scene.list().sublist("Loads").isSublist("Forces"))
+    log::warn(scene.deck.error("Loads/Forces",
+                               "has no part in torque and drag, which knows the weight of the "
+                               "string, the bit and the wall."));
+}
+
 }  // namespace
 
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFolder& store) {
@@ -285,6 +292,7 @@ std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFo
   const SoftModel model = softModel(scene);
   const auto operations = softOperations(scene, settings);
   warnOfCalibration(scene, operations);
+  warnOfForces(scene);
   std::vector<TorqueDragProfile> profiles;
   const double deepest = *std::max_element(settings.depths.begin(), settings.depths.end());
   for (const double depth : settings.depths)

@@ -35,6 +35,9 @@ const std::string listName = "Buckling";
 
 /// Jumps after which a path is given up.
 constexpr int mostJumps = 100;
+/// Half waves of a string that has buckled: one is the deflection of a well that turns, two that of
+/// a torque at an end.
+constexpr int buckledHalfWaves = 3;
 /// A jump takes place under a weight that is larger by this part of the last weight: where the
 /// states turn there is none just before. Where no state is found, the next one is tried.
 constexpr double beyondLimit[] = {1e-4, 1e-3, 1e-2};
@@ -426,7 +429,8 @@ BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings,
     return found;
   }
 
-  // The straight string up to its first negative pivot.
+  // The straight string up to its first negative pivot; or up to where it lies in half waves: a
+  // torque, or a well that turns, leads it onto the buckled branch without a pivot.
   double compression = 0.0, rigidity = 0.0;
   Vector start;
   {
@@ -438,7 +442,8 @@ BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings,
         statics::followPath(problem, start, options, [&](const statics::PathPoint& point) {
           last = measure.state(point.parameter, problem.problem().expand(point.x));
           if (point.step == 0) found.theory = measure.theory(-last.compression);
-          return point.negativePivots.value_or(0) == 0;
+          found.limitIsSmooth = measure.liesLow() && last.halfWaves >= buckledHalfWaves;
+          return point.negativePivots.value_or(0) == 0 && !found.limitIsSmooth;
         });
     if (straight.end == statics::PathEnd::Stopped) found.limit = straight.parameter;
     Eigen::Index most = 0;

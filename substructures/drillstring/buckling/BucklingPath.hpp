@@ -86,8 +86,10 @@ struct BucklingState {
 
 struct BucklingPath {
   BucklingTheory theory;
-  /// Weight on bit at which the straight string has the first negative pivot; none: not on the way.
+  /// Weight on bit at which the straight string has the first negative pivot, or lies in half
+  /// waves; none: not on the way.
   std::optional<double> limit;
+  bool limitIsSmooth = false;             ///< it lies in half waves there, without a negative pivot
   double crookedness = 0.0, pitch = 0.0;  ///< amplitude and length of a turn [m]
   std::vector<double> depth;              ///< of the nodes [m]
   std::vector<BucklingState> states;
@@ -95,7 +97,7 @@ struct BucklingPath {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(theory, limit, crookedness, pitch, depth, states, report);
+    archive(theory, limit, limitIsSmooth, crookedness, pitch, depth, states, report);
   }
 };
 

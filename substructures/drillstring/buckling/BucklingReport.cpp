@@ -85,7 +85,9 @@ class Report {
     const auto& theory = path_.theory;
     log::info(fmt::format("crookedness {}, a turn in {}", deck::printed(path_.crookedness, "mm", 3),
                           deck::printed(path_.pitch, "m", 3)));
-    log::info(fmt::format("limit       the straight string has a negative pivot {}",
+    log::info(fmt::format("limit       the straight string {} {}",
+                          path_.limitIsSmooth ? "lies in half waves, without a negative pivot,"
+                                              : "has a negative pivot",
                           path_.limit
                               ? "from " + quantity(*path_.limit, "kN", 2) + " on the bit on"
                               : "nowhere up to " + quantity(last(), "kN", 2) + " on the bit"));

@@ -131,15 +131,16 @@ BucklingState BucklingMeasure::state(double weight, const Vector& displacement) 
   return state;
 }
 
+bool BucklingMeasure::liesLow() const {
+  return scene_.well.inclination(depth_.back()) > vertical &&
+         loads::acceleration(scene_.loads).norm() > 0.0;
+}
+
 void BucklingMeasure::addShape(BucklingState& state) const {
   const Matrix& d = state.displacement;
   const double clearance = *std::max_element(clearance_.begin(), clearance_.end());
   Eigen::Vector2d side(0.0, 1.0);
-  const bool inclined = scene_.well.inclination(depth_.back()) > vertical &&
-                        loads::acceleration(scene_.loads).norm() > 0.0;
-  if (!inclined) {
-    side = linalg::symmetricPairs(d * d.transpose()).vectors.col(1);
-  }
+  if (!liesLow()) side = linalg::symmetricPairs(d * d.transpose()).vectors.col(1);
   const Vector deflection = d.transpose() * side;
   const double most = deflection.cwiseAbs().maxCoeff();
   if (most > straight * clearance) {

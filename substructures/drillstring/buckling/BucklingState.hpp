@@ -26,6 +26,8 @@ class BucklingMeasure {
   /// Of each element: E I [N m2], mean radial clearance of its nodes [m].
   const std::vector<double>& rigidity() const { return rigidity_; }
   const std::vector<double>& clearance() const { return clearance_; }
+  /// Gravity presses the string to a side of the hole.
+  bool liesLow() const;
 
  private:
   Matrix toSides(const Vector& displacement) const;

@@ -199,6 +199,21 @@ TEST(UnstableState, IsLeftForAStableOneOnTheWall) {
   }
 }
 
+/// A torque far below Greenhill's gives the growth of the column a frequency, which is no
+/// vibration.
+TEST(UnstableState, IsADivergenceUnderASmallTorque) {
+  for (const char* torque : {"10", "2000"}) {
+    const std::string set = std::string("Loads/Torque On Bit=") + torque;
+    const auto left = drillstring::findEquilibrium(column(1.5, {set}));
+    EXPECT_FALSE(left.stability.stable());
+    EXPECT_TRUE(left.stability.diverges()) << drillstring::describeStability(left);
+    const auto found =
+        drillstring::solveStatic(column(1.5, {set, "Static/Unstable State=Perturb"}));
+    EXPECT_GE(found.perturbations, 1) << torque;
+    EXPECT_GE(found.state.contactNodes, 1) << torque;
+  }
+}
+
 TEST(UnstableState, WithoutAWallCannotBeLeft) {
   auto scene = column(1.5, {"Static/Unstable State=Perturb"});
   scene.contact.reset();
