@@ -7,18 +7,16 @@ first two axes, contour lines where the grid has three points or more each way, 
 crossed out. With more than two axes each point of the others has a picture of its own.
 """
 import argparse
-import csv
 import itertools
-import json
 import pathlib
 import re
-import sys
 
+import plots  # before matplotlib
+from plots import np, plt
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-import plots
-from plots import np, plt
+from report import files, results
 
 UNSAFE = "#D55E00"
 LEAST_FOR_CONTOURS = 3  # points along an axis
@@ -28,34 +26,25 @@ MOST_TICKS = 9, 14  # across and up
 LONGEST_TICKS = 48  # letters of all ticks of an axis that stand side by side
 
 
-def fail(sentence):
-    sys.exit(f"plot_map.py: {sentence}")
-
-
-class NoMap(Exception):
-    """A sentence on what is missing or damaged."""
-
-
 class Map:
     """The table of a map as grids: `failed` and, of each value, `grid`, with nan where it is not known. `rows` are those of map.csv, by names
-    without units, in the order of the grids. NoMap: no table, or not that of the summary."""
+    without units, in the order of the grids. Unreadable: no table, or not that of the summary."""
 
     def __init__(self, folder):
-        try:
-            summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-            with open(folder / "map.csv", encoding="utf-8", newline="") as file:
-                lines = list(csv.reader(file))
-        except (OSError, ValueError) as problem:
-            raise NoMap(f"{folder} holds no map: {problem}. Name the folder of a map, or run the map again.") from problem
-        summary = summary.get("map") if isinstance(summary, dict) else None
+        summary, lines = results.read_summary(folder).get("map"), files.read_rows(folder / "map.csv")
         if not summary or not summary.get("axes"):
-            raise NoMap(f"{folder}/summary.json is not that of a map that has ended. tooljoint map DECK --output {folder} goes on with the map, --collect {folder} makes one of the points "
+            raise files.Unreadable(f"{folder}/summary.json is not that of a map that has ended. tooljoint map DECK --output {folder} goes on with the map, --collect {folder} makes one of the points "
                         "that are done.")
         self.axes, self.values = summary["axes"], summary["values"]
-        self.rows = rows = [dict(zip((re.sub(r" \[[^\]]*\]$", "", name) for name in lines[0]), line)) for line in lines[1:]]
+        self.rows = [dict(zip((re.sub(r" \[[^\]]*\]$", "", name) for name in lines[0]), line)) for line in lines[1:]]
         shape = [axis["points"] for axis in self.axes]
-        if len(rows) != np.prod(shape):
-            raise NoMap(f"{folder}/map.csv has {len(rows)} rows, the grid of summary.json {np.prod(shape)} points. Run the map again, or restore both files from a copy.")
+        if len(self.rows) != np.prod(shape):
+            raise files.Unreadable(f"{folder}/map.csv has {len(self.rows)} rows, the grid of summary.json {np.prod(shape)} points. Run the map again, or restore both files from a copy.")
+        with files.reading(folder / "map.csv"):
+            self.sort(shape)
+
+    def sort(self, shape):
+        rows = self.rows
         self.failed = np.array([row["status"] != "done" for row in rows]).reshape(shape)
         self.grid = {value["name"]: np.array([float(row[value["name"]] or "nan") for row in rows]).reshape(shape) for value in self.values}
         for k, axis in enumerate(self.axes):
@@ -168,17 +157,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, metavar="DIR", help="folder of a map that ended")
     folder = parser.parse_args().folder
-    try:
-        made = Map(folder)
-    except NoMap as problem:
-        fail(problem)
     plots.use_style()
-    for value, rest, name in made.pictures():
-        picture = draw(made, value, rest)
-        for kind in ("png", "svg"):
-            picture.savefig(folder / f"{name}.{kind}")
-        plt.close(picture)
-        print(f"{folder / name}.png")
+    with files.failing():
+        made = Map(folder)
+        for value, rest, name in made.pictures():
+            picture = draw(made, value, rest)
+            for kind in ("png", "svg"):
+                with files.writing(folder / f"{name}.{kind}"):
+                    picture.savefig(folder / f"{name}.{kind}")
+            plt.close(picture)
+            print(f"{folder / name}.png")
 
 
 if __name__ == "__main__":

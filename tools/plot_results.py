@@ -16,7 +16,7 @@ try:
 
     import plots
     from plots import COLOURS, GREY, MAP, RPM, plt
-    from report import figures, folder, scene3d
+    from report import figures, files, folder, scene3d
 except ImportError as missing:
     sys.exit(f"{missing}: plot_results.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
@@ -239,9 +239,9 @@ def main():
     plots.use_style()
     name, results = folder.opened(options.folder, KIND, ["results.h5"])
     with results:
-        output = options.output or options.folder / "results.png"
-        plots.save(draw(results), output)
-        print(f"drawn {output}")
+        with files.failing(), files.reading(options.folder / name):
+            made = draw(results)
+        folder.save(made, options.output or options.folder / "results.png")
         if options.animate:
             try:
                 animate(results, options.animate)

@@ -6,17 +6,16 @@ Reads study.csv and study.h5 in DIR and writes study_speed, study_bases, study_m
 study_static and study_reference there, each where the study has what it shows. Needs h5py, numpy and matplotlib.
 """
 import argparse
-import csv
 import math
 import pathlib
 import sys
 
 try:
-    import h5py
     import numpy as np
 
     import plots
     from plots import COLOURS, GREY, MARKERS, RPM, Labels, headline, label, logarithmic, panels, percent, plt, shades
+    from report import files, results
 except ImportError as missing:
     sys.exit(f"{missing}: plot_study.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
@@ -42,9 +41,9 @@ class Run:
 
 class Study:
     def __init__(self, folder):
-        with open(folder / "study.csv", newline="", encoding="utf-8") as text:
-            rows = [{name.split(" [")[0]: value for name, value in row.items()} for row in csv.DictReader(text)]
-        self.file = h5py.File(folder / "study.h5", "r")
+        titles, *rows = files.read_rows(folder / "study.csv")
+        rows = [dict(zip((title.split(" [")[0] for title in titles), row)) for row in rows]
+        self.file = results.open_results(folder / "study.h5")
         self.all = [Run(row, self.file.get(f"runs/{i + 1:03d}")) for i, row in enumerate(rows)]
         self.done = [run for run in self.all if run.row["status"] == "done"]
         self.failed = [run for run in self.all if run.row["status"] == "failed"]
@@ -409,6 +408,22 @@ PLOTS = {"speed": draw_speed, "bases": draw_bases, "modes": draw_modes, "error_o
          "static": draw_static, "reference": draw_reference}
 
 
+def draw_all(study, output, kinds):
+    """Names of the plots that the study has something to show in."""
+    made = []
+    for name, draw in PLOTS.items():
+        figure = draw(study)
+        if figure is None:
+            continue
+        for kind in kinds:
+            path = output / f"study_{name}.{kind}"
+            with files.writing(path):
+                figure.savefig(path, bbox_inches="tight")
+        plt.close(figure)
+        made.append(name)
+    return made
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, help="folder of a study")
@@ -419,18 +434,11 @@ def main():
         if not (options.folder / name).is_file():
             sys.exit(f"{options.folder} holds no {name}: name the folder of a study.")
     output = options.output or options.folder
-    output.mkdir(parents=True, exist_ok=True)
+    with files.failing(), files.writing(output):
+        output.mkdir(parents=True, exist_ok=True)
     plots.use_style()
-    study = Study(options.folder)
-    made = []
-    for name, draw in PLOTS.items():
-        figure = draw(study)
-        if figure is None:
-            continue
-        for kind in options.formats.split(","):
-            figure.savefig(output / f"study_{name}.{kind}", bbox_inches="tight")
-        plt.close(figure)
-        made.append(name)
+    with files.failing(), files.reading(options.folder / "study.csv"):
+        made = draw_all(Study(options.folder), output, options.formats.split(","))
     print(f"pictures    {output}: " + ", ".join(f"study_{name}" for name in made))
     return 0
 

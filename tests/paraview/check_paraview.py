@@ -4,7 +4,9 @@
     check_paraview.py PROGRAM
 """
 import base64
+import os
 import pathlib
+import shutil
 import sys
 import xml.etree.ElementTree as ET
 
@@ -157,10 +159,29 @@ def check_parts():
 
 
 def check_faults():
+    shutil.rmtree("damaged", ignore_errors=True)
     for what, words, code, said in (("no results", ["nowhere"], 5, "holds no results.h5"), ("no factor", ["string", "--magnify", "0"], 1, "--magnify"),
                                     ("no pictures", ["string", "--pictures", "0"], 1, "--pictures"), ("a folder that cannot be", ["string", "-o", "string/results.h5/x"], 5, "cannot be written")):
         done = tooljoint("paraview", *words)
         expect(f"{what}: exit code {code} and a sentence", done.returncode == code and said in done.stderr, f"{done.returncode} {done.stderr}")
+    shutil.copytree("static", "damaged")
+    results = pathlib.Path("damaged/results.h5")
+    whole = results.read_bytes()
+    for what, content in (("half a file", whole[:len(whole) // 2]), ("a file with a hole", whole[:len(whole) // 3] + bytes(len(whole) // 3) + whole[-(len(whole) // 3):])):
+        results.write_bytes(content)
+        done = tooljoint("paraview", "damaged")
+        expect(f"{what}: cannot be read", done.returncode == 5 and "damaged/results.h5 cannot be read: it is damaged" in done.stderr and "Error" not in done.stderr, f"{done.returncode} {done.stderr}")
+    results.write_bytes(whole)
+    if os.geteuid() > 0:  # root may read everything
+        results.chmod(0)
+        done = tooljoint("paraview", "damaged")
+        expect("a file without permission: cannot be read", done.returncode == 5 and "damaged/results.h5 cannot be read: Permission denied" in done.stderr, f"{done.returncode} {done.stderr}")
+        results.chmod(0o600)
+    part = pathlib.Path("damaged/paraview/string_0000.vtp.part")
+    part.parent.mkdir(exist_ok=True)
+    part.symlink_to("/dev/full")
+    done = tooljoint("paraview", "damaged")
+    expect("a full disk: a sentence, and nothing is left", done.returncode == 5 and "cannot be written: the disk is full" in done.stderr and not part.is_symlink(), f"{done.returncode} {done.stderr}")
 
 
 check_string()

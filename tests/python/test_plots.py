@@ -244,7 +244,7 @@ class Studies(Style):
         folder.mkdir(exist_ok=True)
         head = "line,label,kind,model,sweep,status,vibration_error,cpu_per_simulated_s [s],reduced_dofs,modes,frequency_error,setup_cpu [s]"
         rows = [f'"method {i}, with a long name","method {i}, with a long name, Step {step} ms",method,full,,done,{step ** 2 * (1e-3 + 1e-5 * i)},{0.1 / step},100,,,' for i in range(count) for step in (1, 2)]
-        (folder / "study.csv").write_text("\n".join([head, *rows]), encoding="utf-8")
+        (folder / "study.csv").write_text("\n".join([head, *rows, ""]), encoding="utf-8")
         with h5py.File(folder / "study.h5", "w") as file:
             file.attrs.update({"machine": "a machine", "deck_name": "well", "self_error": 1e-5, "window_begin": 0.0, "window_end": 2.0})
             whole = string(file, moves=False)

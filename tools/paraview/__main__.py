@@ -15,20 +15,15 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[0] = str(HERE.parent)
 
-USAGE, FILES = 1, 5
+from report.files import USAGE, Unreadable, fail, failing, reading, write, writing  # noqa: E402: of the folder above
+
 MOST_PICTURES = 200
-
-
-def fail(sentence, code=FILES):
-    print(sentence, file=sys.stderr)
-    sys.exit(code)
-
 
 try:
     import numpy as np
 
     from paraview import scenes, vtp
-    from report.results import Run, Unreadable
+    from report.results import Run
 except ImportError as missing:
     fail(f"{missing}: files for ParaView need numpy and h5py (Debian: python3-h5py, then /usr/bin/python3).")
 
@@ -45,9 +40,10 @@ def pictures(scene, most):
 
 def write_all(scene, folder, magnification, most):
     """All files of a scene; the largest displacement [m] and the number of pictures."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for old in (*folder.glob(f"{scene.name}_*.vtp"), *folder.glob(f"{scene.name}.pvd")):
-        old.unlink()
+    with writing(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        for old in (*folder.glob(f"{scene.name}_*.vtp"), *folder.glob(f"{scene.name}.pvd")):
+            old.unlink()
     largest, files = 0.0, []
     for number, sample in enumerate(pictures(scene, most)):
         moved = scene.displacement(sample)
@@ -55,11 +51,11 @@ def write_all(scene, folder, magnification, most):
         text = vtp.polydata(scene.position + magnification * moved, scene.kinds, scene.axes, scene.point_fields(sample), scene.cell_fields(sample),
                             {"TimeValue": scene.times[sample], "magnification": magnification})
         files.append((scene.times[sample], f"{scene.name}_{number:04d}.vtp"))
-        vtp.write(folder / files[-1][1], text)
+        write(folder / files[-1][1], text)
     if scene.name == "string":
         points, quads = scene.wall(magnification)
-        vtp.write(folder / "wall.vtp", vtp.polydata(points, {"Polys": quads}, scene.axes, field_data={"magnification": magnification}))
-    vtp.write(folder / f"{scene.name}.pvd", vtp.collection(files))
+        write(folder / "wall.vtp", vtp.polydata(points, {"Polys": quads}, scene.axes, field_data={"magnification": magnification}))
+    write(folder / f"{scene.name}.pvd", vtp.collection(files))
     return largest, len(files)
 
 
@@ -75,17 +71,11 @@ def main():
     if options.pictures < 1:
         fail(f"--pictures is {options.pictures}, expected at least 1.", USAGE)
     folder = options.output or options.folder / "paraview"
-    try:
+    with failing(), reading(options.folder / "results.h5"):
         if not (options.folder / "results.h5").is_file():
             raise Unreadable(f"{options.folder} holds no results.h5. Name the results folder of a run.")
         scene = scenes.of_run(Run(options.folder))
         largest, count = write_all(scene, folder, options.magnify, options.pictures)
-    except Unreadable as error:
-        fail(str(error))
-    except OSError as error:
-        fail(f"{error.filename or folder} cannot be written: {error.strerror or error}.")
-    except (KeyError, ValueError, IndexError) as error:
-        fail(f"The results in {options.folder} are damaged or incomplete ({type(error).__name__}: {error}). Run the deck again, or restore them from a copy.")
     print(f"paraview    {folder / scene.name}.pvd: {count} picture{'s' if count > 1 else ''}" + (f", and {folder / 'wall.vtp'}" if scene.name == "string" else ""))
     better = scenes.suggestion(scene, largest)
     print(f"            largest displacement {largest:.3g} m, shown times {options.magnify:g}" + (f"; --magnify {better:g} shows it clearly" if better >= 2 * options.magnify else ""))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from report import results
+from report.files import Unreadable
 
 SECTORS = 24  # points around the wall
 SIZE_SHARE = 0.1  # of the size of a scene that the suggested magnification makes of the largest displacement
@@ -92,7 +93,7 @@ class Parts(Scene):
         super().__init__(run)
         located = run.get("/model/located")
         if located is None or not len(located):
-            raise results.Unreadable(f"The parts of {run.folder} have no positions, so they cannot be shown in space. Give coordinates in their part files (docs/file-formats.md).")
+            raise Unreadable(f"The parts of {run.folder} have no positions, so they cannot be shown in space. Give coordinates in their part files (docs/file-formats.md).")
         self.rows = located - 1
         self.position = run.get("/model/position")
         links = run.get("/model/links")
@@ -125,11 +126,11 @@ class Parts(Scene):
 def of_run(run):
     """The scene of a run; Unreadable where it has none in space."""
     if run.get("/static/displacement") is None:
-        raise results.Unreadable(f"{run.folder} holds no static state: the run ended before it. Run the deck again.")
+        raise Unreadable(f"{run.folder} holds no static state: the run ended before it. Run the deck again.")
     if run.records and not run.moves:
-        raise results.Unreadable(f"{run.folder} holds the motion of {len(run.recorded)} chosen nodes, not of all. Take Output/Depths or Output/Nodes out and run the deck again.")
+        raise Unreadable(f"{run.folder} holds the motion of {len(run.recorded)} chosen nodes, not of all. Take Output/Depths or Output/Nodes out and run the deck again.")
     if run.time is not None and not run.moves and len(run.time) > 1:
-        raise results.Unreadable(f"{run.folder} has no displacements of its motion. Add displacement to Output/Fields and run the deck again.")
+        raise Unreadable(f"{run.folder} has no displacements of its motion. Add displacement to Output/Fields and run the deck again.")
     return String(run) if run.is_string else Parts(run)
 
 

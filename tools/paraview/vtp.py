@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Polydata in VTK's XML format (VTK User's Guide, 11th edition, section 19.3): arrays are base64 with a header of their length."""
 import base64
-import os
 import xml.sax.saxutils
 
 import numpy as np
@@ -51,10 +50,3 @@ def collection(files):
     """The text of a .pvd file: (time [s], name of a file beside it) of all pictures."""
     rows = "".join(f'<DataSet timestep="{time:.17g}" part="0" file={attribute(name)}/>\n' for time, name in files)
     return HEADER.format(kind="Collection") + "<Collection>\n" + rows + "</Collection>\n</VTKFile>\n"
-
-
-def write(path, text):
-    """The file is whole or as it was before."""
-    part = path.with_name(path.name + ".part")
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, path)

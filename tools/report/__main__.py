@@ -4,30 +4,23 @@
 
 DIR is the folder of a run (results.h5, summary.json), of a study (study.csv, study.h5), of a map (map.csv), or of `torque-drag`, `bha`, `buckling`, `campbell`, `response` or `modes`. The file needs no
 network and nothing beside it. Needs numpy, h5py and matplotlib, and three.js (Debian: libjs-three) for the view in space.
-Exit codes: 0 done, 1 wrong usage, 5 nothing to report on, a file that cannot be read or written.
+Exit codes: 0 done, 1 wrong usage, 5 nothing to report on, a file that cannot be read or written. Where one of several files is damaged the report shows the others, and the
+exit code is 5 as well.
 """
 import argparse
-import os
 import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[0] = str(HERE.parent)
 
-USAGE, FILES = 1, 5
-
-
-def fail(sentence):
-    print(sentence, file=sys.stderr)
-    sys.exit(FILES)
-
+from report.files import USAGE, Unreadable, fail, failing, reading, write  # noqa: E402: of the folder above
 
 try:
     import h5py  # noqa: F401
     import plots
     from report import of_map, of_run, of_study, of_tables
     from report.page import viewer
-    from report.results import Unreadable
 except ImportError as missing:
     fail(f"{missing}: the report needs numpy, h5py and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
@@ -57,16 +50,6 @@ def page_of(folder):
     raise Unreadable(f"{folder} holds no results.h5, study.csv, map.csv, torque_drag.csv, bha.csv, buckling.csv, campbell.h5, response.h5 or modes.csv. Name the results folder of a run, a study, a map, torque-drag, bha, buckling, campbell, response or modes.")
 
 
-def write(path, text):
-    """The file is whole or as it was before."""
-    part = path.with_name(path.name + ".part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        os.replace(part, path)
-    except OSError as error:
-        fail(f"{path} cannot be written: {error.strerror}.")
-
-
 def main():
     parser = Arguments(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, prog="report")
     parser.add_argument("folder", type=pathlib.Path, help="results folder")
@@ -74,19 +57,20 @@ def main():
     parser.add_argument("--quiet", action="store_true", help="say nothing of the file that was written")
     options = parser.parse_args()
     plots.use_style()
-    try:
-        page = page_of(options.folder)
-    except Unreadable as error:
-        fail(str(error))
-    except (OSError, KeyError, ValueError, IndexError) as error:
-        fail(f"The results in {options.folder} are damaged or incomplete ({type(error).__name__}: {error}). Run the deck again, or restore them from a copy.")
-    text = page.text()
     path = options.output or options.folder / "report.html"
-    write(path, text)
+    with failing():
+        with reading(options.folder):
+            page = page_of(options.folder)
+        if page.damaged and not page.sections:
+            fail("\n".join(page.damaged))
+        text = page.text()
+        write(path, text)
     if not options.quiet:
         print(f"report      {path}: {len(text.encode()) / 1e6:.1f} MB")
     if viewer() is None:
         print("The report has no 3-D view: three.js is not installed (Debian: libjs-three).", file=sys.stderr)
+    if page.damaged:
+        fail("\n".join((*page.damaged, f"{path} was written without what these files hold.")))
     return 0
 
 

@@ -4,10 +4,10 @@ import argparse
 import pathlib
 import sys
 
-import h5py
-
 import plots
 from report import deck
+from report.files import failing, reading, writing
+from report.results import open_results
 
 
 def conditions(results):
@@ -32,7 +32,15 @@ def opened(folder, kind, files):
     if found is None:
         missing = f"neither {' nor '.join(files)}" if len(files) > 1 else f"no {next(iter(files))}"
         sys.exit(f"{folder} holds {missing}. Give the {kind}.")
-    return found, h5py.File(folder / found, "r")
+    with failing():
+        return found, open_results(folder / found)
+
+
+def save(made, path):
+    """Writes a figure and says so."""
+    with failing(), writing(path):
+        plots.save(made, path)
+    print(f"drawn {path}")
 
 
 def draw_folder(description, kind, files):
@@ -48,11 +56,11 @@ def draw_folder(description, kind, files):
     pictures = files[found] if isinstance(files[found], dict) else {"": ("", files[found])}
     with results:
         for suffix, (title, function) in pictures.items():
-            made = function(results)
+            with failing(), reading(options.folder / found):
+                made = function(results)
             if made is None:
                 continue
             if title:
                 plots.headline(made, title, conditions(results))
             path = output.with_name(f"{output.stem}_{suffix}{output.suffix}") if suffix else output
-            plots.save(made, path)
-            print(f"drawn {path}")
+            save(made, path)

@@ -2,15 +2,14 @@
 """Sections of modes.csv, damped_modes.csv and basis.csv."""
 import math
 
-import h5py
-
 import plots
 from plots import COLOURS, GREY, rotating
 from report import tables
 from report.figures import Figure
+from report.files import numbers, read_table
 from report.page import cards
 from report.quantities import fixed, percent, plain
-from report.results import numbers, read_table
+from report.results import open_results
 
 BASIS_ROWS = 60  # of a page; basis.csv has all
 DIGITS = 4  # of the largest number of a column of frequencies
@@ -81,7 +80,7 @@ def shapes_figure(folder):
     """The lowest modes of a string in the hole."""
     if not (folder / "modes.h5").is_file():
         return []
-    with h5py.File(folder / "modes.h5", "r") as results:
+    with open_results(folder / "modes.h5") as results:
         made = rotating.mode_shapes_figure(results)
     return [] if made is None else [Figure("mode-shapes", made, "The lowest undamped modes of the full model in the hole.", large=True)]
 
@@ -115,7 +114,7 @@ def headline(results):
     """Cards of the lowest frequency, the least damping and the largest error."""
     found = []
     for file, what in (("modes.csv", ""), ("damped_modes.csv", ", damped")):
-        rows = read_table(results.folder / file) if (results.folder / file).is_file() else []
+        rows = read_table(results.folder / file, "mode") if (results.folder / file).is_file() else []
         if not rows:
             continue
         kind = "full" if "full" in rows[0] else "coupled"
@@ -134,15 +133,22 @@ def headline(results):
 
 def add(page, folder):
     for file, title in (("modes.csv", "Eigenfrequencies"), ("damped_modes.csv", "Damped modes")):
-        rows = read_table(folder / file) if (folder / file).is_file() else []
-        if not rows:
-            continue
-        name, damped = file.split(".")[0].replace("_", "-"), file.startswith("damped")
-        figures = modes_figure(f"{name}-frequencies", rows, MODELS, "frequency [Hz]", "Frequencies of the damped modes, |s| / 2 pi." if damped else "Frequencies of the modes without damping.")
-        if damped:
-            ratios = [(f"{column}_damping", *rest) for column, *rest in MODELS]
-            unstable = "; below 0 the motion grows" if grows(rows) else ""
-            figures += modes_figure("mode-damping", rows, ratios, "damping ratio", f"Damping ratios of the modes{unstable}.", zero=True)
-        else:
-            figures += errors_figure(rows) + shapes_figure(folder)
-        page.plots(name, title, figures, after=table_of(rows, damped))
+        with page.section(folder / file):
+            add_table(page, folder, file, title)
+
+
+def add_table(page, folder, file, title):
+    rows = read_table(folder / file, "mode") if (folder / file).is_file() else []
+    if not rows:
+        return
+    name, damped = file.split(".")[0].replace("_", "-"), file.startswith("damped")
+    figures = modes_figure(f"{name}-frequencies", rows, MODELS, "frequency [Hz]", "Frequencies of the damped modes, |s| / 2 pi." if damped else "Frequencies of the modes without damping.")
+    if damped:
+        ratios = [(f"{column}_damping", *rest) for column, *rest in MODELS]
+        unstable = "; below 0 the motion grows" if grows(rows) else ""
+        figures += modes_figure("mode-damping", rows, ratios, "damping ratio", f"Damping ratios of the modes{unstable}.", zero=True)
+    else:
+        figures += errors_figure(rows)
+        with page.section(folder / "modes.h5"):
+            figures += shapes_figure(folder)
+    page.plots(name, title, figures, after=table_of(rows, damped))

@@ -140,15 +140,14 @@ def attributes_of(folder):
 
 def page_of(folder):
     summary = results.read_summary(folder)
-    try:
-        made = plot_map.Map(folder)
-    except plot_map.NoMap as problem:
-        raise results.Unreadable(str(problem)) from problem
-    attributes = attributes_of(folder)
+    made = plot_map.Map(folder)
+    page, attributes = Page(f"Map: {pathlib.Path(summary['deck']['file']).stem}"), {}
+    with page.section(folder / "map.h5"):
+        attributes = attributes_of(folder)
     scene = deck.read(attributes.get("deck_text", ""), attributes.get("overrides", ""))
     size = " x ".join(f"{axis['name']} ({axis['points']})" for axis in made.axes)
     fixed = deck.conditions(scene, {axis["parameter"] for axis in made.axes})
-    page = Page(f"Map: {pathlib.Path(summary['deck']['file']).stem}", ", ".join(filter(None, (f"{len(made.rows)} points: {size}", fixed))))
+    page.conditions = ", ".join(filter(None, (f"{len(made.rows)} points: {size}", fixed)))
     for warning in summary.get("warnings") or []:
         page.note(warning)
     if not page.notes:

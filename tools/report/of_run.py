@@ -53,10 +53,18 @@ def over_time(run):
 
 
 def string_sections(page, run):
-    page.view(*scene3d.of_string(run))
-    page.plots("well", "Well", figures.well(run))
-    page.plots("static", "Static state", figures.static_profiles(run))
-    torque_drag.add(page, run.folder)
+    with page.section(run.path):
+        page.view(*scene3d.of_string(run))
+        page.plots("well", "Well", figures.well(run))
+    with page.section(run.path):
+        page.plots("static", "Static state", figures.static_profiles(run))
+    with page.section(run.folder / "torque_drag.csv"):
+        torque_drag.add(page, run.folder)
+    with page.section(run.path):
+        motion_sections(page, run)
+
+
+def motion_sections(page, run):
     if run.records:
         motion = results.Motion(run)
         chosen = results.chosen_nodes(run, motion.lateral_rms())
@@ -69,14 +77,16 @@ def string_sections(page, run):
 
 
 def part_sections(page, run):
-    data, note = scene3d.of_parts(run)
-    if data is None:
-        page.add("space", "In space", f'<p class="remark">{note}</p>')
-    else:
-        page.view(data, note)
-    page.plots("displacements", "Displacements", figures_parts.displacements(run))
-    page.plots("motion", "Motion", [*figures_parts.movers(run), *figures_parts.forces(run)])
-    page.plots("spectra", "Spectra", figures_parts.spectra(run))
+    with page.section(run.path):
+        data, note = scene3d.of_parts(run)
+        if data is None:
+            page.add("space", "In space", f'<p class="remark">{note}</p>')
+        else:
+            page.view(data, note)
+    with page.section(run.path):
+        page.plots("displacements", "Displacements", figures_parts.displacements(run))
+        page.plots("motion", "Motion", [*figures_parts.movers(run), *figures_parts.forces(run)])
+        page.plots("spectra", "Spectra", figures_parts.spectra(run))
 
 
 def page_of(folder):
@@ -88,8 +98,12 @@ def page_of(folder):
         string_sections(page, run)
     elif "/model/part" in run.file:
         part_sections(page, run)
-    page.plots("measured", "Measured log", figures_measured.beside(run), figures_measured.overview(run))
-    page.add("reduction", "Reduction and errors", tables.of_reduction(run) + modal.basis_table(folder))
+    with page.section(run.path):
+        page.plots("measured", "Measured log", figures_measured.beside(run), figures_measured.overview(run))
+    vectors = ""
+    with page.section(folder / "basis.csv"):
+        vectors = modal.basis_table(folder)
+    page.add("reduction", "Reduction and errors", tables.of_reduction(run) + vectors)
     measured = checks.measured(run.summary)
     page.add("checks", "Checks", tables.of_checks(measured) if measured else "")
     page.add("numerics", "Computation", tables.of_numerics(run))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a study: its plots, its rows and what its reference is worth."""
 import plot_study
-from report import deck, results, tables
+from report import deck, files, results, tables
 from report.figures import Figure
 from report.page import Page, cards
 from report.quantities import percent, plain
@@ -45,9 +45,9 @@ def page_of(folder):
     summary = results.read_summary(folder)
     for name in ("study.csv", "study.h5"):
         if not (folder / name).is_file():
-            raise results.Unreadable(f"{folder} holds no {name}: the study did not end. Run it again; it goes on from the runs it has.")
-    results.open_results(folder / "study.h5").close()
-    study = plot_study.Study(folder)
+            raise files.Unreadable(f"{folder} holds no {name}: the study did not end. Run it again; it goes on from the runs it has.")
+    with files.reading(folder / "study.csv"):
+        study = plot_study.Study(folder)
     page = Page(f"Study: {study.attribute('deck_name', folder.name)}", f"{len(study.done)} runs done, {len(study.failed)} failed, on {study.machine()}")
     if summary.get("status") != "finished":
         page.note(f"This study is {summary.get('status')}: {summary.get('message')}")

@@ -2,15 +2,13 @@
 """Reports of analyses: torque-drag, bha, buckling, campbell, response, modes."""
 import math
 
-import h5py
-
 import plots
 from plots import COLOURS, rotating
 from report import deck, frame, modal, results, tables, torque_drag
 from report.figures import Figure
+from report.files import numbers, read_table
 from report.page import Page, cards
 from report.quantities import POUND, both, fixed, percent
-from report.results import numbers, read_table
 
 BUCKLING_ROWS = 40  # of a page; buckling.csv has all
 MOST_PEAKS = 4  # of the headline figures of a response
@@ -158,7 +156,7 @@ def add_campbell(page, folder):
     """Campbell diagram, modes in the hole, critical speeds."""
     if not (folder / "campbell.h5").is_file():
         return
-    with h5py.File(folder / "campbell.h5", "r") as results_:
+    with results.open_results(folder / "campbell.h5") as results_:
         grow = "; crosses: modes that grow" if "campbell" in results_ and (results_["campbell/damping"][:] < -rotating.ROUNDING).any() else ""
         found = of_rotation(results_, {"campbell": (rotating.campbell_figure, f"Damped modes against the rotary speed, lines of the excitations, critical speeds{grow}."),
                                        "campbell-shapes": (rotating.shapes_figure, "Modes in the hole: at critical speeds, and at one speed of the diagram.")})
@@ -194,7 +192,7 @@ def add_response(page, folder):
     """Amplitudes over speed or frequency, and along a string."""
     if not (folder / "response.h5").is_file():
         return
-    with h5py.File(folder / "response.h5", "r") as results_:
+    with results.open_results(folder / "response.h5") as results_:
         found = of_rotation(results_, {"response": (rotating.response_figure, "Amplitudes and phases; circles: largest amplitudes."),
                                        "response-profile": (rotating.profile_figure, "Bending moment beside that at rest, and distance left to the wall.")})
     page.plots("response", "Harmonic response", found)
@@ -219,15 +217,26 @@ def conditions(found, scene, names):
 def page_of(folder):
     """Of a folder that holds results of analyses alone."""
     present = [one for one in ANALYSES if any((folder / file).is_file() for file in one[1])]
-    files = [path for name, *_ in present if (path := folder / f"{name}.h5").is_file()]
-    file = results.open_results(files[0]) if files else None
-    found = results.Folder(folder, results.read_summary(folder) if (folder / "summary.json").is_file() else {}, file)
-    titles = " and ".join(title for _, _, title, _, _ in present)
-    page = Page(f"{titles}: {found.name}", conditions(found, frame.scene_of(found), [name for name, *_ in present]))
+    page = Page(" and ".join(title for _, _, title, _, _ in present))
+    summary, file = {}, None
+    with page.section(folder / "summary.json"):
+        summary = results.read_summary(folder) if (folder / "summary.json").is_file() else {}
+    for path in [folder / f"{name}.h5" for name, *_ in present]:
+        if file is None and path.is_file():
+            with page.section(path):
+                file = results.open_results(path)
+    found = results.Folder(folder, summary, file)
+    page.title += f": {found.name}"
+    page.conditions = conditions(found, frame.scene_of(found), [name for name, *_ in present])
     frame.notes(page, found, "analysis")
-    page.add("figures", "Figures", "".join(headline(found) for _, _, _, headline, _ in present))
-    for _, _, _, _, add in present:
-        add(page, folder)
+    headlines = []
+    for _, _, _, headline, _ in present:
+        with page.section(folder / "summary.json"):
+            headlines.append(headline(found))
+    page.add("figures", "Figures", "".join(headlines))
+    for _, files, _, _, add in present:
+        with page.section(folder / files[0]):
+            add(page, folder)
     page.add("numerics", "Computation", tables.of_numerics(found) if found.summary else "")
     frame.close(page, found)
     return page

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Puts sections into one HTML file that needs nothing but itself."""
+import contextlib
 import json
 import pathlib
 import string
 from html import escape
+
+from report.files import Unreadable, reading
 
 WEB = pathlib.Path(__file__).resolve().parent / "web"
 THREE = pathlib.Path("/usr/share/javascript/three")  # of the Debian package libjs-three
@@ -40,7 +43,17 @@ class Page:
 
     def __init__(self, title, conditions=""):
         self.title, self.conditions = title, conditions
-        self.notes, self.sections, self.scripts, self.footer = [], [], [], ""
+        self.damaged, self.notes, self.sections, self.scripts, self.footer = [], [], [], [], ""
+
+    @contextlib.contextmanager
+    def section(self, path):
+        """What this file does not give is left out of the page, which says so first."""
+        try:
+            with reading(path):
+                yield
+        except Unreadable as fault:
+            if str(fault) not in self.damaged:
+                self.damaged.append(str(fault))
 
     def note(self, text, good=False):
         self.notes.append(f'<li class="good">{escape(text)}</li>' if good else f"<li>{escape(text)}</li>")
@@ -78,7 +91,8 @@ class Page:
     def text(self):
         links = "".join(f'<a href="#{name}">{escape(title)}</a>' for name, title, _ in self.sections)
         sections = "\n".join(f'<section id="{name}"><h2>{escape(title)}</h2>\n{content}\n</section>' for name, title, content in self.sections)
-        notes = f'<ul class="notes">{"".join(self.notes)}</ul>' if self.notes else ""
+        damaged = [f"<li>{escape(fault)} This page leaves out what it shows.</li>" for fault in self.damaged]
+        notes = f'<ul class="notes">{"".join(damaged + self.notes)}</ul>' if damaged or self.notes else ""
         style = (WEB / "page.css").read_text(encoding="utf-8")
         return template("page.html", title=escape(self.title), conditions=escape(self.conditions), notes=notes, links=links, sections=sections, style=style,
                         footer=escape(self.footer), scripts="\n".join(self.scripts))

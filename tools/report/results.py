@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a run left in its folder, read once and in pieces that fit into memory."""
-import csv
 import json
 import math
 import pathlib
@@ -8,6 +7,7 @@ import pathlib
 import h5py
 import numpy as np
 
+from report.files import Unreadable, reading, unreadable
 from report.quantities import both, fixed
 
 BLOCK = 8_000_000  # numbers of a time series that are in memory at once
@@ -19,43 +19,22 @@ NONE, STILL = "none", f"less than {1e6 * VIBRATES:g} micrometre rms: rounding"
 NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius", "/model/path_curvature", "/model/curvature_of_rotations", "/static/displacement", "/static/normal_force", "/static/axial_force", "/static/torque")
 
 
-class Unreadable(Exception):
-    """A sentence on what is missing or damaged."""
-
-
 def read_summary(folder):
     path = folder / "summary.json"
+    with reading(path):
+        text = path.read_text(encoding="utf-8")
     try:
-        summary = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise Unreadable(f"{path} cannot be read: {error}. Run the deck again, or restore the file from a copy.") from error
+        summary = json.loads(text)
+    except ValueError:
+        raise unreadable(path, "it is cut off, or it is no JSON") from None
     if not isinstance(summary, dict) or "status" not in summary:
         raise Unreadable(f"{path} is no summary of a run: it has no \"status\".")
     return summary
 
 
 def open_results(path):
-    try:
+    with reading(path):
         return h5py.File(path, "r")
-    except OSError as error:
-        raise Unreadable(f"{path} cannot be read: {str(error).splitlines()[0]}. Run the deck again, or restore the file from a copy.") from error
-
-
-def read_table(path):
-    """Rows of a CSV file as dicts; names without their units. Numbers where a cell is one."""
-    def value(text):
-        try:
-            return float(text)
-        except (TypeError, ValueError):
-            return text
-
-    with open(path, newline="", encoding="utf-8") as file:
-        return [{name.split(" [")[0]: value(text) for name, text in row.items() if name is not None} for row in csv.DictReader(file)]
-
-
-def numbers(rows, name):
-    """A column of rows of read_table(); nan where a cell is no number."""
-    return [row[name] if isinstance(row[name], float) else math.nan for row in rows]
 
 
 def texts(dataset):
@@ -89,11 +68,12 @@ class Run(Folder):
     """results.h5 and summary.json of a run. Arrays have the shapes of docs/file-formats.md; None for what is not there."""
 
     def __init__(self, folder):
-        super().__init__(folder, read_summary(folder), open_results(folder / "results.h5"))
+        self.path = folder / "results.h5"
+        super().__init__(folder, read_summary(folder), open_results(self.path))
         self.is_string = "/model/s" in self.file
         missing = [name for name in (NEEDED if self.is_string else ()) if name not in self.file and (name.startswith("/model") or "/static" in self.file)]
         if missing:
-            raise Unreadable(f"{folder / 'results.h5'} has no {', '.join(missing)}: it is damaged or of another program. Run the deck again.")
+            raise Unreadable(f"{self.path} has no {', '.join(missing)}: it is damaged or of another program. Run the deck again.")
         self.s = self.get("/model/s")
         self.time = self.get("/transient/time")
         self.records = self.time is not None and len(self.time) > 1 and "/transient/displacement" in self.file

@@ -6,9 +6,9 @@ import plots
 from plots import COLOURS, GREY
 from report import tables
 from report.figures import Figure
+from report.files import numbers, read_table
 from report.page import cards
 from report.quantities import FOOT, POUND, both, fixed, plain
-from report.results import numbers, read_table
 
 DASHES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)))  # of the friction coefficients of a broomstick
 SAME = 1e-2  # of the largest: limits that differ less are one
@@ -155,5 +155,8 @@ def add(page, folder):
         return
     found = [against_depth(*quantity, rows) for quantity in QUANTITIES]
     if (folder / "torque_drag_profile.csv").is_file():
-        found += tensions(by_operation(read_table(folder / "torque_drag_profile.csv")))
-    page.plots("torque-drag", "Torque and drag", found + broomsticks(folder, rows), table_of(rows))
+        with page.section(folder / "torque_drag_profile.csv"):
+            found += tensions(by_operation(read_table(folder / "torque_drag_profile.csv")))
+    with page.section(folder / "torque_drag_broomstick.csv"):
+        found += broomsticks(folder, rows)
+    page.plots("torque-drag", "Torque and drag", found, table_of(rows))
