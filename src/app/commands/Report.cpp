@@ -38,15 +38,17 @@ void report(const std::string& folder, const std::string& output) {
 void reportAtEnd(const std::string& folder, bool wanted) {
   if (parallel::rank() != 0) return;
   std::error_code ignored;
+  const auto page = std::filesystem::path(folder) / "report.html";
   // that of an earlier run shows results that are no longer here
-  std::filesystem::remove(std::filesystem::path(folder) / "report.html", ignored);
+  std::filesystem::remove(page, ignored);
   if (!wanted || switchedOff()) return;
   const PythonScript script(kScript);
   std::vector<std::string> arguments{folder};
   if (log::quiet()) arguments.emplace_back("--quiet");
   const auto end = script.run(arguments);
   const auto said = without(".\n", end.errors);
-  if (!end.started || end.code != 0)
+  // a report without the files that are damaged is one
+  if (!end.started || (end.code != 0 && !std::filesystem::exists(page, ignored)))
     log::warn("The report was not written: " + said + ". Write it later with: tooljoint report " +
               folder);
   else if (!said.empty())
