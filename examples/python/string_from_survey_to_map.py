@@ -59,6 +59,7 @@ def main():
         "Values": {"torque": {"Key": "static.top_torque"}, "contacts": {"Key": "static.contact_nodes"}}})
     rows = deck.map(options.output / "map")
     torque = np.array([row["torque"] for row in rows]).reshape(len(speeds), len(weights))
+    cells.grid(False)
     image = cells.pcolormesh(abs(torque.T) / 1e3, cmap=plots.MAP)
     cells.set(title="Torque at the top", xlabel="rotary speed", ylabel="weight on bit", xticks=np.arange(len(speeds)) + 0.5, yticks=np.arange(len(weights)) + 0.5, xticklabels=speeds, yticklabels=weights)
     figure.colorbar(image, label="torque [kN m]")
