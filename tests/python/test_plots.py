@@ -4,6 +4,7 @@ titles with conditions, no text on another one."""
 import os
 import pathlib
 import re
+import subprocess
 import sys
 import unittest
 from unittest import mock
@@ -65,6 +66,14 @@ class Style(unittest.TestCase):
                 text = axis.get_label_text()
                 if axes.axison and "depth" in text or "time" in text:
                     self.assertRegex(text, r"\[.+\]$")
+
+
+class Start(unittest.TestCase):
+    def test_a_home_that_cannot_be_written_is_no_matter(self):
+        given = {name: value for name, value in os.environ.items() if not name.startswith(("MPLCONFIG", "XDG_"))}
+        done = subprocess.run([sys.executable, "-c", "import plot_map, plot_study, plot_results"], cwd=SOURCE / "tools", env={**given, "HOME": "/proc/nowhere"}, capture_output=True, text=True,
+                              check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 class Axes(Style):

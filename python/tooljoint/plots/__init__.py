@@ -10,7 +10,13 @@ brings a copy of it for its own tools, so that reports need no compiled module.
 (Text(..., 'time [s]'), Text(..., 'bit speed [rpm]'))
 >>> plt.close(made)
 """
+import logging as _logging
 import os as _os
+
+# Where its own folder cannot be written, matplotlib takes a temporary one, and warns of that while it is imported.
+_log = _logging.getLogger("matplotlib")
+_level = _log.level
+_log.setLevel(_logging.ERROR)
 
 import matplotlib as _matplotlib
 
@@ -19,6 +25,8 @@ if not _os.environ.get("DISPLAY") and not _os.environ.get("MPLBACKEND"):
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import ticker
+
+_log.setLevel(_level)
 
 from .animation import animate
 from .labels import Labels, name_lines, overlaps
