@@ -15,7 +15,20 @@ StaticSwitches switches(const StaticInput& input, bool exactJacobian) {
   return switches;
 }
 
+Sparse symmetricJacobian(const StaticProblem& tangent, const Vector& x) {
+  Sparse K;
+  tangent.jacobian(x, K);
+  const Sparse transposed = K.transpose();
+  return 0.5 * (K + transposed);
+}
+
 }  // namespace
+
+std::optional<int> negativePivots(const StaticInput& input, const Vector& displacement) {
+  StaticProblem tangent(input);
+  tangent.set(switches(input, false));
+  return linalg::negativeEigenvalues(symmetricJacobian(tangent, tangent.restrict(displacement)));
+}
 
 LoadPath::LoadPath(const StaticInput& input, const GrowingLoad& load)
     : problem_(input), tangent_(input), contained_(load.contained), scale_(load.scale) {
@@ -36,12 +49,7 @@ void LoadPath::jacobian(const Vector& x, double, Sparse& J) const { problem_.jac
 
 void LoadPath::parameterDerivative(const Vector&, double, Vector& drdp) const { drdp = -load_; }
 
-Sparse LoadPath::symmetricTangent(const Vector& x) const {
-  Sparse K;
-  tangent_.jacobian(x, K);
-  const Sparse transposed = K.transpose();
-  return 0.5 * (K + transposed);
-}
+Sparse LoadPath::symmetricTangent(const Vector& x) const { return symmetricJacobian(tangent_, x); }
 
 std::optional<int> LoadPath::negativePivots(const Vector& x, double) const {
   // None where K is almost singular, as at the bifurcations and turning points of a path.

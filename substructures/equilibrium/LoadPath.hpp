@@ -11,6 +11,10 @@
 
 namespace tooljoint::equilibrium {
 
+/// Of K_pa + K_gpo(D) with closed contacts as springs and without friction, D at all dofs; none
+/// where it is almost singular.
+std::optional<int> negativePivots(const StaticInput& input, const Vector& displacement);
+
 /// A load p l, and how the length of a path is measured. Vectors have 6 entries per node.
 struct GrowingLoad {
   Vector direction;        ///< l, load of p = 1 [N, N m]

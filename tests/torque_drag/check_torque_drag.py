@@ -222,6 +222,14 @@ def weight_on_bit():
     near("weight on bit of first_run", float(off["hook_load"]) - float(on["hook_load"]), 40e3, 0.01)
 
 
+def buckled():
+    """A state of the stiff string that its weight on bit buckles is warned of."""
+    for weight, unstable in (("60 kN", False), ("200 kN", True)):
+        done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output", "buckled", "--set", "Torque and Drag/Count=1", "--set", f"Loads/Weight On Bit={weight}")
+        said = " ".join((done.stdout + done.stderr).split())
+        expect(f"{weight}: states of the stiff string are said to be {'un' if unstable else ''}stable", ("of the stiff string are unstable" in said) == unstable, said[-800:])
+
+
 def locked():
     """Pushed so hard that it locks up, a string has no loads at the surface, and its profile ends below the lock-up. With bending stiffness it
     has no result, which few iterations show as well as many."""
@@ -328,6 +336,7 @@ def files():
 
 straight()
 backward()
+buckled()
 pressure()
 grades()
 stiff("build_hold_1400m", 0.01, 0.03)

@@ -11,6 +11,7 @@
 #include "substructures/drillstring/figures/BendingElements.hpp"
 #include "substructures/drillstring/scene/RestProblem.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
+#include "substructures/equilibrium/LoadPath.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -62,6 +63,7 @@ StiffLoads StiffString::under(const softstring::Operation& operation) const {
   loads.twist = -state.displacement(perNode * (problemInput.nodes - 1) + thetaZ);
   loads.torqueDefect = state.relativeTorqueDefect();
   loads.iterations = state.report.iterations;
+  loads.negativePivots = equilibrium::negativePivots(problemInput, state.displacement).value_or(0);
   loads.depth = scene_.string.depths();
   loads.contactForce.assign(state.normalForce.data(),
                             state.normalForce.data() + state.normalForce.size());

@@ -29,6 +29,7 @@ struct StiffLoads {
   double stretch = 0.0;                         ///< by effective tension [m]
   double torqueDefect = 0.0;                    ///< StaticState::relativeTorqueDefect()
   int iterations = 0;                           ///< of Newton's method
+  int negativePivots = 0;                       ///< of the tangent; 0: stable but for friction
   std::vector<double> depth;                    ///< of the nodes, from the surface [m]
   std::vector<double> contactForce;             ///< of each node [N]
   std::vector<double> tension, torque, moment;  ///< of each element, at its middle [N, N m]
@@ -38,8 +39,8 @@ struct StiffLoads {
   bool found() const { return failure.empty(); }
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(failure, hookLoad, surfaceTorque, twist, stretch, torqueDefect, iterations, depth,
-            contactForce, tension, torque, moment);
+    archive(failure, hookLoad, surfaceTorque, twist, stretch, torqueDefect, iterations,
+            negativePivots, depth, contactForce, tension, torque, moment);
   }
 };
 

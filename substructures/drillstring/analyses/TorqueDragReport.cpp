@@ -77,6 +77,25 @@ void printStiff(const Scene& scene, const TorqueDragProfile& profile,
                     row.operation, text(row.bit, "m", 0), 100.0 * stiff.torqueDefect));
 }
 
+void warnOfBuckling(const std::vector<TorqueDragProfile>& profiles) {
+  int all = 0, unstable = 0;
+  const TorqueDragProfile* first = nullptr;
+  for (const auto& profile : profiles) {
+    if (!profile.stiff || !profile.stiff->found()) continue;
+    ++all;
+    if (profile.stiff->negativePivots == 0) continue;
+    ++unstable;
+    if (first == nullptr) first = &profile;
+  }
+  if (first != nullptr)
+    log::warn(fmt::format(
+        "{} of {} states of the stiff string are unstable ({} with the bit at {} first): it "
+        "buckles "
+        "there, and its contact and torque are larger than these. See the state on the wall by "
+        "`tooljoint run` with Static/Unstable State \"Perturb\", or by `tooljoint buckling`.",
+        unstable, all, first->row.operation, text(first->row.bit, "m", 0)));
+}
+
 /// The tables of the deepest bit.
 void print(const Scene& scene, const std::vector<TorqueDragProfile>& profiles,
            const softstring::TorqueDragSettings& settings) {
@@ -97,6 +116,7 @@ void print(const Scene& scene, const std::vector<TorqueDragProfile>& profiles,
   for (const auto& profile : profiles)
     if (profile.stiff && (profile.row.bit == deepest || !profile.stiff->found()))
       printStiff(scene, profile, settings);
+  warnOfBuckling(profiles);
   if (const auto remark = prestressRemark(scene); !remark.empty()) log::warn(remark);
 }
 
