@@ -5,6 +5,9 @@ An interrupt (Ctrl-C, or SIGTERM, which mpirun sends in its place) ends a long c
 """
 
 
+not_finite: dict[str, str] = {}  # point laws in Python whose last forces were no numbers, each with a sentence
+
+
 class Error(Exception):
     """Any error of the toolkit. `code` is the exit code the program `tooljoint` ends with."""
 
@@ -30,9 +33,14 @@ class ModelError(Error):
 
 
 class ConvergenceError(Error):
-    """A solver did not converge: what was tried and what to change (exit code 4)."""
+    """A solver did not converge: what was tried and what to change (exit code 4). Point laws that gave it no numbers are named first."""
 
     code = 4
+
+    def __init__(self, sentence: str = ""):
+        laws = [*not_finite.values()]
+        not_finite.clear()
+        super().__init__(" ".join([*laws, sentence]))
 
 
 class FileError(Error):

@@ -2,12 +2,15 @@
 """Bases and point laws written in Python. They join the registries: calls, decks and studies of this process name them like any other."""
 from __future__ import annotations
 
+import functools
 import inspect
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from . import _core
-from .errors import UsageError
+from .errors import ModelError, UsageError, not_finite
 from .lists import checked, title
 
 _written = set()  # names of the variants written in Python
@@ -41,6 +44,49 @@ def _parameters(function, taken):
 
 def _sentence(function):
     return (inspect.getdoc(function) or "Written in Python.").strip().splitlines()[0]
+
+
+def _checked_force(name, force, states):
+    """The function of a point law, whose forces are looked at: ModelError for None and for a wrong number of them. Forces that are not finite
+    may come of a trial that the integrator takes back, so they are noted until finite ones follow or a solver gives up."""
+    who = f'The point law "{name}"'
+
+    @functools.wraps(force)
+    def checked_force(t, d, v, *more, **parameters):
+        found = force(t, d, v, *more, **parameters)
+        paired = states and isinstance(found, tuple) and len(found) == 2
+        forces = found[0] if paired else found
+        if states and not paired:
+            return found
+        if forces is None or np.size(forces) != d.size:
+            what = "None" if forces is None else f"{np.size(forces)} values"
+            raise ModelError(f"{who} returned {what} at t = {t:.6g} s; expected are {d.size} forces, as many as there are positions d.")
+        wrong = _first_not_finite(found if paired else (found,), len(d))
+        if wrong is None:
+            not_finite.pop(name, None)
+        elif np.isfinite(d).all() and np.isfinite(v).all():
+            value, point = wrong
+            not_finite[name] = f"{who} returned {value} at t = {t:.6g} s, where d is {_numbers(d[point])} m and v {_numbers(v[point])} m/s; expected are finite numbers."
+        return found
+
+    return checked_force
+
+
+def _first_not_finite(arrays, points):
+    """(value, point) of the first number that is not finite in arrays of so many points; None for none, and for what holds no numbers."""
+    for each in arrays:
+        try:
+            rows = np.asarray(each, float).reshape(points, -1)
+        except (TypeError, ValueError):
+            return None
+        at = np.argwhere(~np.isfinite(rows))
+        if len(at):
+            return float(rows[tuple(at[0])]), int(at[0][0])
+    return None
+
+
+def _numbers(values):
+    return ", ".join(f"{value:.6g}" for value in np.ravel(values))
 
 
 def basis(name: str) -> Callable[[Callable], Callable]:
@@ -111,7 +157,7 @@ def point_law(name: str, *, width: int = 1, states: int = 0, tangent: Callable |
 
     def register(force):
         rows, names = _parameters(force, 4 if states > 0 else 3)
-        _core.register_point_law(name, _sentence(force), rows, names, width, states, force, tangent, power, start)
+        _core.register_point_law(name, _sentence(force), rows, names, width, states, _checked_force(name, force, states), tangent, power, start)
         _written.add(name)
         return force
 

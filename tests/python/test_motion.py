@@ -241,11 +241,36 @@ class Motions(unittest.TestCase):
         with self.assertRaisesRegex(tj.ModelError, 'The point law "Broken" raised ValueError: no force beyond 10 ms') as caught:
             tip_motion(synthesis(tj.law("Broken")), step=1e-3)
         self.assertIsInstance(caught.exception.__cause__, ValueError)
-        with self.assertRaisesRegex(tj.ModelError, "returned an array of 7; expected are 1 x 1"):
+        with self.assertRaisesRegex(tj.ModelError, 'The point law "Wrong Shape" returned 7 values at t = 0 s; expected are 1 forces'):
             tip_motion(synthesis(tj.law("Wrong Shape")), step=1e-3)
         with self.assertRaises(tj.ModelError) as caught:  # the cause of the last call is not that of this one
             tj.part("no matrix", "mass", np.eye(2))
         self.assertIsNone(caught.exception.__cause__)
+
+
+    def test_a_law_that_returns_no_numbers_is_named(self):
+        def motion(name, law, integrator="Generalized-alpha", **options):
+            tj.point_law(name, **options)(law)
+            mass = tj.part("mass", [[1.0]], [[1.0]])
+            mass.model.add_points("link", tj.law(name), [[1.0]])
+            mass.model.set_start([1.0], [0.0])
+            return tj.integrate(mass, 0.1, integrator=integrator, step="1 ms", sampling_interval=0.01)
+
+        def late(value):
+            return lambda t, d, v: value * d if t > 0.05 else -d
+
+        with self.assertRaisesRegex(tj.ModelError, r'^The point law "None" returned None at t = 0\.05\S* s; expected are \d+ forces'):
+            motion("None", lambda t, d, v: None if t > 0.05 else -d)
+        for integrator in ("Generalized-alpha", "RK4"):
+            for value in (np.nan, np.inf):
+                with self.subTest(integrator, value=value), self.assertRaisesRegex(
+                        tj.ConvergenceError, rf'^The point law "No Number" returned {value} at t = 0\.05\S* s, where d is 0\.99\S* m and v -0\.\d+ m/s; expected are finite numbers\. '):
+                    motion("No Number", late(value), integrator)
+        with self.assertRaisesRegex(tj.ConvergenceError, '^The point law "No Rate" returned nan at t = '):
+            motion("No Rate", lambda t, d, v, x: (-d, np.nan + x), states=1)
+        # A trial that is taken back is no fault, and nothing of a call is left for the next one.
+        motion("In Bounds", lambda t, d, v: np.where(abs(d) < 1.5, -d, np.nan))
+        self.assertEqual(str(tj.ConvergenceError("Another one.")), "Another one.")
 
 
 class Threads(unittest.TestCase):
