@@ -246,6 +246,18 @@ class Campbell(Style):
             self.assertEqual(sum(len(line.get_xdata()) for line in crosses), marked)
 
 
+class Response(Style):
+    def test_an_amplitude_of_zero_leaves_the_axis_to_the_others(self):
+        with memory() as file:
+            for name, values in {"speed": [0.0, 10.0, 20.0], "frequency": [0.0, 1.6, 3.2], "x_amplitude": [0.0, 1e-3, 2e-3], "x_phase": [0.0, 0.1, 0.2]}.items():
+                file[f"response/{name}"] = values
+            file["response/x_amplitude"].attrs["units"] = "m"
+            made = rotating.response_figure(file)
+        self.check(made)
+        low, high = made.axes[0].get_ylim()
+        self.assertTrue(1e-4 < low < 1e-3 and 2e-3 < high < 1e-2, (low, high))
+
+
 class Studies(Style):
     def study(self, count):
         """A study of `count` methods of nearly the same speed and error."""

@@ -161,7 +161,7 @@ def units():
     expect("side forces in lbf", quantities.both(4448.2216152605, "side force") == ("4.45 kN", "1000 lbf"), quantities.both(4448.2216152605, "side force"))
     expect("torques in kft lbf", quantities.both(1355.8179483314, "torque") == ("1.36 kN m", "1.00 kft lbf"), quantities.both(1355.8179483314, "torque"))
     expect("lengths in feet", quantities.both(304.8, "length") == ("304.8 m", "1000 ft"))
-    expect("shares in percent", [quantities.percent(x) for x in (-0.0123, 1e-9, 0.0)] == ["-1.2 %", "< 0.0001 %", "0 %"], quantities.percent(1e-9))
+    expect("shares in percent", [quantities.percent(x) for x in (-0.0123, 1e-9, 0.0, 0.996, 1.87)] == ["-1.2 %", "< 0.0001 %", "0 %", "100 %", "187 %"], quantities.percent(1e-9))
     expect("no value is a dash", quantities.both(None, "length")[0] == quantities.both(float("nan"), "length")[0] == quantities.plain(None) == quantities.percent(None) == "-")
 
 

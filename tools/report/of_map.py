@@ -5,6 +5,7 @@ import pathlib
 import numpy as np
 
 import plot_map
+import plots
 from report import deck, results, tables
 from report.figures import Figure
 from report.page import Page, cards
@@ -120,7 +121,7 @@ def points_table(made):
     numeric = [1 + k for k, axis in enumerate(made.axes) if axis["numeric"]]
     after = 1 + len(names) + len(made.values)
     columns = {0, *numeric, *range(1 + len(names), after), after + 2, after + 3}
-    titles = ("point", *(axis["label"] for axis in made.axes), *(value["name"] for value in made.values), "unsafe", "status", "CPU [s]", "wall [s]", *(["reason"] if some_failed else []))
+    titles = ("point", *(axis["label"] for axis in made.axes), *(plots.label(value["name"], value.get("unit") or "") for value in made.values), "unsafe", "status", "CPU [s]", "wall [s]", *(["reason"] if some_failed else []))
     more = f"The first {MOST_ROWS} of {len(made.rows)} points; map.csv has all. " if len(made.rows) > MOST_ROWS else ""
     return tables.table(titles, rows, columns, f"{more}A click on a title sorts the table", "sortable")
 

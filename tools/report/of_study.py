@@ -74,7 +74,7 @@ def rows_of(study):
         value = run.number(name)
         return plain(value, digits)
 
-    return tables.table(("run", "model", "dofs", "step or tolerance", "CPU s per simulated s", "vibration error", "eps_t max", "eps_n max", "energy", ""),
+    return tables.table(("run", "model", "dofs", "step [s] or tolerance", "CPU s per simulated s", "vibration error", "eps_t max", "eps_n max", "energy balance", "status"),
                         [(run.label, run.row["model"], run.row["reduced_dofs"] or "-", cell(run, "step_or_tolerance"), cell(run, "cpu_per_simulated_s"),
                           percent(run.number("vibration_error")), percent(run.number("eps_t_max")), percent(run.number("eps_n_max")), percent(run.number("energy_residual")),
                           run.row["status"]) for run in study.all], range(2, 9))

@@ -10,6 +10,7 @@ from report.files import numbers, read_table
 from report.page import Page, cards
 from report.quantities import POUND, both, fixed, percent
 
+ROUNDING = 1e-6  # [mm], [kN m] along an assembly: less is zero
 BUCKLING_ROWS = 40  # of a page; buckling.csv has all
 MOST_PEAKS = 4  # of the headline figures of a response
 
@@ -25,6 +26,8 @@ def along_assembly(name, label, caption, states, value):
     made, axes = plots.figure(plots.WIDE, 2.8)
     for number, (state, own) in enumerate(states.items()):
         axes.plot(numbers(own, "from_bit"), [value(row) for row in own], color=COLOURS[number % len(COLOURS)], linewidth=1.2, label=state)
+    if max(map(abs, axes.dataLim.intervaly)) < ROUNDING:
+        axes.set_ylim(-1, 1)
     axes.set_xlabel("distance from the bit [m]"), axes.set_ylabel(label)
     plots.legend_above(axes, 2, -0.25)
     return Figure(name, made, caption, True)

@@ -45,4 +45,6 @@ def plain(value, digits=4):
 def percent(value):
     if value is None or not math.isfinite(value):
         return "-"
+    if abs(value) >= 0.995:
+        return f"{100 * value:.0f} %"
     return f"{100 * value + 0.0:.2g} %" if value == 0 or abs(value) >= SMALLEST else f"< {100 * SMALLEST:g} %"

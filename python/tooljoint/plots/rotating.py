@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .style import COLOURS, GREY, MAP, PALE, RPM, depth_axis, label, legend_above, plt, whole_ticks
+from .style import COLOURS, GREY, MAP, PALE, RPM, depth_axis, label, legend_above, logarithmic, plt, whole_ticks
 
 FORWARD, BACKWARD = COLOURS[:2]
 UNSTABLE = "#B00020"  # of modes that grow
@@ -181,7 +181,8 @@ def response_figure(results: Any) -> Any:
     for name in names:
         unit = group[name + "_amplitude"].attrs["units"]
         unit = unit.decode() if isinstance(unit, bytes) else unit
-        line, = amplitudes.semilogy(x, np.maximum(rows[name + "_amplitude"], 1e-300), linewidth=1.1, label=label(name, unit))
+        amplitude = rows[name + "_amplitude"]
+        line, = amplitudes.semilogy(x, np.where(amplitude > 0, amplitude, np.nan), linewidth=1.1, label=label(name, unit))
         units.add(unit)
         phases.plot(x, np.degrees(np.unwrap(rows[name + "_phase"])), color=line.get_color(), linewidth=1.0)
     if peaks is not None:
@@ -191,6 +192,7 @@ def response_figure(results: Any) -> Any:
     positive = positive[positive > 0]
     if positive.size:
         amplitudes.set_ylim(bottom=0.5 * positive.min())
+        logarithmic(amplitudes.yaxis)
     amplitudes.set_ylabel(label("amplitude", units.pop() if len(units) == 1 else "unit of the output"))
     legend_above(amplitudes, 3)
     phases.set_ylabel(label("phase", "deg")), phases.set_xlabel(along)
