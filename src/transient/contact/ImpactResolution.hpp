@@ -49,8 +49,9 @@ class ImpactResolution {
   int halvings(const State& from, const State& to, double h);
   /// The step that ended at `to` counts.
   void keep(const State& to, double h);
-  /// Level that the next step may have. After an impact steps grow, at most by Tuned::atATime halvings at
-  /// once, when closed contact has been without motion for half a period of its vibration.
+  /// Level that the next step may have. After an impact steps grow, at most by Tuned::atATime
+  /// halvings at once, when closed contact has been without motion for half a period of its
+  /// vibration.
   int nextLevel(const State& to, double h, const StepGrid& grid);
   /// The step was lengthened: the wait begins anew.
   void lengthened() { calm_ = 0; }

@@ -19,8 +19,8 @@ using Comparison = std::function<StepComparison(const State& from, double span)>
 /// S, D and a quarter of the difference V of the velocities; 0 where contact that no step resolves
 /// leaves it unknown. Above `Step Error Warning` it warns, and so does a scheme that damps more of
 /// the vibration than that; the run fails with an S above 1, unless all of its motion is compared
-/// and D within half of the limit. Where S is above half of `Step Error Limit`, or the scheme damps more
-/// than a fifth of `Step Error Warning`, or contact rests on walls too stiff for the step, its
+/// and D within half of the limit. Where S is above half of `Step Error Limit`, or the scheme damps
+/// more than a fifth of `Step Error Warning`, or contact rests on walls too stiff for the step, its
 /// motion is compared (StepComparison.hpp): it fails when D is above the limit, unless neighbours
 /// part as far, and when its speeds are more than 2.5 limits off while D is above the warning, or
 /// above 0.4 times that with V above 0.8; right is a D within `Step Error Warning`, with speeds as

@@ -129,9 +129,9 @@ TEST(Manual, ATopicIsAListWithAllBelow) {
     EXPECT_EQ(occurrences(text, "\n#") + 1, 3U) << topic;
     EXPECT_EQ(text.find("### scene/Contact\n"), 0U) << topic;
   }
-  EXPECT_EQ(manualMarkdown(smallScene(), "interval")
-                .find("##### scene/Contact/Intervals/\\<interval>\n"),
-            0U);
+  EXPECT_EQ(
+      manualMarkdown(smallScene(), "interval").find("##### scene/Contact/Intervals/\\<interval>\n"),
+      0U);
 }
 
 TEST(Manual, ATopicMayBeAParameter) {
