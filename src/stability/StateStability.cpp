@@ -52,9 +52,9 @@ constexpr double basisAccuracy = 1e-4;
 constexpr double floatingShift = -1.0;
 /// Growth below this part of |s| is within the accuracy of s.
 constexpr double noGrowth = 1e-7;
-/// A motion whose frequency is below this part of its growth does not swing: it grows by e^60 in
-/// the first half of a period. A divergence under torque or rotation has such frequencies.
-constexpr double swings = 0.05;
+/// A motion with |Im s| below this part of Re s is no vibration: it grows by e^60 in half a period.
+/// A divergence under torque or rotation has such frequencies.
+constexpr double vibrating = 0.05;
 /// Stiffness between components below this part of the rows leaves each a system of its own.
 constexpr double alone = 0.1;
 /// Skew stiffness below this part of the rows is rounding.
@@ -328,7 +328,7 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   if (!worst) return found;
   found.refined = worst->refined;
   found.growthRate = worst->mode.s.real();
-  if (std::abs(worst->mode.s.imag()) > swings * worst->mode.s.real())
+  if (std::abs(worst->mode.s.imag()) > vibrating * worst->mode.s.real())
     found.frequency = std::abs(worst->mode.s.imag()) / constants::twoPi;
   // at the phase at which its largest entry is largest
   Eigen::Index largest = 0;

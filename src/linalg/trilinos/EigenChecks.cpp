@@ -237,16 +237,22 @@ int decimalDigits(double x, int most) {
 }
 
 /// Half a unit of the last digit of entries that a text file has cut off after 8 to 12 digits; 0
-/// where they have more, or fewer, as numbers that were chosen.
+/// where some have more, and where few have as many: those were chosen, such as a stiff spring and
+/// a soft one in one sum, and are exact. So are whole numbers.
 double roundingOfText(const Sparse& K) {
   constexpr int fewest = 8, most = 12;
+  constexpr long few = 8;  // entries: a beam element of a file has as many
   int longest = 0;
+  long cut = 0;
   for (int i = 0; i < K.outerSize(); ++i)
     for (Sparse::InnerIterator it(K, i); it; ++it) {
-      longest = std::max(longest, decimalDigits(it.value(), most));
-      if (longest > most) return 0.0;
+      const int digits = decimalDigits(it.value(), most);
+      if (digits > most) return 0.0;
+      if (digits < fewest || it.value() == std::round(it.value())) continue;
+      longest = std::max(longest, digits);
+      ++cut;
     }
-  return longest < fewest ? 0.0 : 0.5 * std::pow(10.0, 1 - longest);
+  return cut < few ? 0.0 : 0.5 * std::pow(10.0, 1 - longest);
 }
 
 }  // namespace
