@@ -164,9 +164,8 @@ double vibrationError(const HistoryView& history, const HistoryView& reference,
     refuse("A history to be compared holds numbers that are not finite.");
   if (!(std::sqrt(vibration) > negligibleNorm))
     refuse(
-        "The reference history does not vibrate in the displacements that are compared, of a "
-        "string "
-        "the lateral ones, so no vibration error can be given.");
+        "The reference history does not vibrate in the displacements that are compared, which "
+        "are the lateral ones of a string, so no vibration error can be given.");
   return std::sqrt(error / vibration);
 }
 

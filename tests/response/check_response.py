@@ -191,6 +191,9 @@ def string():
     checks = table("string_response", "spot_checks")
     good = np.abs(checks["error"] - checks["estimate"]) <= 0.5 * checks["error"] + 1e-9 * checks["full"]
     expect("string: the error of the response is the one estimated", np.all(good), np.c_[checks["full"], checks["error"], checks["estimate"]])
+    for name, speed in (("string_at_rest", []), ("string_turning", ["Response/Rotary Speed=120 rpm"])):
+        done = run("response", "string.xml", name, "!Response/Highest Speed", "!Response/Order", "Response/Highest Frequency=5", "Response/Points=3", *speed)
+        expect(f"{name}: a response at 0 rpm of a string that turns is warned of", ("is that of 0 rpm" in " ".join((done.stdout + done.stderr).split())) == (not speed), done.stdout[-600:])
     # a smooth start: neither speed nor acceleration at t = 0
     ramp = ["Rotary Speed/Law=Ramp", "Rotary Speed/Ramp/Final Speed=120 rpm", "Rotary Speed/Ramp/Duration=1"]
     campbell = [*ramp, "Campbell/Highest Speed=120 rpm", "Campbell/Points=2", "Campbell/Modes=4", "Campbell/Orders={1}", "Campbell/Friction=Sliding"]

@@ -230,6 +230,16 @@ def buckled():
         expect(f"{weight}: states of the stiff string are said to be {'un' if unstable else ''}stable", ("of the stiff string are unstable" in said) == unstable, said[-800:])
 
 
+def pulled():
+    """A force of the deck has no part in torque and drag, and that is said."""
+    force = '<ParameterList name="Loads"><ParameterList name="Forces"><ParameterList name="pull"><Parameter name="Node" type="int" value="20"/>' \
+        '<Parameter name="Component" type="string" value="w"/><Parameter name="Value" type="double" value="-3e4"/></ParameterList></ParameterList>'
+    text = (SOURCES / "xml/vertical_1000m.xml").read_text(encoding="utf-8").replace("components/", f"{SOURCES}/xml/components/")
+    pathlib.Path("pulled.xml").write_text(text.replace('<ParameterList name="Loads">', force), encoding="utf-8")
+    done = tooljoint("torque-drag", "pulled.xml", "--output", "pulled", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Stiff String=None")
+    expect("forces of the deck are warned of", done.returncode == 0 and "Loads/Forces has no part in torque and drag" in " ".join(done.stderr.split()), done.stderr)
+
+
 def locked():
     """Pushed so hard that it locks up, a string has no loads at the surface, and its profile ends below the lock-up. With bending stiffness it
     has no result, which few iterations show as well as many."""
@@ -337,6 +347,7 @@ def files():
 straight()
 backward()
 buckled()
+pulled()
 pressure()
 grades()
 stiff("build_hold_1400m", 0.01, 0.03)

@@ -89,9 +89,8 @@ void warnOfBuckling(const std::vector<TorqueDragProfile>& profiles) {
   }
   if (first != nullptr)
     log::warn(fmt::format(
-        "{} of {} states of the stiff string are unstable ({} with the bit at {} first): it "
-        "buckles "
-        "there, and its contact and torque are larger than these. See the state on the wall by "
+        "{} of {} states of the stiff string are unstable ({} with the bit at {} first): there it "
+        "buckles, and its contact and torque are larger than these. See the state on the wall by "
         "`tooljoint run` with Static/Unstable State \"Perturb\", or by `tooljoint buckling`.",
         unstable, all, first->row.operation, text(first->row.bit, "m", 0)));
 }
