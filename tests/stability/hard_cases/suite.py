@@ -39,8 +39,17 @@ def show(row):
 
 
 def stored(path):
+    """Rows and plots of a file, and whether the case came to its end."""
     content = json.loads(path.read_text(encoding="utf-8"))
-    return [table.Row(**row) for row in content["rows"]], [table.Plot(**plot) for plot in content["plots"]]
+    return ([table.Row(**row) for row in content["rows"]], [table.Plot(**plot) for plot in content["plots"]],
+            content["complete"])
+
+
+def store(path, found, complete):
+    """Writes what a case has found so far, so that a stopped one leaves its rows."""
+    kinds = {name: [dataclasses.asdict(item) for item in found if isinstance(item, kind)]
+             for name, kind in (("rows", table.Row), ("plots", table.Plot))}
+    path.write_text(json.dumps({**kinds, "complete": complete}), encoding="utf-8")
 
 
 def results(case, options, program):
@@ -48,21 +57,21 @@ def results(case, options, program):
     paths = {short: program.work / f"case_{case.number:02d}{'_short' if short else ''}.json" for short in (False, True)}
     path = paths[options.short]
     if path.exists() and not options.fresh:
-        return *stored(path), options.short
+        rows, plots, complete = stored(path)
+        if complete or options.no_run:
+            return rows, plots, options.short
     if options.no_run:
-        return *(stored(paths[True]) if paths[True].exists() else ([], [])), True
+        return *(stored(paths[True])[:2] if paths[True].exists() else ([], [])), True
     print(f"case {case.number}: {case.title}", flush=True)
     begin, found = time.monotonic(), []
     for item in case.function(program, options.short):
         found.append(item)
+        store(path, found, complete=False)
         if isinstance(item, table.Row):
             show(item)
-    rows = [item for item in found if isinstance(item, table.Row)]
-    plots = [item for item in found if isinstance(item, table.Plot)]
-    path.write_text(json.dumps({"rows": [dataclasses.asdict(row) for row in rows],
-                                "plots": [dataclasses.asdict(plot) for plot in plots]}), encoding="utf-8")
+    store(path, found, complete=True)
     print(f"case {case.number}: {time.monotonic() - begin:.1f} s", flush=True)
-    return rows, plots, options.short
+    return *stored(path)[:2], options.short
 
 
 def main():
