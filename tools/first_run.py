@@ -98,7 +98,7 @@ def figures(program, output):
         "cpu_per_simulated_second": cpu,
         "speed_up": cpu["full"] / cpu["reduced"],
         "vibration_error": json.loads(compared.stdout)["vibration_error"],
-        "hook_load": reduced["static"]["top_axial_force"],
+        "hook_load": reduced["static"]["hook_load"],
         "weight_in_mud": sum(length * in_mud(outer, inner) for _, length, outer, inner in string),
         "weight_on_bit": weight_on_bit,
         "surface_torque": -reduced["static"]["top_torque"],

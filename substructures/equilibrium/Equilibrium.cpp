@@ -11,6 +11,7 @@
 
 #include "common/Error.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::equilibrium {
 namespace {
@@ -304,6 +305,12 @@ void describeTorque(const StaticInput& input, StaticState& state) {
       state.torqueScale, std::abs(state.appliedTorque) + state.frictionTorque.cwiseAbs().sum());
 }
 
+bool movesAlongTheWell(const StaticInput& input) {
+  for (int n = 0; n < input.nodes; ++n)
+    if (input.held[static_cast<std::size_t>(6 * n + beam::nodal::w)] == 0) return true;
+  return false;
+}
+
 StaticSwitches switchesOf(const StaticInput& input, const StaticOptions& options) {
   StaticSwitches switches;
   switches.geometricStiffness = input.geometricStiffness && options.geometricStiffness;
@@ -334,6 +341,7 @@ StaticState describe(const StaticInput& input, const StaticProblem& problem,
   state.reaction = problem.unbalanced(displacement);
   for (std::size_t dof = 0; dof < input.held.size(); ++dof)
     if (input.held[dof] == 0) state.reaction(static_cast<int>(dof)) = 0.0;
+  if (movesAlongTheWell(input)) state.hookLoad = -state.reaction(beam::nodal::w);
   describeTorque(input, state);
   return state;
 }

@@ -46,7 +46,9 @@ struct StaticState {
 
   int contactNodes = 0;        ///< laterally free nodes with G > 0
   int compressedElements = 0;  ///< elements with F_apo < 0
-  double topAxialForce = 0.0;  ///< F_apo of the first element [N]
+  double topAxialForce = 0.0;  ///< F_apo of the first element, the tension in its middle [N]
+  double hookLoad = 0.0;  ///< what the support of the first node carries along the string; 0 where
+                          ///< no node moves along it [N]
   double lastElementAxialForce = 0.0;
   double lastElementTorque = 0.0;
   double maxNormalForce = 0.0;

@@ -55,7 +55,7 @@ def wells():
         expect(f"new {path}: the README names the deck", f"tooljoint run {name}.xml" in readme and "@" not in readme, readme)
         expect(f"new {path}: so does the deck itself", xml.parse(pathlib.Path(path) / f"{name}.xml").getroot().get("name") == name)
     folder = runs("my_well/my_well.xml", *SHORT)
-    loads = [s["static"]["top_axial_force"] for s in (alone, folder) if s]
+    loads = [s["static"]["hook_load"] for s in (alone, folder) if s]
     expect("both wells have one hook load", len(loads) == 2 and abs(loads[0] / loads[1] - 1) < 1e-9, str(loads))
     done = tooljoint("torque-drag", "well.xml", "--output", "drag")
     with open("drag/torque_drag.csv", encoding="utf-8") as file:

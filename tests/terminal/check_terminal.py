@@ -71,7 +71,7 @@ def last_screen():
     screen = done.stdout[done.stdout.index("\nhook load"):]
     expect("six numbers in this order", [name for name in NAMES if value(screen, name) is not None or name == "worst check"] == list(NAMES), screen)
     static, motion = summary["static"], summary["transient"]
-    for name, wanted, half in (("hook load", static["top_axial_force"] / 1e3, 0.05), ("surface torque", -static["top_torque"] / 1e3, 0.005),
+    for name, wanted, half in (("hook load", static["hook_load"] / 1e3, 0.05), ("surface torque", -static["top_torque"] / 1e3, 0.005),
                                ("largest side force", static["max_normal_force"] / 1e3, 0.005), ("bit speed", motion["bit_speed_rpm"]["mean"], 0.05)):
         found = value(screen, name)
         expect(f"{name} is that of the summary", found is not None and abs(found - wanted) <= 1.01 * half, f"{found} {wanted}")

@@ -125,7 +125,7 @@ def surface(run):
     """Torques and hook load over time, as far as they are recorded."""
     found = []
     for name, label, lines in (("torques", "torque [kN m]", (("surface_torque", "at the surface", ORANGE), ("torque_on_bit", "of the rock on the bit", BLUE))),
-                               ("hook-loads", "hook load [kN]", (("hook_load", "effective tension in the uppermost element", ORANGE),))):
+                               ("hook-loads", "hook load [kN]", (("hook_load", "what the hook carries, without block", ORANGE),))):
         recorded = [(values, text, colour) for data, text, colour in lines if (values := run.get(f"/transient/{data}")) is not None]
         if not recorded:
             continue

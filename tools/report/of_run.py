@@ -7,9 +7,10 @@ from report.quantities import both, fixed, percent
 def headline(run):
     """Cards of what is asked first."""
     found = []
-    if run.is_string and run.value("static.top_axial_force") is not None:
-        found.append(("Hook load", *both(run.value("static.top_axial_force"), "hook load"), "effective tension in the uppermost element", False))
-        found.append(("Surface torque", *both(-run.value("static.top_torque"), "torque"), "at rest, against a rotation to the right", False))
+    if run.is_string and run.value("static.hook_load") is not None:
+        found.append(("Hook load", *both(run.value("static.hook_load"), "hook load"), "at rest, without block", False))
+        sense, side = (-1, "left") if (run.value("static.friction_direction") or 0) < 0 else (1, "right")
+        found.append(("Surface torque", *both(-sense * run.value("static.top_torque"), "torque"), f"at rest, against a rotation to the {side}", False))
         node = run.value("static.max_normal_force_node")
         if node:
             depth, feet = both(run.s[node - 1], "length")

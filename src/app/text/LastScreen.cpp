@@ -122,11 +122,14 @@ constexpr double noTorque = 5;
 /// Hook load, surface torque and the largest side force of a string at rest.
 void ofString(const Json& summary, const std::string& folder) {
   // exactly none where the string has no axial dofs
-  if (const auto load = number(summary, "/static/top_axial_force"); load && *load != 0.0)
-    line("hook load", quantity(*load, "kN", 1), "effective tension in the uppermost element");
+  if (const auto load = number(summary, "/static/hook_load"); load && *load != 0.0)
+    line("hook load", quantity(*load, "kN", 1), "at rest, without block");
+  const double sense = number(summary, "/static/friction_direction").value_or(1.0) < 0.0 ? -1 : 1;
   if (const auto torque = number(summary, "/static/top_torque"))
-    line("surface torque", quantity(-*torque, "kN m", 2),
-         std::abs(*torque) < noTorque ? "at rest" : "at rest, against a rotation to the right");
+    line("surface torque", quantity(-sense * *torque, "kN m", 2),
+         std::abs(*torque) < noTorque
+             ? "at rest"
+             : std::string("at rest, against a rotation to the ") + (sense < 0 ? "left" : "right"));
   const auto force = number(summary, "/static/max_normal_force");
   const auto node = number(summary, "/static/max_normal_force_node");
   if (!force || !node || *node < 1.0) return;  // nothing touches
@@ -239,7 +242,7 @@ void lastScreen(const std::string& folder, const deck::Deck& deck) {
   const auto summary = Json::parse(io::readText(folder + "/summary.json"));
   details(summary);
   log::info("");
-  if (number(summary, "/static/top_axial_force")) ofString(summary, folder);
+  if (number(summary, "/static/hook_load")) ofString(summary, folder);
   ofMotion(summary);
   ofChecks(summary);
   if (const auto factor = number(summary, "/transient/real_time_factor"))

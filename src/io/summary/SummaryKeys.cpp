@@ -30,6 +30,7 @@ const std::vector<std::string>& documentedKeys() {
       "static.residual",
       "static.contact_nodes",
       "static.compressed_elements",
+      "static.hook_load",
       "static.top_axial_force",
       "static.last_element_axial_force",
       "static.last_element_torque",

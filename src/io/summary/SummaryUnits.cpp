@@ -26,6 +26,7 @@ const std::map<std::string, std::string>& single() {
   static const std::map<std::string, std::string> units{
       {"model.length", "m"},
       {"path.max_position_error", "m"},
+      {"static.hook_load", "N"},
       {"static.top_axial_force", "N"},
       {"static.last_element_axial_force", "N"},
       {"static.last_element_torque", "N m"},

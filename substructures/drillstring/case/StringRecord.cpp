@@ -76,7 +76,7 @@ std::vector<cases::Channel> StringRecord::channels() const {
       {"/transient/hook_load",
        {},
        "N",
-       "Effective tension in the uppermost element",
+       "What the hook carries, without block",
        &surface_.hookLoad()}};
   if (recordsForce_)
     out.push_back({"/transient/normal_force",

@@ -191,6 +191,7 @@ std::vector<cases::RestFigure> restFigures(const StaticStage& stage) {
   const auto& state = stage.state;
   return {
       {"contact_nodes", "1", "Nodes on the wall", static_cast<double>(state.contactNodes)},
+      {"hook_load", "N", "Hook load, without block", state.hookLoad},
       {"top_axial_force", "N", "Tension of the first element", state.topAxialForce},
       {"last_axial_force", "N", "Tension of the last element", state.lastElementAxialForce},
       {"top_torque", "N m", "Torque of the first element", state.topTorque},
@@ -220,6 +221,7 @@ void summarise(const StaticStage& stage, io::Summary& summary) {
   summary.set("static.residual", state.report.residual);
   summary.set("static.contact_nodes", state.contactNodes);
   summary.set("static.compressed_elements", state.compressedElements);
+  summary.set("static.hook_load", state.hookLoad);
   summary.set("static.top_axial_force", state.topAxialForce);
   summary.set("static.last_element_axial_force", state.lastElementAxialForce);
   summary.set("static.last_element_torque", state.lastElementTorque);
@@ -329,9 +331,9 @@ std::string describeStatic(const StaticStage& stage) {
   const auto force = [](double value) { return deck::printed(value, "kN", 4); };
   const auto torque = [](double value) { return deck::printed(value, "kN m", 4); };
   text += fmt::sprintf(
-      "            axial force %s at the top, %s in the last element; torque %s at the top, %s in "
+      "            hook load %s, axial force %s in the last element; torque %s at the top, %s in "
       "the last element\n",
-      force(s.topAxialForce), force(s.lastElementAxialForce), torque(s.topTorque),
+      force(s.hookLoad), force(s.lastElementAxialForce), torque(s.topTorque),
       torque(s.lastElementTorque));
   if (s.maxNormalForceNode > 0)
     text += fmt::sprintf("            contact %s in all, at most %s at node %d\n",

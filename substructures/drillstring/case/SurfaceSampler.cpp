@@ -26,7 +26,7 @@ SurfaceSampler::SurfaceSampler(const Scene& scene, const StaticStage& stage) : s
   const auto& state = stage.state;
   axialStiffness_ = section.axialRigidity() / element.length();
   torsionalStiffness_ = section.torsionalRigidity() / element.length();
-  axialOffset_ = state.axialForce(0) - axialStiffness_ * stretch(state.displacement, w);
+  axialOffset_ = state.hookLoad - axialStiffness_ * stretch(state.displacement, w);
   torqueOffset_ = state.torque(0) - torsionalStiffness_ * stretch(state.displacement, thetaZ);
 }
 

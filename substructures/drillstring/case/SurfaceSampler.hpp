@@ -9,12 +9,12 @@
 
 namespace tooljoint::drillstring {
 
-/// Of the uppermost element, of length L:
+/// By the strain of the uppermost element, of length L:
 ///
 ///     T = T_s + E S (w_2 - w_1 - (w_2 - w_1)_s)/L,
 ///     M = M_s + G J (theta_2 - theta_1 - (theta_2 - theta_1)_s)/L,
 ///
-/// w and theta_z of its nodes; s: static state.
+/// w and theta_z of its nodes; s: static state, T_s its hook load, M_s the torque of that element.
 class SurfaceSampler {
  public:
   SurfaceSampler(const Scene& scene, const StaticStage& stage);
@@ -24,7 +24,7 @@ class SurfaceSampler {
 
   const double& speed() const { return speed_; }        ///< Omega + dtheta_z/dt, node 1 [rad/s]
   const double& torque() const { return torque_; }      ///< -M, against the rotation [N m]
-  const double& hookLoad() const { return hookLoad_; }  ///< effective tension T [N]
+  const double& hookLoad() const { return hookLoad_; }  ///< T [N]
 
  private:
   const Scene& scene_;

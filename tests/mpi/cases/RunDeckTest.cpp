@@ -42,6 +42,7 @@ TEST_F(RunDeck, aStringGivesItsSummary) {
   const auto results = runDeck(pipes, {}, MPI_COMM_WORLD, {folder("pipes"), ""});
   const double perMetre = 7850 * constants::pi * (0.0635 * 0.0635 - 0.054 * 0.054) * 9.81;
   EXPECT_NEAR(results.number("static.top_axial_force"), 88.5 * perMetre, 1e-6 * 90 * perMetre);
+  EXPECT_NEAR(results.number("static.hook_load"), 90 * perMetre, 1e-6 * 90 * perMetre);
   EXPECT_EQ(results.number("model.nodes"), 31);
   EXPECT_EQ(results.number("ranks"), parallel::size());
   EXPECT_EQ(results.status(), "finished");

@@ -63,6 +63,7 @@ TEST(ReferenceStatic, AgreesWithTheSoftString) {
     tension += weight * down * element->length();
   }
   EXPECT_NEAR(state.topAxialForce, middle, 3e-3 * middle);
+  EXPECT_NEAR(state.hookLoad, tension, 3e-3 * tension);
   EXPECT_NEAR(state.totalNormalForce, pressed, 2e-2 * pressed);
   EXPECT_EQ(state.compressedElements, compressed);
 }
