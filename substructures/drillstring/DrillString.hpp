@@ -46,7 +46,7 @@ struct Instance {
                      ///< on one level
   int firstElement = 0;      ///< 0-based
   int lastElement = 0;       ///< 0-based, inclusive
-  double gaugeRadius = 0.0;  ///< of the widest gauge in an entry of the assembly, 0: none [m]
+  double gaugeRadius = 0.0;  ///< of the widest gauge in it, 0: none [m]
 };
 
 /// Straight chain of elements from the surface (node 0) to the bit (last node).

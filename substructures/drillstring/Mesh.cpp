@@ -302,8 +302,10 @@ class Mesher {
                              " is above the radius of the hole, " + radius.text(bore) +
                              ". Give the distance between the centres of gauge and string.");
     const int own = index < place.lastNode ? index : index - 1;
-    double& widest = out_.instances[at(out_.elements[at(own)].instance)].gaugeRadius;
-    widest = std::max(widest, gauge.gaugeRadius);
+    for (auto* instances : {&out_.instances, &out_.nested})
+      for (Instance& one : *instances)
+        if (one.firstElement <= own && own <= one.lastElement)
+          one.gaugeRadius = std::max(one.gaugeRadius, gauge.gaugeRadius);
     if (reach < node.contactRadius + tightFit) return;  // the next body is wider and touches first
     node.clearance = std::max(0.0, clearance);
     node.contactRadius = gauge.gaugeRadius;

@@ -210,7 +210,7 @@ def stiff(name, tension, torque):
     static = static_state(name)
     expect(f"{name}: the torque balances", abs(static["torque_balance_defect"]) < 5e-3 * static["torque_scale"], static["torque_balance_defect"])
     # Drilling adds the drag of its axial speed, 5 mm/s against a metre per second around. The stiff string bridges the waves of a survey.
-    near(f"{name}: tension at the top, soft against stiff", float(soft["hook_load"]), static["top_axial_force"], tension)
+    near(f"{name}: tension at the top, soft against stiff", float(soft["hook_load"]), static["hook_load"], tension)
     near(f"{name}: torque at the top, soft against stiff", float(soft["surface_torque"]), -static["top_torque_equilibrium"], torque)
     return static
 
@@ -238,6 +238,22 @@ def pulled():
     pathlib.Path("pulled.xml").write_text(text.replace('<ParameterList name="Loads">', force), encoding="utf-8")
     done = tooljoint("torque-drag", "pulled.xml", "--output", "pulled", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Stiff String=None")
     expect("forces of the deck are warned of", done.returncode == 0 and "Loads/Forces has no part in torque and drag" in " ".join(done.stderr.split()), done.stderr)
+
+
+def grouped():
+    """A group of stands with a stabiliser in one of them is the string of its stands: only that one touches with the stabiliser."""
+    gauge = '<ParameterList name="wide"><Parameter name="Length" type="double" value="2"/><Parameter name="Elements" type="int" value="2"/><Parameter name="Outer Radius" type="double" value="0.0635"/>' \
+        '<Parameter name="Inner Radius" type="double" value="0.0413"/><Parameter name="Gauge Position" type="double" value="1"/><Parameter name="Gauge Radius" type="double" value="0.107"/></ParameterList>'
+    group = '<ParameterList name="group"><Parameter name="Parts" type="Array(string)" value="{149*stand, wide, joint}"/></ParameterList>'
+    text = pathlib.Path(DECK).read_text(encoding="utf-8").replace('<ParameterList name="Components">', '<ParameterList name="Components">' + gauge + group)
+    pathlib.Path("grouped.xml").write_text(text, encoding="utf-8")
+    found = [run("grouped", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None", f"Drillstring/Assembly={assembly}", deck="grouped.xml")
+             for assembly in ("{149*stand, wide, joint}", "{group}")]
+    for one, other in zip(*found):
+        near(f"{one['operation']}: torque of a group of stands", float(other["surface_torque"]), float(one["surface_torque"]), 1e-12)
+    joints = {row["operation"]: float(row["surface_torque"]) for row in run("stands", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None")}["Rotate off bottom"]
+    turned = {row["operation"]: float(row["surface_torque"]) for row in found[1]}["Rotate off bottom"]
+    near("one stabiliser in 1425 m hardly adds to the torque", turned, joints, 0.01)
 
 
 def locked():
@@ -355,7 +371,7 @@ stiff("extended_reach_5000m", 0.01, 0.05)
 # A vertical string hardly touches: what torque the bit does not ask for is small.
 alone = stiff("vertical_5000m", 0.005, 0.01)
 together = static_state("vertical_5000m", ranks=2)
-for key in ("top_axial_force", "top_torque_equilibrium"):
+for key in ("hook_load", "top_torque_equilibrium"):
     near(f"vertical_5000m: {key} on two ranks", together[key], alone[key], 1e-10)
 long = stiff("vertical_10000m", 0.005, 0.01)
 near("5 and 10 km have the same lower end: contact forces", long["total_normal_force"], alone["total_normal_force"], 0.01)
@@ -367,6 +383,7 @@ expect("vertical_5000m from unloaded nodes: it is said that the string moves alo
 beside()
 documented()
 weight_on_bit()
+grouped()
 locked()
 resumed()
 files()

@@ -47,53 +47,57 @@ void keepLeastYield(Margin& margin, const beam::Section& section,
   if (strength && stress > 0.0) keepLeast(margin, *strength / stress, depth);
 }
 
-/// Pieces over which a pipe carries the weight of its tool joints [m]: a stand of three pipes.
+/// Pieces over which a pipe carries the weight of its tool joints and touches with them [m]: a
+/// stand of three pipes.
 constexpr double longestStand = 30.0;
 
-/// Buoyed weight per length of each element [N/m], the mean of the outermost component that holds
-/// it and is no longer than a stand: a joint that is heavier than its pipe does not press on one
-/// side of the hole where the pipe presses on the other.
-std::vector<double> weights(const Scene& scene) {
-  const double gravity = gravityOf(scene), mud = mudDensity(scene);
-  const auto& string = scene.string;
-  std::vector<double> own;
-  for (const Element& element : string.elements)
-    own.push_back((element.section().massPerLength() - mud * element.section().area()) * gravity);
-  std::vector<double> mean = own;
-  std::vector<char> taken(own.size(), 0);
-  for (const auto* instances : {&string.instances, &string.nested})
-    for (const Instance& one : *instances) {
-      double weight = 0.0, length = 0.0;
-      for (int e = one.firstElement; e <= one.lastElement; ++e) {
-        weight += own[at(e)] * string.elements[at(e)].length();
-        length += string.elements[at(e)].length();
-      }
-      if (length > longestStand || taken[at(one.firstElement)] != 0) continue;
-      for (int e = one.firstElement; e <= one.lastElement; ++e)
-        mean[at(e)] = weight / length, taken[at(e)] = 1;
-    }
-  return mean;
+double lengthOf(const DrillString& string, const Instance& one) {
+  return string.nodes[at(one.lastElement + 1)].s - string.nodes[at(one.firstElement)].s;
 }
 
+/// The piece of the string that each element belongs to: the outermost component that holds it and
+/// is no longer than a stand, the innermost where all are longer.
+std::vector<const Instance*> pieces(const DrillString& string) {
+  std::vector<const Instance*> found(string.elements.size(), nullptr);
+  for (const auto* instances : {&string.instances, &string.nested})
+    for (const Instance& one : *instances) {
+      const auto* before = found[at(one.firstElement)];
+      if (before != nullptr && lengthOf(string, *before) <= longestStand) continue;
+      std::fill(found.begin() + one.firstElement, found.begin() + one.lastElement + 1, &one);
+    }
+  return found;
+}
+
+/// Each element with the mean weight and the largest radius of its piece: a joint that is heavier
+/// than its pipe does not press on one side of the hole where the pipe presses on the other, and a
+/// pipe touches with its joints. Pieces longer than a stand keep the weight of each element.
 std::vector<softstring::Stretch> stretches(const Scene& scene) {
-  const double gravity = gravityOf(scene);
+  const double gravity = gravityOf(scene), mud = mudDensity(scene);
   if (!(gravity > 0.0))
     throw DeckError(scene.deck.file() +
                     ": torque and drag needs the weight of the string. Add the list Loads, with "
                     "Gravity above 0.");
-  std::vector<softstring::Stretch> found;
   const auto& string = scene.string;
-  const auto weight = weights(scene);
-  std::vector<double> widest;
-  for (const Instance& one : string.instances) widest.push_back(one.gaugeRadius);
-  for (const Element& element : string.elements) {
-    double& radius = widest[at(element.instance)];
-    radius = std::max(radius, element.section().outerRadius());
-  }
-  for (int e = 0; e < string.elementCount(); ++e) {
-    const Element& element = string.elements[at(e)];
-    const auto& section = element.section();
-    found.push_back({element.length(), section, weight[at(e)], widest[at(element.instance)]});
+  const auto piece = pieces(string);
+  std::vector<softstring::Stretch> found;
+  for (int e = 0; e < string.elementCount();) {
+    const Instance& one = *piece[at(e)];
+    const std::size_t first = found.size();
+    double carried = 0.0, length = 0.0, widest = one.gaugeRadius;
+    for (; e < string.elementCount() && piece[at(e)] == &one; ++e) {
+      const Element& element = string.elements[at(e)];
+      const auto& section = element.section();
+      const double weight = (section.massPerLength() - mud * section.area()) * gravity;
+      carried += weight * element.length();
+      length += element.length();
+      widest = std::max(widest, section.outerRadius());
+      found.push_back({element.length(), section, weight, 0.0});
+    }
+    const bool shared = lengthOf(string, one) <= longestStand;
+    for (std::size_t i = first; i < found.size(); ++i) {
+      found[i].frictionRadius = widest;
+      if (shared) found[i].weight = carried / length;
+    }
   }
   return found;
 }
