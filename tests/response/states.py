@@ -80,11 +80,33 @@ def wall():
     close("each speed, wall: two ranks give the same table", table("states_wall_2", "campbell")["frequency"], rows["frequency"], 1e-8)
 
 
+def drive():
+    """A torque at the end of a shaft that a PI controller turns: G J theta'' = -rho J omega^2 theta, G J theta'(0) = Z theta(0) with Z = K_i + i omega K_p - omega^2 I. No
+    motion is asked for."""
+    length, radius, inertia, proportional, integral = 2000.0, 0.06, 1500.0, 800.0, 300.0
+    sweep = lists("Loads", lists("t", values(Node=201, Component="theta_z"))) + lists("Outputs", lists("bit", values(Node=201, Component="theta_z")) + lists("top", values(Node=1, Component="theta_z")))
+    added = lists("Top Drive", values(Control="Speed", Inertia=inertia, Proportional_Gain=proportional, Integral_Gain=integral)) \
+        + lists("Response", values(Excitation="Transfer", Rotary_Speed=1.0, Lowest_Frequency="0 Hz", Highest_Frequency="1.1 Hz", Points=23) + sweep)
+    text = SHAFT.replace('name="Length" type="double" value="2"', f'name="Length" type="double" value="{length}"').replace('value="40"', 'value="200"').replace('value="0.1"', f'value="{radius}"')
+    text = text.replace('name="Supports">', 'name="Supports"><Parameter name="Dofs" type="string" value="torsional"/>').replace('value="u v w theta_z"', 'value="none"').replace('value="u v"', 'value="none"')
+    pathlib.Path("states_drive.xml").write_text(text[:text.rindex("</ParameterList>")] + added + "</ParameterList>", encoding="utf-8")
+    run("response", "states_drive.xml", "states_drive")
+    rows = table("states_drive", "response")
+    young, nu, rho = material()
+    shear, polar, omega = young / (2 * (1 + nu)), np.pi * radius**4 / 2, 2 * np.pi * rows["frequency"]
+    k = np.maximum(omega, 1e-9) * np.sqrt(rho / shear)
+    slope = (integral + 1j * omega * proportional - omega**2 * inertia) / (shear * polar * k)  # b/a of theta = a cos(k x) + b sin(k x)
+    top = 1 / (shear * polar * k * (slope * np.cos(k * length) - np.sin(k * length)))
+    for name, exact in (("top", top), ("bit", top * (np.cos(k * length) + slope * np.sin(k * length)))):
+        found = rows[f"{name}:t_amplitude"] * np.exp(1j * rows[f"{name}:t_phase"])
+        expect(f"response of a shaft on a PI drive, {name}: {np.abs(found / exact - 1).max():.1e} from theory", np.abs(found / exact - 1).max() < 1e-3, np.c_[rows["frequency"], np.abs(found), np.abs(exact)])
+
+
 def refusals():
     done = tooljoint("campbell", "laval.xml", "--output", "refused", "--set", EACH)
     expect("refused: each speed of parts", done.returncode == 2 and "the same at all speeds" in done.stderr, f"{done.returncode} {done.stderr[-400:]}")
 
 
 def states():
-    for check in (shaft, bit, refusals):
+    for check in (shaft, bit, drive, refusals):
         check()

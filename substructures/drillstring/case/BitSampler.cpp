@@ -32,7 +32,8 @@ BitSample BitSampler::at(const cases::Sample& sample,
                          const std::vector<cases::PointRecord>& drilling) const {
   const auto last = sample.velocity.size() - kNodeDofs;
   BitSample out;
-  out.speed = scene_.rotary.speed(sample.t) + sample.velocity(last + thetaZ);
+  out.imposed = scene_.rotary.speed(sample.t);
+  out.speed = out.imposed + sample.velocity(last + thetaZ);
   // Loads act along w and theta_z, the rock against them.
   for (const auto& load : loads_)
     addTo(load.component == w ? out.weight : out.torque, -load.value * load.law.value(sample.t));

@@ -174,11 +174,15 @@ std::string StringFigures::describe() const {
   const auto bending = cases::worst(elementColumns()[1].values);
   const auto acceleration = [](double value) { return deck::printed(value, "m/s2", 3); };
   const auto depth = [](double value) { return deck::printed(value, "m", 4); };
+  const auto index = bit_.stickSlipIndex(), stuck = bit_.stuckShare();
   return fmt::sprintf(
-      "figures     %.4g to %.4g s: stick-slip index %.3g, stuck %.3g %% of the time\n"
+      "figures     %.4g to %.4g s%s\n"
       "            acceleration: axial %s rms, lateral %s rms, %s at most (%s); bending range %s "
       "(%s)",
-      first_, last_, bit_.stickSlipIndex(), 100.0 * bit_.stuckShare(),
+      first_, last_,
+      index && stuck ? fmt::sprintf(": stick-slip index %.3g, stuck %.3g %% of the time", *index,
+                                    100.0 * *stuck)
+                     : std::string(": nothing turns the string"),
       acceleration(axial_.overallRms()), acceleration(lateral_.overallRms()),
       acceleration(lateral.value), depth(nodeDepth_[lateral.row]),
       deck::printed(bending.value, "kN m", 3), depth(elementDepth_[bending.row]));

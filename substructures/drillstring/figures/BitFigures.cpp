@@ -10,6 +10,7 @@ namespace tooljoint::drillstring {
 
 void BitFigures::add(const BitSample& sample) {
   speed_.add(sample.speed);
+  if (sample.imposed != 0.0) turned_ += 1.0;
   if (std::abs(sample.speed) < stuckSpeed_) stuck_ += 1.0;
   if (sample.weight) weight_.add(*sample.weight);
   if (sample.torque) torque_.add(*sample.torque);
@@ -19,8 +20,14 @@ void BitFigures::add(const BitSample& sample) {
       sample.weight.value_or(0.0) * *sample.advance + sample.torque.value_or(0.0) * sample.speed;
 }
 
-double BitFigures::stuckShare() const {
-  return speed_.samples() == 0 ? 0.0 : stuck_ / static_cast<double>(speed_.samples());
+std::optional<double> BitFigures::stickSlipIndex() const {
+  if (turned_ == 0.0) return std::nullopt;
+  return speed_.fluctuationIndex();
+}
+
+std::optional<double> BitFigures::stuckShare() const {
+  if (turned_ == 0.0) return std::nullopt;
+  return stuck_ / static_cast<double>(speed_.samples());
 }
 
 std::optional<double> BitFigures::rateOfPenetration() const {
@@ -38,8 +45,8 @@ void BitFigures::summarise(io::Summary& summary) const {
   const std::string key = "transient.figures.";
   constexpr double rpm = constants::rpmPerRadianPerSecond;
   speed_.summarise(key + "bit_speed_rpm", rpm, summary);
-  summary.set(key + "stick_slip_index", stickSlipIndex());
-  summary.set(key + "stuck_share", stuckShare());
+  if (const auto index = stickSlipIndex()) summary.set(key + "stick_slip_index", *index);
+  if (const auto share = stuckShare()) summary.set(key + "stuck_share", *share);
   summary.set(key + "stuck_speed_rpm", stuckSpeed_ * rpm);
   if (weight_.samples() > 0) weight_.summarise(key + "weight_on_bit", 1.0, summary);
   if (torque_.samples() > 0) torque_.summarise(key + "torque_on_bit", 1.0, summary);
@@ -49,12 +56,13 @@ void BitFigures::summarise(io::Summary& summary) const {
 
 void BitFigures::save(std::vector<double>& memory) const {
   for (const auto* signal : {&speed_, &weight_, &torque_, &advance_}) signal->save(memory);
-  memory.insert(memory.end(), {stuck_, power_});
+  memory.insert(memory.end(), {stuck_, turned_, power_});
 }
 
 void BitFigures::restore(const double*& memory) {
   for (auto* signal : {&speed_, &weight_, &torque_, &advance_}) signal->restore(memory);
   stuck_ = *memory++;
+  turned_ = *memory++;
   power_ = *memory++;
 }
 

@@ -13,6 +13,7 @@ namespace tooljoint::drillstring {
 
 /// The bit at one instant; null for what the deck does not model.
 struct BitSample {
+  double imposed = 0.0;           ///< Omega, of the rotary speed [rad/s]
   double speed = 0.0;             ///< omega_b = Omega + dtheta_z/dt [rad/s]
   std::optional<double> weight;   ///< on bit, positive in compression [N]
   std::optional<double> torque;   ///< on bit, positive against rotation [N m]
@@ -29,10 +30,10 @@ class BitFigures {
   const cases::SignalFigures& speed() const { return speed_; }
   const cases::SignalFigures& weight() const { return weight_; }
   const cases::SignalFigures& torque() const { return torque_; }
-  /// (max - min)/(2 |mean|) of the bit speed.
-  double stickSlipIndex() const { return speed_.fluctuationIndex(); }
-  /// Share of the samples with |omega_b| below the threshold.
-  double stuckShare() const;
+  /// (max - min)/(2 |mean|) of the bit speed; null where nothing turns the string.
+  std::optional<double> stickSlipIndex() const;
+  /// Share of the samples with |omega_b| below the threshold; null where nothing turns the string.
+  std::optional<double> stuckShare() const;
   /// Mean v_b [m/s]; null where no law gives it.
   std::optional<double> rateOfPenetration() const;
   /// sum(W v_b + T omega_b)/(A sum v_b) [Pa]: work at the bit over the volume of rock (R. Teale,
@@ -47,8 +48,9 @@ class BitFigures {
  private:
   double stuckSpeed_, area_;
   cases::SignalFigures speed_, weight_, torque_, advance_;
-  double stuck_ = 0.0;  ///< samples
-  double power_ = 0.0;  ///< sum of W v_b + T omega_b [W]
+  double stuck_ = 0.0;   ///< samples
+  double turned_ = 0.0;  ///< samples with Omega other than 0
+  double power_ = 0.0;   ///< sum of W v_b + T omega_b [W]
 };
 
 }  // namespace tooljoint::drillstring

@@ -174,15 +174,20 @@ void checkBit(const Scene& scene, Faults& faults) {
   checkBitRadius(scene, faults);
 }
 
+/// Analyses of vibrations about the static state have the equations of the motion.
+bool vibrates(const Scene& scene) {
+  return scene.moves() || scene.list().isSublist("Response") || scene.list().isSublist("Campbell");
+}
+
 /// What an autodriller asks of the others.
 void checkAutodriller(const Scene& scene, Faults& faults) {
   const std::string path = "Top Drive/Autodriller";
   if (!scene.bit || !scene.bit->law->givesWeight())
     faults.add(path, "has no effect without a Bit law that gives the weight on bit.");
-  if (!scene.moves())
+  if (!vibrates(scene))
     faults.add(path,
-               "has no effect without Transient: the hook holds the static state. Add "
-               "Transient.");
+               "has no effect without Transient, Response or Campbell: the hook holds the static "
+               "state. Add one of these lists.");
   if (scene.topDrive.constantHookLoad)
     faults.add(path,
                "moves the block, but Top Drive/Hook is \"Constant Load\". Leave one of the "
@@ -213,9 +218,10 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
                "is \"Torque\" without a Torque, which is then that of the static state. The "
                "string stands still there. Give Top Drive/Torque, or let the string turn from the "
                "start.");
-  if (drive.turnsFreely() && !scene.moves())
+  if (drive.turnsFreely() && !vibrates(scene))
     faults.add("Top Drive/Control",
-               "has no effect without Transient: the drive holds the static state. Add Transient.");
+               "has no effect without Transient, Response or Campbell: the drive holds the static "
+               "state. Add one of these lists.");
   if (drive.blockSpeed > 0.0 && !feeds)
     faults.add("Top Drive/Block Speed",
                "has no effect without a Bit law that gives the weight on bit.");

@@ -177,13 +177,25 @@ TEST(BitFigures, StickSlipIndexAndStuckShare) {
   BitFigures bit(5.0, 0.05);
   for (int i = 0; i < 30000; ++i) {
     BitSample sample;
+    sample.imposed = 10.0;
     sample.speed = 10.0 * (1.0 + std::sin(2.0 * pi * (i + 0.5) / 30000));
     bit.add(sample);
   }
-  EXPECT_NEAR(bit.stickSlipIndex(), 1.0, 1e-7);
-  EXPECT_NEAR(bit.stuckShare(), 1.0 / 3.0, 1e-4);
+  EXPECT_NEAR(bit.stickSlipIndex().value(), 1.0, 1e-7);
+  EXPECT_NEAR(bit.stuckShare().value(), 1.0 / 3.0, 1e-4);
   EXPECT_FALSE(bit.specificEnergy());
   EXPECT_FALSE(bit.rateOfPenetration());
+}
+
+TEST(BitFigures, ABitThatNothingTurnsDoesNotStick) {
+  BitFigures bit(5.0, 0.05);
+  BitSample sample;
+  for (const double speed : {1e-3, -2e-3}) {
+    sample.speed = speed;
+    bit.add(sample);
+  }
+  EXPECT_FALSE(bit.stickSlipIndex());
+  EXPECT_FALSE(bit.stuckShare());
 }
 
 TEST(BitFigures, SpecificEnergyOfPureCutting) {
