@@ -85,6 +85,7 @@ struct ListedModes {
   std::optional<io::Csv> undamped, damped;  ///< modes.csv, damped_modes.csv
   Vector hertz;                             ///< of the undamped modes
   std::optional<Growth> growth;             ///< of the damped modes
+  std::optional<Growth> coupledGrowth;      ///< of the coupled modes beside them
   std::optional<double> error, estimate;    ///< of the coupled frequencies, the largest
   Matrix shapes;                            ///< undamped modes of the full model, dofs x modes
   model::SecondOrderModel model;            ///< the full model, where there are shapes
@@ -249,10 +250,20 @@ ListedModes listComparedModes(const model::SecondOrderModel& full, const std::ve
   log::info(estimate::comparisonTable(damped, true));
   if (synthesis.coupled.wholeInterfaces)
     log::info("Errors of damped modes are not estimated beside an interface reduction.");
-  std::vector<std::complex<double>> values;
-  for (const auto& mode : damped) values.push_back(mode.full);
+  std::vector<std::complex<double>> values, coupled;
+  for (const auto& mode : damped) {
+    values.push_back(mode.full);
+    if (mode.coupledMode >= 0) coupled.push_back(mode.coupled);
+  }
   listed.growth = growthOf(values);
+  listed.coupledGrowth = growthOf(coupled);
   log::info(verdict(*listed.growth, values.size(), model::setsWithMovingStates(full, t)));
+  if (listed.growth->modes == 0 && listed.coupledGrowth->modes > 0)
+    log::warn(fmt::format(
+        "{} of the coupled modes beside them {}, the fastest as exp({:.3g} t): the reduction makes "
+        "a stable model unstable. Keep more modes, or choose another basis.",
+        listed.coupledGrowth->modes, listed.coupledGrowth->modes == 1 ? "grows" : "grow",
+        listed.coupledGrowth->fastest));
   logStageTimes();
   listed.damped = tableOf(damped);
   return listed;
@@ -312,6 +323,9 @@ void summarise(const ListedModes& listed, io::Summary& summary) {
   if (!listed.growth) return;
   summary.set("modes.growing", listed.growth->modes);
   summary.set("modes.fastest_growth", listed.growth->fastest);
+  if (!listed.coupledGrowth) return;
+  summary.set("modes.coupled_growing", listed.coupledGrowth->modes);
+  summary.set("modes.coupled_fastest_growth", listed.coupledGrowth->fastest);
 }
 
 ListedModes listModes(const Case& one, const RestingCase& rest, const ModesOptions& options) {

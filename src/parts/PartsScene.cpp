@@ -273,19 +273,20 @@ class Builder {
       for (std::size_t i = 0; i < now.recoveryNodes.size(); ++i)
         note(now.recoveryNodes[i], own.recoveryNodes[i]);
     }
-    if (scene_.parts.size() < 2) return;  // the numbers are those of the file
     std::vector<std::string> names;
     for (const auto& part : scene_.parts) names.push_back(part.name);
+    const bool alone = names.size() < 2;
     const auto nodes = std::make_shared<const decltype(scene_.nodes)>(scene_.nodes);
     for (auto& part : scene_.parts)
-      part.model.nodeName = [nodes, names](const DofLabel& label) {
+      part.model.nodeName = [nodes, names, alone](const DofLabel& label) {
         const auto found = nodes->find(label.entity);
         if (found == nodes->end()) return "node " + std::to_string(label.entity);
         const NodeName* node = &found->second.front();
         for (const auto& one : found->second)
           if (one.part == label.part) node = &one;
-        return "node " + std::to_string(node->node) + " of part " +
-               inQuotes(names[static_cast<std::size_t>(node->part)]);
+        const std::string name = "node " + std::to_string(node->node);
+        return alone ? name
+                     : name + " of part " + inQuotes(names[static_cast<std::size_t>(node->part)]);
       };
   }
 
@@ -311,17 +312,33 @@ PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingInp
   return Builder(settings, given, resolve).build();
 }
 
+namespace {
+
+/// Of a dof that a constraint holds at `value`.
+void requireHeldThere(const PartStart& start, double value) {
+  constexpr double rounding = 1e-9;
+  if (start.velocity == 0.0 &&
+      std::abs(start.displacement - value) <= rounding * std::max(1.0, std::abs(value)))
+    return;
+  throw DeckError(start.where + " gives a start of a dof that a constraint holds at " +
+                  formatNumber(value) + ". Leave it out.");
+}
+
+}  // namespace
+
 void findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver,
                PartsScene& scene) {
   if (!settings.atRest && settings.starts.empty()) return;
   auto options = scene.coupling;
   options.assembly = coupling::Assembly::Primal;
+  options.requireAgreeingStarts = false;  // they are found here
   const auto full = coupling::coupleWithPositions(scene.parts, options);
   Vector z = settings.atRest ? restState(full.model, t, solver) : full.model.initialDisplacement;
   Vector zDot = settings.atRest ? Vector(Vector::Zero(z.size())) : full.model.initialVelocity;
   if (settings.atRest)
     for (std::size_t p = 0; p < scene.parts.size(); ++p)
       scene.parts[p].reference = full.maps[p] * z + full.offsets[p];
+  std::vector<std::pair<Vector, const PartStart*>> given;
   for (const auto& start : settings.starts) {
     const auto it =
         std::find_if(scene.contents.begin(), scene.contents.end(),
@@ -337,12 +354,21 @@ void findStart(const PartsSettings& settings, double t, const model::NonlinearSo
     }
     // z += row' v: rows of a primal coupling in turned frames are orthonormal; another row would
     // not give the requested value
-    const Vector row = Vector(
-        full.maps[static_cast<std::size_t>(it - scene.contents.begin())].row(position).transpose());
+    const auto part = static_cast<std::size_t>(it - scene.contents.begin());
+    const Vector row = Vector(full.maps[part].row(position).transpose());
+    if (row.isZero(0.0)) {
+      requireHeldThere(start, full.offsets[part][position]);
+      continue;
+    }
     if (std::abs(row.squaredNorm() - 1.0) > 1e-9)
       throw DeckError(start.where +
                       " gives a start of a dof that depends on others by a constraint. Give the "
                       "start of the independent dofs.");
+    for (const auto& [other, first] : given)
+      if (std::abs(row.dot(other)) > 1e-9)
+        throw DeckError(start.where + " gives a start of the dof that " + first->where +
+                        " starts: they are joined. Leave one of the two out.");
+    given.emplace_back(row, &start);
     z += row * start.displacement;
     zDot += row * start.velocity;
   }

@@ -168,6 +168,25 @@ void refuseLostLoads(const model::Substructure& part) {
                        "Retain or fix the dof, give it mass or stiffness, or remove the load.");
 }
 
+/// Interior dofs without mass follow the others through springs and dampers, a motion of first
+/// order that modes of mass and stiffness do not hold.
+void warnOfDampedMassless(const model::Substructure& part) {
+  const auto& model = part.model;
+  const Vector ones = Vector::Ones(model.size());
+  const auto sizes = [&](const Sparse& matrix) { return Vector(matrix.cwiseAbs() * ones); };
+  const Vector mass = sizes(model.mass);
+  Vector damping = Vector::Zero(model.size());
+  for (const auto& term : model.damping) damping += sizes(term.matrix);
+  int count = 0, first = 0;
+  for (const int i : part.interior())
+    if (mass[i] == 0.0 && damping[i] > 0.0 && count++ == 0) first = i;
+  if (count == 0) return;
+  log::warn(
+      "Part \"" + part.name + "\" has " + std::to_string(count) +
+      " interior dofs with damping but no mass (first " + model::dofName(part.model, first) +
+      "). No basis holds how they creep, not even all modes. Retain them, or give them mass.");
+}
+
 /// checkPart for the first of identical parts; of the others what may differ from it.
 void checkParts(const std::vector<model::Substructure>& parts, const std::vector<int>& classes) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -250,6 +269,8 @@ class Team {
     });
     exchange();
     remember();
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (first(p) && !isWhole(cores_[p]->basis)) warnOfDampedMassless(parts_[p]);
     std::vector<ReducedSubstructure> reduced;
     std::map<std::size_t, ReducedModels> models;
     parallel::agree([&] {

@@ -36,6 +36,8 @@ class BitLaw {
   /// One point. `weightOnBit` [N]: that of the deck's Loads, for laws that do not give it. Forces
   /// are those on the bit: the resisting ones are negative.
   virtual std::shared_ptr<const model::PointLaw> make(double weightOnBit) const = 0;
+  /// Turned backward, the bit advances into uncut rock.
+  virtual bool cutsForwardOnly() const { return false; }
   /// Beyond it the program warns.
   virtual WeightRange calibration() const { return {}; }
   /// What `tooljoint check` says of it.

@@ -28,6 +28,7 @@ class Cutting final : public BitLaw {
     p_.samples = list.get<int>("Samples");
   }
   bool givesWeight() const override { return true; }
+  bool cutsForwardOnly() const override { return true; }
   std::shared_ptr<const model::PointLaw> make(double) const override {
     return std::make_shared<model::FormulaLaw<model::RegenerativeCutting>>(
         model::RegenerativeCutting(p_), 1);

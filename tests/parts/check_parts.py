@@ -236,6 +236,85 @@ def released():
            f"({response.returncode}) {response.stderr[-400:]}")
 
 
+def listed(name, **content):
+    """A list of a deck; dictionaries become lists, blanks of names are written as underscores."""
+    kinds = {str: "string", int: "int", float: "double", bool: "bool"}
+    inner = "".join(listed(key, **value) if isinstance(value, dict) else f'<Parameter name="{key.replace("_", " ")}" type="{kinds[type(value)]}" value="{str(value).lower() if value is True else value}"/>'
+                    for key, value in content.items())
+    return f'<ParameterList name="{name.replace("_", " ")}">{inner}</ParameterList>'
+
+
+def bars(name, parts=None, **lists):
+    """Two bars of 10 springs of 1e6 N/m in a row, held on the left; the second one's free end is retained."""
+    count, stiffness = 11, 1e6
+    K = np.zeros((count, count))
+    for i in range(count - 1):
+        K[i:i + 2, i:i + 2] += stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    M = np.diag([0.5, *[1.0] * (count - 2), 0.5])
+    pathlib.Path("bar10.json").write_text(json.dumps({"format": "tooljoint part 1", "components": ["u"], "dofs": [[i + 1, "u"] for i in range(count)], "mass": M.tolist(),
+                                                      "stiffness": K.tolist(), "interfaces": {"left": [[1, "u"]], "right": [[count, "u"]]}}), encoding="utf-8")
+    imported = '<ParameterList name="Imported"><ParameterList name="a"><Parameter name="File" type="string" value="bar10.json"/><Parameter name="Fixed" type="Array(string)" value="{left}"/>' \
+        '</ParameterList><ParameterList name="b"><Parameter name="File" type="string" value="bar10.json"/><Parameter name="Retained" type="Array(string)" value="{right}"/></ParameterList></ParameterList>' \
+        '<Parameter name="Joints" type="Array(string)" value="{a:right = b:left}"/>'
+    moves = listed("Transient", End_Time=0.02, Step=1e-4, Sampling_Interval=1e-3)
+    whole = f'<ParameterList name="bars"><ParameterList name="Parts">{imported}{parts or ""}</ParameterList>' + "".join(listed(key, **value) for key, value in lists.items()) + moves
+    pathlib.Path(f"{name}.xml").write_text(whole + "</ParameterList>", encoding="utf-8")
+    return f"{name}.xml"
+
+
+def laws_on_joints():
+    """Forces between parts as coordinates have no residual flexibility for the force of a law: of Dual Craig-Bampton such laws are refused where they are wrong at rest."""
+    def spring(stiffness, damping=0.0):
+        return {"Springs": {"s": {"First": "a:11", "Component": "u", "Stiffness": stiffness, "Damping": damping}}}
+
+    def reduced(deck, basis):
+        return tooljoint("modes", deck, "--count", "4", "--output", f"law_{basis[:4]}", "--set", f"Reduction/Basis={basis}")
+
+    few = {"Basis": "Rubin", "Mode_Selection": {"Modes": 4}}
+    for name, law, words in (("stiff", spring(3e6), "times the residual flexibility there"), ("damped", spring(1.0, 10.0), "Its damping makes a motion grow")):
+        deck = bars(name, Coupling=law, Reduction=few)
+        done = reduced(deck, "Dual Craig-Bampton")
+        said = " ".join(done.stderr.split())
+        expect(f"a {name} spring on a joint of Dual Craig-Bampton is refused", done.returncode == 3 and words in said and 'Choose "Rubin"' in said, f"{done.returncode} {said[-400:]}")
+        expect(f"and taken by Rubin ({name})", reduced(deck, "Rubin").returncode == 0)
+    soft = bars("soft", Coupling=spring(1e3), Reduction=few)
+    expect("a soft spring is warned of", "act where the forces between parts move the dofs" in " ".join(tooljoint("run", soft, "--output", "soft", "--set", "Reduction/Basis=Dual Craig-Bampton").stderr.split()))
+
+
+def starts_of_joints():
+    """A joined node starts once, under whichever name; a constraint with a value holds from the start."""
+    def started(*places):
+        return listed("Starts", **{f"s{i}": {"Part": part, "Node": node, "Component": "u", "Displacement": 1e-3} for i, (part, node) in enumerate(places)})
+
+    done = tooljoint("run", bars("twice", started(("a", 11), ("b", 1))), "--output", "twice")
+    expect("two starts of one joined node are refused", done.returncode == 2 and "they are joined. Leave one of the two out" in " ".join(done.stderr.split()), done.stderr[-400:])
+    held = {"Constraints": {"c": {}}}
+    text = pathlib.Path(bars("held", '<Parameter name="Initial State" type="string" value="Equilibrium"/>', Coupling=held)).read_text(encoding="utf-8")
+    given = '<Parameter name="Terms" type="Array(string)" value="{b:11:u}"/><Parameter name="Factors" type="Array(double)" value="{1.0}"/><Parameter name="Value" type="double" value="0.001"/>'
+    pathlib.Path("held.xml").write_text(text.replace('<ParameterList name="c"></ParameterList>', f'<ParameterList name="c">{given}</ParameterList>'), encoding="utf-8")
+    done = tooljoint("run", "held.xml", "--output", "held")
+    expect("a constraint with a value and Equilibrium run", done.returncode == 0, done.stderr[-400:])
+    if done.returncode == 0:
+        with h5py.File("held/results.h5") as results:
+            moved = results["/transient/displacement"][:, :, 0]
+        # 20 equal springs between 0 and 1 mm
+        exact = 1e-3 * np.arange(21) / 20
+        expect("it rests stretched by it", np.abs(np.sort(moved, axis=1) - exact[1:] if moved.shape[1] == 20 else np.sort(moved, axis=1) - exact).max() < 1e-12, np.abs(moved[0]))
+
+
+def creeping_dofs():
+    """Massless interior dofs with dampers are in no basis, and that is said."""
+    deck = bars("creep", Reduction={"Basis": "Craig-Bampton", "Mode_Selection": {"All_Modes": True}})
+    part = json.loads(pathlib.Path("bar10.json").read_text(encoding="utf-8"))
+    part["mass"][4][4] = 0.0
+    damping = np.zeros((11, 11))
+    damping[4, 4] = 1e3
+    part["damping"] = damping.tolist()
+    pathlib.Path("bar10.json").write_text(json.dumps(part), encoding="utf-8")
+    said = " ".join(tooljoint("run", deck, "--output", "creep").stderr.split())
+    expect("damped dofs without mass in the interior are warned of", "1 interior dofs with damping but no mass (first u of node 5" in said, said[-500:])
+
+
 if __name__ == "__main__":
     documented_scripts()
     frame()
@@ -246,4 +325,7 @@ if __name__ == "__main__":
     cost_energy_and_remarks()
     refused()
     released()
+    laws_on_joints()
+    starts_of_joints()
+    creeping_dofs()
     sys.exit(finish())

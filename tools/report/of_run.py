@@ -19,9 +19,10 @@ def headline(run):
     speed = run.value("transient.bit_speed_rpm") or {}
     if speed.get("mean") is not None:
         found.append(("Bit speed", f"{fixed(speed['mean'], 1)} rpm", f"{fixed(speed['min'], 1)} to {fixed(speed['max'], 1)} rpm", "mean and range of the motion", False))
-    largest = run.value("transient.max_displacement")
-    if largest is not None:
-        found.append(("Largest displacement", f"{largest:.4g}", "m or rad", "of all nodes and components", False))
+    for what, unit in (("displacement", "m"), ("rotation", "rad"), ("coordinate", "")):
+        largest = run.value(f"transient.max_{what}")
+        if largest is not None:
+            found.append((f"Largest {what}", f"{largest:.4g}", unit, "of all nodes", False))
     worst = checks.worst(run.summary)
     if worst:
         name, value, bound = worst

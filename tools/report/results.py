@@ -305,7 +305,7 @@ def figures_along(run, vibrates):
         rows.append(("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms", f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most; {window(found)}"))
     if vibrates and whirl.get("worst_backward_share"):
         rows.append(("Backward whirl", f"{fixed(100 * whirl['worst_backward_share'], 1)} % of the time",
-                     f"at {whirl['worst_backward_share_depth']:.1f} m, {fixed(whirl['worst_precession_rpm'], 0)} rpm; {fixed(100 * whirl['worst_backward_contact_share'], 1)} % in contact as well"))
+                     f"at {whirl['worst_backward_share_depth']:.1f} m, {fixed(whirl['worst_precession_rpm'], 0)} rpm; in contact as well at most {fixed(100 * whirl['worst_backward_contact_share'], 1)} %"))
     if bending.get("range"):
         rows.append(("Largest range of the bending moment", f"{bending['range'] / 1e3:.3g} kN m", f"at {bending['range_depth']:.1f} m, in a plane that turns with the pipe"))
     if bending.get("damage_per_hour") is not None:

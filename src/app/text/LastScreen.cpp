@@ -11,6 +11,7 @@
 #include <optional>
 #include <sstream>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include "cases/run/DeckCommand.hpp"
@@ -146,9 +147,14 @@ void ofMotion(const Json& summary) {
   if (mean && least && most)
     line("bit speed", fixed(*mean, 1) + " rpm",
          fixed(*least, 1) + " to " + fixed(*most, 1) + " rpm");
-  const auto largest = number(summary, "/transient/max_displacement");
-  if (!largest) return;
-  line("displacement", brief(*largest, 3), "m or rad, the largest of all nodes");
+  bool parts = false;
+  for (const auto& [name, unit] :
+       {std::pair{"displacement", " m"}, {"rotation", " rad"}, {"coordinate", ""}})
+    if (const auto largest = number(summary, ("/transient/max_" + std::string(name)).c_str())) {
+      line(name, brief(*largest, 3) + unit, "the largest of all nodes");
+      parts = true;
+    }
+  if (!parts) return;
   if (const auto energy = number(summary, "/transient/energy_residual"))
     line("energy balance", brief(100.0 * *energy, 2) + " %",
          "of the energy exchanged, lost (> 0) or made (< 0)");

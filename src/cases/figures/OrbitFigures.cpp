@@ -35,6 +35,14 @@ Vector OrbitFigures::rate() const {
   return out;
 }
 
+WorstPlace OrbitFigures::most(const Vector& share) const {
+  WorstPlace place{0, share[0]};
+  for (Eigen::Index i = 1; i < share.size(); ++i)
+    if (share[i] > place.value || (share[i] == place.value && radius_[i] > radius_[place.row]))
+      place = {i, share[i]};
+  return place;
+}
+
 Vector OrbitFigures::share(const Vector& counts) const {
   return samples_ == 0 ? counts : Vector(counts / static_cast<double>(samples_));
 }

@@ -40,6 +40,10 @@ class OrbitFigures {
   Vector forwardContact() const { return share(rubbing_); }   ///< forward and in contact
   Vector backwardContact() const { return share(rolling_); }  ///< backward and in contact
 
+  /// The node with the largest of these shares; of equal ones, as nodes that whirl in one shape
+  /// have, that of the widest orbit.
+  WorstPlace most(const Vector& share) const;
+
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 

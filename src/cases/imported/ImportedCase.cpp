@@ -38,8 +38,10 @@ void append(std::string& text, const Sparse& matrix) {
     }
 }
 
-coupling::Coupling joinUnreduced(const parts::PartsScene& scene) {
+/// \param started  the parts are in the state that the motion starts from
+coupling::Coupling joinUnreduced(const parts::PartsScene& scene, bool started) {
   auto options = scene.coupling;
+  options.requireAgreeingStarts = started;
   options.assembly = coupling::Assembly::Primal;
   return coupling::coupleWithPositions(scene.parts, options);
 }
@@ -181,7 +183,7 @@ ImportedCase::ImportedCase(ImportedDeck lists, std::shared_ptr<Shared> shared)
   if (!joined) {
     auto fresh = std::make_shared<JoinedParts>();
     fresh->scene = lists_->build();
-    fresh->whole = joinUnreduced(fresh->scene);
+    fresh->whole = joinUnreduced(fresh->scene, false);
     joined = fresh;
   }
   joined_ = joined;
@@ -336,7 +338,7 @@ std::shared_ptr<const RestingCase> ImportedCase::solveStatic() const {
   lists_->requireMass(joined_->scene, joined_->whole.model);
   if (!joined_->started) {
     lists_->start(joined_->scene);
-    joined_->whole = joinUnreduced(joined_->scene);
+    joined_->whole = joinUnreduced(joined_->scene, true);
     joined_->started = true;
   }
   return std::make_shared<RestingParts>(lists_, joined_);

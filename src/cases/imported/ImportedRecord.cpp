@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cases/imported/MeasuredComponents.hpp"
+#include "common/Text.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "deck/PrintedUnits.hpp"
 
@@ -18,6 +19,22 @@ namespace {
 std::string pathName(std::string name) {
   std::replace(name.begin(), name.end(), '/', '|');
   return name;
+}
+
+/// Keys of the largest coordinates of the nodes: [m], [rad], and without a unit.
+constexpr const char* largestKeys[] = {"transient.max_displacement", "transient.max_rotation",
+                                       "transient.max_coordinate"};
+
+/// Into largestKeys.
+std::size_t kindIndex(const std::string& component) {
+  switch (coupling::kindOf(component)) {
+    case coupling::ComponentKind::Translation:
+      return 0;
+    case coupling::ComponentKind::Rotation:
+      return 1;
+    default:
+      return 2;
+  }
 }
 
 }  // namespace
@@ -87,7 +104,10 @@ void ImportedRecord::sample(const Sample& sample) {
     auto& largest = row_[1 + static_cast<std::size_t>(i) % width];
     largest = std::max(largest, std::abs(sample.displacement[i]));
   }
-  largest_ = std::max(largest_, *std::max_element(row_.begin() + 1, row_.end()));
+  for (std::size_t c = 0; c < width; ++c) {
+    double& largest = largest_[kindIndex(components_[c])];
+    largest = std::max(largest, row_[c + 1]);
+  }
   for (auto& points : points_) points.sample(sample);
   if (window_.contains(sample.t)) measure(sample);
 }
@@ -111,14 +131,15 @@ void ImportedRecord::measure(const Sample& sample) {
 }
 
 void ImportedRecord::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {largest_, static_cast<double>(samples_), first_, last_});
+  memory.insert(memory.end(), largest_.begin(), largest_.end());
+  memory.insert(memory.end(), {static_cast<double>(samples_), first_, last_});
   displacement_.save(memory);
   acceleration_.save(memory);
   for (const auto& stop : stops_) stop.figures.save(memory);
 }
 
 void ImportedRecord::restore(const double*& memory) {
-  largest_ = *memory++;
+  for (double& largest : largest_) largest = *memory++;
   samples_ = static_cast<long>(*memory++);
   first_ = *memory++;
   last_ = *memory++;
@@ -128,7 +149,8 @@ void ImportedRecord::restore(const double*& memory) {
 }
 
 void ImportedRecord::summarise(io::Summary& summary) const {
-  summary.set("transient.max_displacement", largest_);
+  for (const auto& name : components_)
+    summary.set(largestKeys[kindIndex(name)], largest_[kindIndex(name)]);
   if (samples_ == 0 || displacement_.peak().size() == 0) return;
   summary.set("transient.figures.begin", first_);
   summary.set("transient.figures.end", last_);
@@ -195,10 +217,15 @@ void ImportedRecord::write(io::ResultsFile& file) const {
 
 std::string ImportedRecord::describe() const {
   constexpr int digits = 4;
-  const bool lengths = std::all_of(components_.begin(), components_.end(),
-                                   [](const auto& name) { return unitOf(name) == "m"; });
-  return "            largest displacement " + (lengths ? deck::printed(largest_, "m", digits)
-                                                        : fmt::format("{:.{}g}", largest_, digits));
+  std::vector<std::string> found;
+  const auto has = [&](const char* unit) {
+    return std::any_of(components_.begin(), components_.end(),
+                       [&](const auto& name) { return unitOf(name) == unit; });
+  };
+  if (has("m")) found.push_back("displacement " + deck::printed(largest_[0], "m", digits));
+  if (has("rad")) found.push_back("rotation " + deck::printed(largest_[1], "rad", digits));
+  if (has("")) found.push_back("coordinate " + fmt::format("{:.{}g}", largest_[2], digits));
+  return "            largest " + join(found, ", ");
 }
 
 }  // namespace tooljoint::cases

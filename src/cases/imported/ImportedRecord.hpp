@@ -4,6 +4,7 @@
 /// laws and the largest displacements.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -64,7 +65,7 @@ class ImportedRecord : public MotionRecord {
   std::vector<Stop> stops_;
   bool recordsForces_;
   std::vector<double> row_;
-  double largest_ = 0.0;
+  std::array<double, 3> largest_ = {};  ///< of all nodes, by the kind of their component
   FigureWindow window_;
   NodeNames names_;
   std::vector<int> measured_;  ///< components in the magnitudes

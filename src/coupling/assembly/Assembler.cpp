@@ -13,6 +13,7 @@
 #include "coupling/assembly/DualAssembly.hpp"
 #include "coupling/assembly/Elimination.hpp"
 #include "coupling/assembly/LabelAssembly.hpp"
+#include "coupling/assembly/LawsOnForces.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "coupling/input/DofLookup.hpp"
 #include "model/DofNames.hpp"
@@ -42,10 +43,13 @@ class Coupler {
     DofLookup lookup(alignedParts_);
     labelled_ = joinByLabels(alignedParts_, labelRules(lookup));
     addConnectors(lookup);
+    const auto onForces =
+        checkLawsOnForces(alignedParts_, labelled_, connections_.connectors.size());
     makeRows(lookup);
     const Elimination elimination = eliminate(rows_, ranks());
     out_.remarks = elimination.redundant;
-    checkStart(elimination);
+    if (!onForces.empty()) out_.remarks.push_back(onForces);
+    if (options_.requireAgreeingStarts) checkStart(elimination);
     if (dual())
       enforceDual(elimination);
     else

@@ -72,7 +72,8 @@ class Labeller {
           throw ModelError("Parts \"" + name(it->second.part) + "\" and \"" + name(p) +
                            "\" both have " + describe(label) +
                            ", but as an interior dof, which cannot be joined. Declare it an "
-                           "interface dof of both parts.");
+                           "interface dof of both parts, or let parts that only use the same "
+                           "numbers count their own nodes (Coupling/Node Numbers \"Own\").");
         }
       }
     }

@@ -89,6 +89,7 @@ enum class Assembly {
 struct CouplingOptions {
   Assembly assembly = Assembly::Primal;
   Connections connections;
+  bool requireAgreeingStarts = true;  ///< initial states that violate a constraint are an error
 };
 
 // Makers of connections. Component names are looked up by meaning: "u" "v" "w" (or "x", "ux", "u_x"

@@ -18,6 +18,8 @@ namespace tooljoint::deck {
 namespace {
 
 constexpr std::uint64_t largestLog = 1U << 26U;  // bytes
+/// What loggers write where nothing was measured; a LAS file names its own.
+constexpr double usualNull = -999.25;
 /// Faults that are told; the others are counted.
 constexpr std::size_t mostFaults = 10;
 /// Headings of the time, where the deck names none.
@@ -91,6 +93,7 @@ class Reader {
     if (table.rows.empty()) throw DeckError("The measured log " + file_ + " is empty.");
     rows_ = std::move(table.rows);
     marks_ = DecimalMarks(table.separator);
+    null_ = usualNull;
     header();
   }
 
@@ -188,10 +191,13 @@ class Reader {
         fault(row.line, "the time is missing. Leave out rows without one.");
       return;
     }
-    if (lastTime_ && !(*time > *lastTime_))
-      return fault(row.line, "the time " + inQuotes(cells[columns_[0].place]) +
-                                 " does not increase from the row before. Sort the log, and leave "
-                                 "out rows that are there twice.");
+    if (lastTime_ && !(*time > *lastTime_)) {
+      if (std::exchange(sorted_, false))  // said once
+        fault(row.line, "the time " + inQuotes(cells[columns_[0].place]) +
+                            " does not increase from the row before. Sort the log, and leave out "
+                            "rows that are there twice.");
+      return;
+    }
     lastTime_ = time;
     for (std::size_t i = 0; i < signals_.size(); ++i)
       if (const auto value = number(row.line, cells, columns_[i + 1])) {
@@ -231,6 +237,7 @@ class Reader {
   std::size_t firstRow_ = 0;
   std::optional<double> null_, lastTime_;
   DecimalMarks marks_;
+  bool sorted_ = true;
   std::vector<Column> columns_;  ///< the time first
   std::vector<LogSignal> signals_;
   std::vector<std::string> faults_;

@@ -189,12 +189,12 @@ void BlockFactor::findEarlier() {
   for (std::size_t k = 0; k < pivots_.size(); ++k)
     for (int c = pivots_[k].couplingBegin; c < pivots_[k].couplingEnd; ++c)
       earlier[at(pivotOf_[at(couplings_[at(c)].block)])].push_back(static_cast<int>(k));
-  earlierBegin_.push_back(0);
+  near_.begin.push_back(0);
   for (const auto& each : earlier) {
-    earlier_.insert(earlier_.end(), each.begin(), each.end());
-    earlierBegin_.push_back(static_cast<int>(earlier_.size()));
+    near_.earlier.insert(near_.earlier.end(), each.begin(), each.end());
+    near_.begin.push_back(static_cast<int>(near_.earlier.size()));
   }
-  reached_.assign(pivots_.size() / word + 1, 0);
+  near_.reached.assign(pivots_.size() / word + 1, 0);
 }
 
 bool BlockFactor::Pivot::inverted() const { return width <= kernel::largestInverse; }
@@ -356,32 +356,32 @@ TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live,
   };
   const auto drop = [&](std::size_t k) {
     std::fill(x + pivots_[k].start, x + pivots_[k].start + pivots_[k].width, 0.0);
-    clear(reached_, k);
+    clear(near_.reached, k);
   };
-  for (int block : live) set(reached_, at(pivotOf_[at(block)]));
+  for (int block : live) set(near_.reached, at(pivotOf_[at(block)]));
   upwards(
-      reached_, [&](std::size_t k) __attribute__((always_inline)) {
+      near_.reached, [&](std::size_t k) __attribute__((always_inline)) {
         const Pivot& p = pivots_[k];
         if (k >= eliminated_) return;
         if (isSmall(p, true)) return drop(k);
         sweepDown(p, x);
         for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
-          set(reached_, at(pivotOf_[at(couplings_[at(c)].block)]));
+          set(near_.reached, at(pivotOf_[at(couplings_[at(c)].block)]));
       });
   if (cut_) {
     cut_->solve(x);
-    for (std::size_t k = eliminated_; k < pivots_.size(); ++k) set(reached_, k);
+    for (std::size_t k = eliminated_; k < pivots_.size(); ++k) set(near_.reached, k);
   }
   live.clear();
   downwards(
-      reached_, [&](std::size_t k) __attribute__((always_inline)) {
+      near_.reached, [&](std::size_t k) __attribute__((always_inline)) {
         if (k < eliminated_) sweepUp(pivots_[k], x);
         if (isSmall(pivots_[k], false)) return drop(k);
         live.push_back(pivots_[k].block);
-        for (int e = earlierBegin_[k]; e < earlierBegin_[k + 1]; ++e)
-          set(reached_, at(earlier_[at(e)]));
+        for (int e = near_.begin[k]; e < near_.begin[k + 1]; ++e)
+          set(near_.reached, at(near_.earlier[at(e)]));
       });
-  std::fill(reached_.begin(), reached_.end(), 0);
+  std::fill(near_.reached.begin(), near_.reached.end(), 0);
 }
 
 void BlockFactor::reserveInverse() {

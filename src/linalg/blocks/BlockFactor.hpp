@@ -107,6 +107,12 @@ class BlockFactor {
     int updateBegin, updateEnd;
   };
 
+  /// What solveNear() follows beside the couplings.
+  struct Near {
+    std::vector<int> begin, earlier;             ///< per pivot: those before it that couple to it
+    mutable std::vector<std::uint64_t> reached;  ///< one bit per pivot, none between calls
+  };
+
   /// Of two blocks of the cut, in values_ and in the inverse.
   struct CutBlock {
     std::size_t offset;
@@ -140,10 +146,7 @@ class BlockFactor {
   std::vector<Place> places_;              ///< of couplings_
   std::vector<Update> updates_;
   std::vector<int> pivotOf_;  ///< of each block
-  std::vector<int> earlierBegin_,
-      earlier_;  ///< per pivot: those before it that couple to its block
-  mutable std::vector<std::uint64_t>
-      reached_;  ///< solveNear(): one bit per pivot, none between calls
+  Near near_;
   BlockValues values_;
   BlockValues down_, up_;       ///< what the two sweeps of a solve read, in the order they read it
   BlockValues inverse_;         ///< allocated by the first invert()

@@ -277,9 +277,12 @@ std::vector<char> areRounding(const Vector& values, const Matrix& shapes, const 
   const Vector bound =
       roundingOf(K) *
       shapes.cwiseAbs().cwiseProduct(absoluteProduct(K, shapes)).colwise().sum().transpose();
+  // An eigenvalue of a rigid-body motion has the rounding of the largest ones; its energy has not.
+  const Vector energies = shapes.cwiseProduct(product(K, shapes)).colwise().sum().transpose();
   std::vector<char> small(static_cast<std::size_t>(values.size()));
   for (Eigen::Index j = 0; j < values.size(); ++j)
-    small[static_cast<std::size_t>(j)] = std::abs(values[j]) <= bound[j] ? 1 : 0;
+    small[static_cast<std::size_t>(j)] =
+        std::min(std::abs(values[j]), std::abs(energies[j])) <= bound[j] ? 1 : 0;
   return small;
 }
 

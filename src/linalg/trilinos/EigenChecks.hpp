@@ -36,8 +36,8 @@ Vector binaryMassScale(const Sparse& K, const Sparse& M);
 /// text file has left of its entries.
 double roundingOf(const Sparse& K);
 
-/// phi'K phi = value is zero but for rounding: |value| <= roundingOf(K) |phi|'|K||phi|. Rigid-body
-/// motions are.
+/// phi'K phi = value is zero but for rounding: |value|, or |phi'K phi| as the shape gives it, is at
+/// most roundingOf(K) |phi|'|K||phi|. Rigid-body motions are.
 bool isRounding(double value, const Vector& phi, const Sparse& K);
 /// The same for the columns of `shapes`.
 std::vector<char> areRounding(const Vector& values, const Matrix& shapes, const Sparse& K);

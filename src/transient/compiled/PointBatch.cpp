@@ -9,6 +9,24 @@
 #include "common/Index.hpp"
 
 namespace tooljoint::transient {
+namespace {
+
+std::vector<int> allOr(const std::vector<int>* own, int points) {
+  if (own != nullptr) return *own;
+  std::vector<int> all(at(points));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+ContactBroadPhase watchOf(const std::vector<int>& points, const model::PointSet& set,
+                          const linalg::BlockPattern& pattern) {
+  const PointRowEntries entries = PointRows::entries(set, pattern);
+  return {points,         set.law->width(), set.law->reach(), entries.begin,
+          entries.column, entries.value,    pattern};
+}
+
+}  // namespace
+
 PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern,
                        const std::vector<int>* own)
     : name_(set.name),
@@ -16,33 +34,21 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
       entities_(set.entities),
       points_(set.law->size()),
       width_(set.law->width()),
-      rows_(set, pattern) {
+      rows_(set, pattern),
+      all_(allOr(own, points_)),
+      clearances_(points_, watchOf(all_, set, pattern)),
+      frozen_(points_, width_) {
   if (const auto* law = model::stateful(*law_)) states_ = std::make_unique<PointStates>(*law);
   const int rows = points_ * width_;
   offset_.assign(set.offset.data(), set.offset.data() + rows);
-  if (own != nullptr) {
-    all_ = *own;
-  } else {
-    all_.resize(at(points_));
-    std::iota(all_.begin(), all_.end(), 0);
-  }
-  const PointRowEntries entries = PointRows::entries(set, pattern);
-  watch_ = ContactBroadPhase(all_, width_, law_->reach(), entries.begin, entries.column,
-                             entries.value, pattern);
-  small_.assign(at(width_), 0.0);
   own_.assign(at(2 * width_), 0.0);
   active_.reserve(at(points_));
-  frozen_.reserve(at(points_));
   isActive_.assign(at(points_), 0);
   hasActed_.assign(at(points_), 0);
   acted_.reserve(at(points_));
-  isFrozen_.assign(at(points_), 0);
   scale_.assign(at(points_), 1.0);
   for (auto* array : {&d_, &v_, &f_}) array->assign(at(rows), 0.0);
-  for (auto* array : {&dfdd_, &dfdv_, &P_, &positionP_}) array->assign(at(rows) * at(width_), 0.0);
-  gap_.assign(at(points_), 0.0);
-  lastGap_.assign(at(points_), 0.0);
-  check_.assign(at(points_), 0.0);
+  for (auto* array : {&dfdd_, &dfdv_}) array->assign(at(rows) * at(width_), 0.0);
   one_.assign(1, 0);
 }
 
@@ -63,39 +69,18 @@ void PointBatch::gatherThese(const std::vector<int>& points, const double* q, co
   rows_.gather(points, v, v_.data());
 }
 
-/// Clearances at q of the points that are awake; what slept is as if it had stood still.
-void PointBatch::measure(const double* q, std::vector<double>& gap) {
-  watch_.activate(q);
-  gatherPositions(watch_.active(), q);
-  law_->clearanceLeft(watch_.active(), d_.data(), gap.data());
-  for (int p : watch_.activated()) gap_[at(p)] = lastGap_[at(p)] = check_[at(p)] = gap[at(p)];
-  watch_.deactivate(q, gap.data());
+auto PointBatch::measure(const double* q) {
+  return [this, q](const std::vector<int>& points, double* gap) {
+    gatherPositions(points, q);
+    law_->clearanceLeft(points, d_.data(), gap);
+  };
 }
 
 void PointBatch::look(double t, double h, const double* q) {
-  if (gapsSeen_ == 0 || t != gapTime_) {
-    gap_.swap(lastGap_);
-    lastGapTime_ = gapTime_;
-    gapTime_ = t;
-    gapsSeen_ = std::min(gapsSeen_ + 1, 2);
-  }
-  if (t == checkTime_) {
-    gap_.swap(check_);
-  } else {
-    measure(q, gap_);
-  }
-  checkTime_ = std::numeric_limits<double>::quiet_NaN();
-  // A point acts in the step when gap <= 2 h closing, closing = rate at which its clearance shrank
-  // since the look before.
-  const double reach =
-      gapsSeen_ == 2 && gapTime_ > lastGapTime_ ? 2.0 * h / (gapTime_ - lastGapTime_) : 0.0;
   for (int p : active_) isActive_[at(p)] = 0;
-  for (int p : watch_.active()) {
-    const double closing = std::max(0.0, lastGap_[at(p)] - gap_[at(p)]);
-    isActive_[at(p)] = gap_[at(p)] > reach * closing ? 0 : 1;
-  }
+  clearances_.look(t, h, q, measure(q), [&](int p, bool acts) { isActive_[at(p)] = acts ? 1 : 0; });
   // What stands in a factored matrix has to be looked at as long as it stands there.
-  for (int p : frozen_) isActive_[at(p)] = 1;
+  for (int p : frozen_.points()) isActive_[at(p)] = 1;
   listActive();
 }
 
@@ -136,24 +121,16 @@ void PointBatch::bookPowers() { hasActed_ = isActive_; }
 
 bool PointBatch::addMissed(const double* q, double t) {
   if (active_.size() == all_.size()) return false;
-  measure(q, check_);
-  checkTime_ = t;
   bool any = false;
-  for (int p : watch_.active())
-    if (!isActive_[at(p)] && !(check_[at(p)] > 0)) isActive_[at(p)] = 1, any = true;
+  clearances_.check(q, t, measure(q), [&](int p) {
+    if (isActive_[at(p)] == 0) isActive_[at(p)] = 1, any = true;
+  });
   if (any) listActive();
   return any;
 }
 
 bool PointBatch::meetsOrLeavesWall(const double* q) {
-  measure(q, check_);
-  checkTime_ = std::numeric_limits<double>::quiet_NaN();
-  const auto isClosed = [](const std::vector<double>& gap, int p) { return !(gap[at(p)] > 0); };
-  const auto& found = watch_.activated();
-  const auto& seen = watch_.active();
-  return std::any_of(found.begin(), found.end(), [&](int p) { return isClosed(check_, p); }) ||
-         std::any_of(seen.begin(), seen.end(),
-                     [&](int p) { return isClosed(check_, p) != isClosed(gap_, p); });
+  return clearances_.meetsOrLeavesWall(q, measure(q));
 }
 
 void PointBatch::evaluate(double t, const double* q, const double* v) {
@@ -250,42 +227,20 @@ void PointBatch::evaluateElsewhere(double t, int point, const double* d, const d
 }
 
 void PointBatch::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {gapTime_, lastGapTime_, static_cast<double>(gapsSeen_)});
-  memory.insert(memory.end(), gap_.begin(), gap_.end());
-  memory.insert(memory.end(), lastGap_.begin(), lastGap_.end());
+  clearances_.save(memory);
   for (const auto* flags : {&isActive_, &hasActed_})
     memory.insert(memory.end(), flags->begin(), flags->end());
   memory.insert(memory.end(), scale_.begin(), scale_.end());
-  watch_.save(memory);
-  memory.push_back(static_cast<double>(frozen_.size()));
-  for (int p : frozen_) {
-    memory.push_back(p);
-    for (const auto* tangent : {&P_, &positionP_})
-      memory.insert(memory.end(), tangent->begin() + p * width_ * width_,
-                    tangent->begin() + (p + 1) * width_ * width_);
-  }
+  frozen_.save(memory);
 }
 
 void PointBatch::restore(const double*& memory) {
-  gapTime_ = *memory++;
-  lastGapTime_ = *memory++;
-  gapsSeen_ = static_cast<int>(*memory++);
-  for (double& gap : gap_) gap = *memory++;
-  for (double& gap : lastGap_) gap = *memory++;
+  clearances_.restore(memory);
   for (char& on : isActive_) on = *memory++ != 0.0 ? 1 : 0;
   listActive();
   for (char& on : hasActed_) on = *memory++ != 0.0 ? 1 : 0;
   for (int p = 0; p < points_; ++p) setScale(p, *memory++);
-  watch_.restore(memory);
-  forgetTangent();
-  frozen_.assign(at(static_cast<int>(*memory++)), 0);
-  for (int& p : frozen_) {
-    p = static_cast<int>(*memory++);
-    isFrozen_[at(p)] = 1;
-    for (auto* tangent : {&P_, &positionP_})
-      for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i)
-        (*tangent)[at(i)] = *memory++;
-  }
+  frozen_.restore(memory);
 }
 
 }  // namespace tooljoint::transient

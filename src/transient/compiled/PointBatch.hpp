@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// One PointSet in kernel form: gathers d = offset + R q, evaluates the law at the points that can
-/// act, scatters R' f and its tangents into the block matrix.
-///
-/// A point is looked at in a step when its clearance may close within the step at twice the rate
-/// last seen; after the step every other point is checked (by itself or by the bound of
-/// ContactBroadPhase), and one that has touched is added and the step corrected: none is ever
-/// missed.
+/// act (PointClearances), scatters R' f and its tangents (FrozenTangent) into the block matrix.
 #pragma once
 
 #include <limits>
@@ -16,7 +11,8 @@
 
 #include "linalg/blocks/BlockSparse.hpp"
 #include "model/SecondOrderModel.hpp"
-#include "transient/compiled/ContactBroadPhase.hpp"
+#include "transient/compiled/FrozenTangent.hpp"
+#include "transient/compiled/PointClearances.hpp"
 #include "transient/compiled/PointRows.hpp"
 #include "transient/compiled/PointStates.hpp"
 
@@ -87,7 +83,7 @@ class PointBatch {
   const double* dfdd() const { return dfdd_.data(); }
   const double* dfdv() const { return dfdv_.data(); }
   /// P of the last freezeTangent(); zero for points that are not in it.
-  const double* frozen() const { return P_.data(); }
+  const double* frozen() const { return frozen_.values(); }
   /// R_p Z R_p' of a point for a matrix on the pattern, row-major.
   void project(int point, const double* values, double* block) const {
     rows_.project(point, values, block);
@@ -106,25 +102,19 @@ class PointBatch {
     });
   }
 
-  /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the two calls below.
-  void freezeTangent(double cd, double cv);
-  /// Take out of P what pushes on as its point moves (friction that falls with speed), at points
-  /// where it pushes on in one coordinate at least: an effective matrix with it may be indefinite.
-  /// The part of P that is df/dd alone keeps only what resists and is symmetric.
-  void takeOutPush();
-  /// Matrix -= R' P R on the pattern.
-  void subtractTangent(double* values) const;
-  /// The same with the part of P that is df/dd alone.
-  void subtractPositionTangent(double* values) const;
-  /// y += R' P R x.
-  void addTangentTimes(const double* x, double* y) const;
-  void forgetTangent();
+  /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the calls below
+  /// (FrozenTangent).
+  void freezeTangent(double cd, double cv) {
+    frozen_.freeze(active_, dfdd_.data(), dfdv_.data(), cd, cv);
+  }
+  void takeOutPush() { frozen_.takeOutPush(); }
+  void dropTangent(int point) { frozen_.drop(point); }
+  void subtractTangent(double* values) const { frozen_.subtract(rows_, values); }
+  void subtractPositionTangent(double* values) const { frozen_.subtractOfPosition(rows_, values); }
+  void addTangentTimes(const double* x, double* y) const { frozen_.addTimes(rows_, x, y); }
+  double frozenTimes(int row, const double* x) const { return frozen_.times(rows_, row, x); }
 
   // One point or one row (point * width() + coordinate) at a time, for what looks at single points.
-  /// Take the tangent of a point out of the frozen one.
-  void dropTangent(int point);
-  /// Row of P R x with the frozen P; 0 for a point that is not in it.
-  double frozenTimes(int row, const double* x) const;
   /// R_row x and y += factor R_row'.
   double rowTimesVector(int row, const double* x) const { return rows_.times(row, x); }
   void addRow(int row, double factor, double* y) const { rows_.add(row, factor, y); }
@@ -163,7 +153,8 @@ class PointBatch {
  private:
   void gatherThese(const std::vector<int>& points, const double* q, const double* v);
   void listActive();
-  void measure(const double* q, std::vector<double>& gap);
+  /// Clearances at q, for PointClearances.
+  auto measure(const double* q);
   void applyScale(const std::vector<int>& points, bool tangent);
   void scalePoint(int point, bool tangent);
   /// The law at d_, v_ of these points.
@@ -183,18 +174,11 @@ class PointBatch {
   std::vector<char> isActive_;
   std::vector<char> hasActed_;  ///< active since the last bookPowers()
   std::vector<int> acted_, all_;
-  std::vector<char> isFrozen_;  ///< in the frozen tangent
+  PointClearances clearances_;
   std::vector<double> d_, v_, f_, dfdd_, dfdv_;
   std::vector<double> scale_;
   int scaled_ = 0;  ///< scales that are not 1
-  std::vector<double> gap_, lastGap_, check_;
-  double gapTime_ = 0, lastGapTime_ = 0;
-  double checkTime_ = std::numeric_limits<double>::quiet_NaN();  ///< of check_
-  ContactBroadPhase watch_;
-  int gapsSeen_ = 0;                   ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
-  std::vector<int> frozen_;            ///< points of the frozen tangent
-  std::vector<double> P_, positionP_;  ///< frozen tangent, and its part of df/dd
-  mutable std::vector<double> small_;
+  FrozenTangent frozen_;
   std::vector<double> own_;  ///< d, v of a point that is evaluated elsewhere
   std::vector<int> one_;
   long evaluations_ = 0;

@@ -398,6 +398,40 @@ class Branches {
 
 }  // namespace
 
+namespace {
+
+/// Share of the limit within which it is found.
+constexpr double limitAccuracy = 1e-5;
+
+/// The least parameter at which `holds` is false, by halving of the step of the path that leads
+/// over it. Null where it holds up to the end.
+std::optional<double> limitOf(const equilibrium::LoadPath& problem, Vector x,
+                              statics::PathOptions options, const statics::PathObserver& holds) {
+  std::optional<double> below;
+  double above = 0.0;
+  const auto look = [&](const statics::PathPoint& point) {
+    const bool held = holds(point);
+    if (held) below = point.parameter, x = point.x;
+    if (!held) above = point.parameter;
+    return held;
+  };
+  const auto path = statics::followPath(problem, Vector(x), options, look);
+  if (path.end != statics::PathEnd::Stopped) return std::nullopt;
+  bool found = true;
+  while (found && below && above - *below > limitAccuracy * above) {
+    options.from = 0.5 * (*below + above);
+    found = false;
+    statics::followPath(problem, Vector(x), options, [&](const statics::PathPoint& point) {
+      found = true;
+      look(point);
+      return false;
+    });
+  }
+  return above;
+}
+
+}  // namespace
+
 BucklingSettings bucklingSettings(const Scene& scene) {
   const auto spec = bucklingParameters();
   BucklingSettings settings;
@@ -438,14 +472,16 @@ BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings,
     const auto measure = model.measure(problem);
     start = model.start(problem);
     BucklingState last;
-    const auto straight =
-        statics::followPath(problem, start, options, [&](const statics::PathPoint& point) {
-          last = measure.state(point.parameter, problem.problem().expand(point.x));
-          if (point.step == 0) found.theory = measure.theory(-last.compression);
-          found.limitIsSmooth = measure.liesLow() && last.halfWaves >= buckledHalfWaves;
-          return point.negativePivots.value_or(0) == 0 && !found.limitIsSmooth;
-        });
-    if (straight.end == statics::PathEnd::Stopped) found.limit = straight.parameter;
+    bool first = true;
+    const auto straightAt = [&](const statics::PathPoint& point) {
+      last = measure.state(point.parameter, problem.problem().expand(point.x));
+      if (std::exchange(first, false)) found.theory = measure.theory(-last.compression);
+      const bool smooth = measure.liesLow() && last.halfWaves >= buckledHalfWaves;
+      const bool holds = point.negativePivots.value_or(0) == 0 && !smooth;
+      if (!holds) found.limitIsSmooth = smooth;
+      return holds;
+    };
+    found.limit = limitOf(problem, start, options, straightAt);
     Eigen::Index most = 0;
     compression = last.compression.maxCoeff(&most);
     rigidity = measure.rigidity()[at(static_cast<int>(most))];

@@ -34,6 +34,10 @@ class StringFigures {
   void summarise(io::Summary& summary) const;
   /// Of weights on bit outside of what the law of the bit was fitted to; "" without.
   std::string weightWarning() const;
+  /// Of a bit whose vibration still grows; "" without.
+  std::string growthWarning() const;
+  /// Of a bit that advances into uncut rock as it turns backward; "" without.
+  std::string backwardWarning() const;
   /// Lines of the log.
   std::string describe() const;
   /// Group /figures of results.h5.

@@ -199,7 +199,9 @@ std::vector<std::string> StringRecord::warnings() const {
         " nodes reached the wall although contact is evaluated at retained nodes only (node " +
         std::to_string(missed.front()) +
         " first). Retain more nodes, or set Substructures/Contact Nodes to \"All\".");
-  if (auto weight = merits_.weightWarning(); !weight.empty()) found.push_back(std::move(weight));
+  for (auto& warning :
+       {merits_.weightWarning(), merits_.growthWarning(), merits_.backwardWarning()})
+    if (!warning.empty()) found.push_back(warning);
   return found;
 }
 

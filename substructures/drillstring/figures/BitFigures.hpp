@@ -25,7 +25,8 @@ class BitFigures {
   /// \param stuckSpeed the bit sticks below it [rad/s] \param area of the hole at the bit [m2]
   BitFigures(double stuckSpeed, double area) : stuckSpeed_(stuckSpeed), area_(area) {}
 
-  void add(const BitSample& sample);
+  /// \param late  in the second half of the window
+  void add(const BitSample& sample, bool late);
 
   const cases::SignalFigures& speed() const { return speed_; }
   const cases::SignalFigures& weight() const { return weight_; }
@@ -34,8 +35,14 @@ class BitFigures {
   std::optional<double> stickSlipIndex() const;
   /// Share of the samples with |omega_b| below the threshold; null where nothing turns the string.
   std::optional<double> stuckShare() const;
+  /// Range of omega_b - Omega in the second half of the window over that in the first: far above 1
+  /// where a vibration still grows. Null where nothing turns the string, and where the later range
+  /// is that of rounding.
+  std::optional<double> growth() const;
   /// Mean v_b [m/s]; null where no law gives it.
   std::optional<double> rateOfPenetration() const;
+  /// Share of the advance made while the bit turned backward; null where no law gives the advance.
+  std::optional<double> backwardAdvance() const;
   /// sum(W v_b + T omega_b)/(A sum v_b) [Pa]: work at the bit over the volume of rock (R. Teale,
   /// Int. J. Rock Mech. Mining Sci. 2 (1965) 57-73). Null where the bit does not advance.
   std::optional<double> specificEnergy() const;
@@ -48,9 +55,11 @@ class BitFigures {
  private:
   double stuckSpeed_, area_;
   cases::SignalFigures speed_, weight_, torque_, advance_;
-  double stuck_ = 0.0;   ///< samples
-  double turned_ = 0.0;  ///< samples with Omega other than 0
-  double power_ = 0.0;   ///< sum of W v_b + T omega_b [W]
+  cases::SignalFigures early_, late_;  ///< omega_b - Omega in either half of the window
+  double stuck_ = 0.0;                 ///< samples
+  double backward_ = 0.0;              ///< sum of v_b at omega_b < 0 [m/s]
+  double turned_ = 0.0;                ///< samples with Omega other than 0
+  double power_ = 0.0;                 ///< sum of W v_b + T omega_b [W]
 };
 
 }  // namespace tooljoint::drillstring

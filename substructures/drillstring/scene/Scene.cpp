@@ -129,10 +129,7 @@ void checkAdvance(const Scene& scene, Faults& faults) {
     return;
   }
   if (!scene.rotary.present() || scene.rotary.sense(scene.startTime()) >= 0.0) return;
-  const auto backward =
-      drilling::bitOnString(*scene.bit, scene.string.nodeCount() - 1,
-                            loads::RotarySpeed::steady(-1.0), drive.blockSpeed, 0.0);
-  if (drilling::steadyLoad(backward, 0.0).weight == 0.0)
+  if (scene.bit->law->cutsForwardOnly())
     faults.add("Rotary Speed", "is negative, but a bit of the law " + name +
                                    " cuts forward only. Turn the string in the positive sense.");
 }

@@ -157,6 +157,15 @@ TEST(OrbitFigures, SenseIsThatOfTheRotation) {
   EXPECT_EQ(orbit.backwardShare()[0], 1.0);
 }
 
+TEST(OrbitFigures, OfNodesThatWhirlAlikeTheWidestOrbitIsNamed) {
+  OrbitFigures orbit(4);
+  const Vector u{{0.0, 0.01, 0.02, 0.03}}, none = Vector::Zero(4), vDot = 4.0 * u;
+  orbit.add({u, none, none, Vector(vDot - 4.0 * Vector{{0, 0, 0, 0.03}}), {0, 0, 1, 1}, -8.0});
+  EXPECT_EQ(orbit.most(orbit.backwardShare()).row, 2);
+  EXPECT_EQ(orbit.most(orbit.backwardShare()).value, 1.0);
+  EXPECT_EQ(orbit.most(orbit.backwardContact()).row, 2);
+}
+
 TEST(OrbitFigures, SlowRockingIsNoWhirl) {
   OrbitFigures orbit(1);
   const Vector u{{0.01}}, v{{0.0}}, uDot{{0.0}}, vDot{{0.99e-2 * 0.8}};
@@ -179,7 +188,7 @@ TEST(BitFigures, StickSlipIndexAndStuckShare) {
     BitSample sample;
     sample.imposed = 10.0;
     sample.speed = 10.0 * (1.0 + std::sin(2.0 * pi * (i + 0.5) / 30000));
-    bit.add(sample);
+    bit.add(sample, false);
   }
   EXPECT_NEAR(bit.stickSlipIndex().value(), 1.0, 1e-7);
   EXPECT_NEAR(bit.stuckShare().value(), 1.0 / 3.0, 1e-4);
@@ -192,10 +201,27 @@ TEST(BitFigures, ABitThatNothingTurnsDoesNotStick) {
   BitSample sample;
   for (const double speed : {1e-3, -2e-3}) {
     sample.speed = speed;
-    bit.add(sample);
+    bit.add(sample, false);
   }
   EXPECT_FALSE(bit.stickSlipIndex());
   EXPECT_FALSE(bit.stuckShare());
+}
+
+TEST(BitFigures, SeesAVibrationThatGrows) {
+  const auto growth = [](double rate, double amplitude) {
+    BitFigures bit(0.5, 0.05);
+    BitSample sample;
+    sample.imposed = 10.0;
+    for (int i = 0; i <= 4000; ++i) {
+      const double t = 1e-3 * i;
+      sample.speed = sample.imposed + amplitude * std::exp(rate * t) * std::sin(40.0 * pi * t);
+      bit.add(sample, t > 2.0);
+    }
+    return bit.growth();
+  };
+  EXPECT_NEAR(growth(1.0, 1e-6).value(), std::exp(2.0), 0.05 * std::exp(2.0));
+  EXPECT_NEAR(growth(0.0, 1e-3).value(), 1.0, 1e-3);
+  EXPECT_FALSE(growth(1.0, 1e-13));  // rounding
 }
 
 TEST(BitFigures, SpecificEnergyOfPureCutting) {
@@ -209,16 +235,27 @@ TEST(BitFigures, SpecificEnergyOfPureCutting) {
   sample.weight = a * zeta * eps * d;
   sample.torque = 0.5 * a * a * eps * d;
   sample.advance = omega * d / (2.0 * pi);
-  for (int i = 0; i < 10; ++i) bit.add(sample);
+  for (int i = 0; i < 10; ++i) bit.add(sample, false);
   EXPECT_NEAR(*bit.specificEnergy(), eps + *sample.weight / area, 1e-3);
   EXPECT_NEAR(*bit.rateOfPenetration(), omega * d / (2.0 * pi), 1e-12);
+}
+
+TEST(BitFigures, AdvanceWhileTheBitTurnsBackward) {
+  BitFigures bit(0.5, 0.05);
+  BitSample sample;
+  for (const double speed : {3.0, -1.0, 2.0, 4.0}) {
+    sample.speed = speed;
+    sample.advance = 0.01;
+    bit.add(sample, false);
+  }
+  EXPECT_NEAR(bit.backwardAdvance().value(), 0.25, 1e-12);
 }
 
 TEST(BitFigures, NoSpecificEnergyOfABitThatDoesNotAdvance) {
   BitFigures bit(0.5, 0.05);
   BitSample sample;
   sample.weight = 1e5, sample.advance = 0.0;
-  bit.add(sample);
+  bit.add(sample, false);
   EXPECT_FALSE(bit.specificEnergy());
 }
 

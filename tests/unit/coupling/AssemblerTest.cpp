@@ -250,7 +250,8 @@ TEST(AssemblerErrors, InnerDofOfAnotherPart) {
   samples::classify(parts[0], {});
   EXPECT_EQ(refusal(parts),
             "Parts \"top\" and \"bottom\" both have u of node 4, but as an interior dof, which "
-            "cannot be joined. Declare it an interface dof of both parts.");
+            "cannot be joined. Declare it an interface dof of both parts, or let parts that only "
+            "use the same numbers count their own nodes (Coupling/Node Numbers \"Own\").");
 }
 
 TEST(AssemblerErrors, LabelTwiceInAPart) {

@@ -44,6 +44,12 @@ TEST(LogTable, UnitsStandInTheHeaderOrBelowIt) {
   }
 }
 
+TEST(LogTable, TheUsualNullOfLoggersIsAGap) {
+  const auto found = read("Time [s],x [N]\n0,60\n1,-999.25\n2,-999\n", {{"x", "N", ""}});
+  EXPECT_EQ(found[0].time, (std::vector<double>{0, 2}));
+  EXPECT_EQ(found[0].value, (std::vector<double>{60, -999}));
+}
+
 TEST(LogTable, UnitsOfTheDeckFillIn) {
   const auto found = read("t,x\n0,1\n1,2\n", {{"x", "N", "klbf"}}, {"t", "s", "min"});
   EXPECT_EQ(found[0].time[1], 60.0);
