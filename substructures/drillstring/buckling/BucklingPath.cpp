@@ -407,19 +407,17 @@ constexpr double limitAccuracy = 1e-5;
 /// over it. Null where it holds up to the end.
 std::optional<double> limitOf(const equilibrium::LoadPath& problem, Vector x,
                               statics::PathOptions options, const statics::PathObserver& holds) {
-  std::optional<double> below;
-  double above = 0.0;
+  std::optional<double> below, above;
   const auto look = [&](const statics::PathPoint& point) {
     const bool held = holds(point);
     if (held) below = point.parameter, x = point.x;
     if (!held) above = point.parameter;
     return held;
   };
-  const auto path = statics::followPath(problem, Vector(x), options, look);
-  if (path.end != statics::PathEnd::Stopped) return std::nullopt;
-  bool found = true;
-  while (found && below && above - *below > limitAccuracy * above) {
-    options.from = 0.5 * (*below + above);
+  statics::followPath(problem, Vector(x), options, look);
+  bool found = above.has_value();
+  while (found && below && *above - *below > limitAccuracy * *above) {
+    options.from = 0.5 * (*below + *above);
     found = false;
     statics::followPath(problem, Vector(x), options, [&](const statics::PathPoint& point) {
       found = true;

@@ -195,7 +195,7 @@ TEST(Manual, UnitsAreListedByQuantity) {
   EXPECT_EQ(text.find("## Units\n\n"), 0U);
   EXPECT_NE(text.find("| length | `in` | `inch`, `inches` | 0.0254 m |\n"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("| rotary speed | `rpm` |  | 0.10471975511965977 rad/s |\n"),
+  EXPECT_NE(text.find("| rotary speed | `rpm` | `RPM` | 0.10471975511965977 rad/s |\n"),
             std::string::npos);
   EXPECT_NE(text.find("9.80665 m/s2"), std::string::npos);
 }
