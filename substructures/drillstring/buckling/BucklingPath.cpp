@@ -469,14 +469,15 @@ BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings,
     const auto problem = model.problem();
     const auto measure = model.measure(problem);
     start = model.start(problem);
-    BucklingState last;
-    bool first = true;
+    BucklingState last;  // of the path's own steps
+    bool first = true, held = true;
     const auto straightAt = [&](const statics::PathPoint& point) {
-      last = measure.state(point.parameter, problem.problem().expand(point.x));
-      if (std::exchange(first, false)) found.theory = measure.theory(-last.compression);
-      const bool smooth = measure.liesLow() && last.halfWaves >= buckledHalfWaves;
+      const auto now = measure.state(point.parameter, problem.problem().expand(point.x));
+      if (held) last = now;
+      if (std::exchange(first, false)) found.theory = measure.theory(-now.compression);
+      const bool smooth = measure.liesLow() && now.halfWaves >= buckledHalfWaves;
       const bool holds = point.negativePivots.value_or(0) == 0 && !smooth;
-      if (!holds) found.limitIsSmooth = smooth;
+      if (!holds) found.limitIsSmooth = smooth, held = false;
       return holds;
     };
     found.limit = limitOf(problem, start, options, straightAt);

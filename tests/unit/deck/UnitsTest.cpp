@@ -125,8 +125,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "has the unit \"t\", which is not a unit of the expected quantity (kg/m3)"},
         Refusal{"1.2 sg", "N",
                 "has the unit \"sg\", which is not a unit of the expected quantity (N)"},
-        Refusal{"120 RPM", "rad/s",
-                "has a unit that is not understood: \"RPM\" is not a known unit (did you mean "
+        Refusal{"120 Rpm", "rad/s",
+                "has a unit that is not understood: \"Rpm\" is not a known unit (did you mean "
                 "\"rpm\"?)"},
         Refusal{"5 m m", "m",
                 "has the unit \"m m\", which is not a unit of the expected quantity (m)"},
