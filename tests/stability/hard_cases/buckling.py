@@ -126,13 +126,13 @@ def thrust_beam(thrust, elements=8, length=2.0):
 
 
 def starts(displacement, elements):
-    """Lists that displace two joined beams; dofs (v, theta_z) node by node."""
+    """Lists that displace two joined beams; dofs (v, theta_z) node by node, the joined one by its name on the left."""
     lists = {}
     for i, x in enumerate(displacement):
         node, component = i // 2, ("v", "theta_z")[i % 2]
-        for part, first, last in (("left", 0, elements), ("right", elements, 2 * elements)):
-            if first <= node <= last and x != 0.0:
-                lists[f"{part} {node} {component}"] = {"Part": part, "Node": node - first + 1, "Component": component, "Displacement": float(x)}
+        part, first = ("left", 0) if node <= elements else ("right", elements)
+        if x != 0.0:
+            lists[f"{part} {node} {component}"] = {"Part": part, "Node": node - first + 1, "Component": component, "Displacement": float(x)}
     return lists
 
 
