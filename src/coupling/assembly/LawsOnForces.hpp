@@ -15,8 +15,8 @@ namespace tooljoint::coupling {
 ///     u = Phi_b p + G (C' lambda + f),
 ///
 /// G the residual flexibility, but the force f of a law finds no coordinate for its own part G f:
-/// the law sees u without it, a spring k as if it were k (1 + k G), and a damper c adds a mode that
-/// grows at 1/(c G).
+/// the law sees u without it. A spring k acts as k/(1 - k G), and a damper c adds a mode that grows
+/// at 1/(c G).
 ///
 /// ModelError where that makes a connector wrong at rest: k G above a hundredth, or a damper. Of
 /// all other laws on such dofs a remark; "" without.
