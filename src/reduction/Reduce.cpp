@@ -169,21 +169,30 @@ void refuseLostLoads(const model::Substructure& part) {
 }
 
 /// Interior dofs without mass follow the others through springs and dampers, a motion of first
-/// order that modes of mass and stiffness do not hold.
+/// order that modes of mass and stiffness do not hold; where C = alpha K in the rows of all of
+/// them, their static answer is exact.
 void warnOfDampedMassless(const model::Substructure& part) {
   const auto& model = part.model;
-  const Vector ones = Vector::Ones(model.size());
-  const auto sizes = [&](const Sparse& matrix) { return Vector(matrix.cwiseAbs() * ones); };
-  const Vector mass = sizes(model.mass);
-  Vector damping = Vector::Zero(model.size());
-  for (const auto& term : model.damping) damping += sizes(term.matrix);
-  int count = 0, first = 0;
+  const auto rowSizes = [](const Sparse& A) {
+    return Vector(A.cwiseAbs() * Vector::Ones(A.cols()));
+  };
+  const Sparse C = model.dampingAt(0.0), K = model.stiffnessAt(0.0);
+  const Vector mass = rowSizes(model.mass), damping = rowSizes(C);
+  std::vector<int> damped;
   for (const int i : part.interior())
-    if (mass[i] == 0.0 && damping[i] > 0.0 && count++ == 0) first = i;
-  if (count == 0) return;
+    if (mass[i] == 0.0 && damping[i] > 0.0) damped.push_back(i);
+  if (damped.empty()) return;
+  const int first = damped.front();
+  const double stiffness = K.coeff(first, first);
+  const double alpha = stiffness != 0.0 ? C.coeff(first, first) / stiffness : 0.0;
+  constexpr double rounding = 1e-12;
+  const Vector apart = rowSizes(Sparse(C - alpha * K));
+  if (std::all_of(damped.begin(), damped.end(),
+                  [&](int i) { return apart[i] <= rounding * damping[i]; }))
+    return;
   log::warn(
-      "Part \"" + part.name + "\" has " + std::to_string(count) +
-      " interior dofs with damping but no mass (first " + model::dofName(part.model, first) +
+      "Part \"" + part.name + "\" has " + std::to_string(damped.size()) +
+      " interior dofs with damping but no mass (first " + model::dofName(model, first) +
       "). No basis holds how they creep, not even all modes. Retain them, or give them mass.");
 }
 

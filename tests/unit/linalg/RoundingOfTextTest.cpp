@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <utility>
+#include <vector>
 
 #include "linalg/trilinos/EigenChecks.hpp"
 
@@ -68,6 +69,16 @@ TEST(RoundingOfText, IsNoneOfWholeNumbersAndFullOnes) {
   EXPECT_LT(roundingOf(row(20, std::sqrt(2.0), 0.0).sparseView()), none);
   const Matrix given = row(20, std::sqrt(2.0), 0.0).unaryExpr([](double x) { return cut(x, 10); });
   EXPECT_NEAR(roundingOf(given.sparseView()), 0.5e-9, 1e-15);
+}
+
+/// A computed eigenvalue of a rigid-body motion has the rounding of the largest ones, which may be
+/// more than that of its energy.
+TEST(AreRounding, IsToldByTheEnergyOfTheShapeToo) {
+  const Sparse K = row(20, 1e6, 0.0).sparseView();
+  Matrix shapes = Matrix::Ones(20, 2);
+  shapes(0, 1) = -1.0;  // stretches the first link
+  const Vector values{{1e-3, 4e6}};
+  EXPECT_EQ(areRounding(values, shapes, K), (std::vector<char>{1, 0}));
 }
 
 }  // namespace RoundingOfTextTest
