@@ -12,7 +12,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
 import plots  # noqa: E402
 
 ORDER = ("met", "warned", "off", "refused", "WRONG", "open")
-SHORT = "This is the short version: a few points of the range, near its easy end."
+PARTS = {"short": "This is the short version: a few points of the range, near its easy end.",
+         "stopped": "The case was stopped before its end: the last points of the range are not there."}
 LONGEST_NOTE = 150  # characters of a sentence in the tables
 HEAD = """# Hard cases
 
@@ -88,7 +89,7 @@ def deviation(row):
     return f"{row.deviation:.2g} / {row.bound:.2g}" if math.isfinite(row.deviation) else ""
 
 
-def details(case, rows, drawn, short):
+def details(case, rows, drawn, part):
     lines = [(row.variant, row.parameter, row.truth, row.found, deviation(row), row.verdict,
               f"{row.cost:.2g}" if math.isfinite(row.cost) else "", shortened(row.note)) for row in rows]
     head = ("variant", "parameter", "truth", "found", "deviation / bound", "verdict",
@@ -97,7 +98,7 @@ def details(case, rows, drawn, short):
     pictures = "".join(f"\n![{plot.title}](figures/hard_{plot.name}.svg)\n" for plot in drawn)
     return (f"## {case.number}. {case.title}\n\n{case.must[0].upper()}{case.must[1:]}. Sweep: {case.sweep}." +
             (f" Easy variant: {case.easy}." if case.easy else "") +
-            (f" {SHORT}" if short else "") + "\n" + pictures + "\n" +
+            (f" {PARTS[part]}" if part else "") + "\n" + pictures + "\n" +
             table([head[i] for i in keep], [[line[i] for i in keep] for line in lines]))
 
 
@@ -132,18 +133,18 @@ def written(path):
 
 
 def write(path, results):
-    """`results`: case number -> (rows, plots, whether they are the short version). Other cases stay as the document has them."""
+    """`results`: case number -> (rows, plots, which part of the case they are). Other cases stay as the document has them."""
     figures = path.parent / "figures"
     figures.mkdir(exist_ok=True)
     for _, drawn, _ in results.values():
         for plot in drawn:
             draw(plot, figures / f"hard_{plot.name}.svg")
     cases = {n: found for n, found in written(path).items() if n in CASES}
-    for n, (rows, drawn, short) in results.items():
+    for n, (rows, drawn, part) in results.items():
         case = CASES[n]
         anchor = re.sub(r"[^a-z0-9 -]", "", f"{n}. {case.title}".lower()).replace(" ", "-")
         cases[n] = (line((n, f"[{case.title}](#{anchor})", case.sweep, case.must, happened(rows),
-                          span([row.cost for row in rows]), strategies(rows))), details(case, rows, drawn, short))
+                          span([row.cost for row in rows]), strategies(rows))), details(case, rows, drawn, part))
     text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n## Overview\n\n"
     text += table(("case", "", "range", "must happen", "what happened", "cost over the easy variant",
                    "strategies used"), []) + "".join(cases[n][0] for n in sorted(cases))

@@ -53,15 +53,15 @@ def store(path, found, complete):
 
 
 def results(case, options, program):
-    """Rows and plots of a case, from the work folder or by running it, and whether they are the short version."""
+    """Rows and plots of a case, from the work folder or by running it, and which part of it they are: "", "short" or "stopped"."""
     paths = {short: program.work / f"case_{case.number:02d}{'_short' if short else ''}.json" for short in (False, True)}
     path = paths[options.short]
     if path.exists() and not options.fresh:
         rows, plots, complete = stored(path)
         if complete or options.no_run:
-            return rows, plots, options.short
+            return rows, plots, ("short" if options.short else "") if complete else "stopped"
     if options.no_run:
-        return *(stored(paths[True])[:2] if paths[True].exists() else ([], [])), True
+        return *(stored(paths[True])[:2] if paths[True].exists() else ([], [])), "short"
     print(f"case {case.number}: {case.title}", flush=True)
     begin, found = time.monotonic(), []
     for item in case.function(program, options.short):
@@ -71,7 +71,7 @@ def results(case, options, program):
             show(item)
     store(path, found, complete=True)
     print(f"case {case.number}: {time.monotonic() - begin:.1f} s", flush=True)
-    return *stored(path)[:2], options.short
+    return *stored(path)[:2], "short" if options.short else ""
 
 
 def main():
