@@ -101,7 +101,7 @@ def figures(program, output):
         "hook_load": reduced["static"]["hook_load"],
         "weight_in_mud": sum(length * in_mud(outer, inner) for _, length, outer, inner in string),
         "weight_on_bit": weight_on_bit,
-        "surface_torque": -reduced["static"]["top_torque"],
+        "surface_torque": reduced["static"]["surface_torque"],
         "torque_on_bit": torque_on_bit,
         "side_force": {"value": float(force[node]), "depth": float(depth[node]), "component": string[int(np.searchsorted(ends, depth[node]))][0]},
         "bit_speed_rpm": reduced["transient"]["bit_speed_rpm"],

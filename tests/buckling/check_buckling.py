@@ -77,6 +77,8 @@ def euler():
     load = RIGIDITY * (math.pi / length) ** 2
     found, said = run(deck("euler", length, 40, 6 * load, gravity=0.0), "Buckling/Crookedness=0.01", "Buckling/Largest Step=0.02")
     near("Euler's load", said["limit"], load, 1e-3)
+    far = tooljoint("buckling", deck("euler_far", length, 40, 30 * load, gravity=0.0), "--output", "euler_far", "--set", "Buckling/Crookedness=0.01")
+    near(f"and does not depend on the last weight on bit (exit code {far.returncode})", summary("euler_far")["limit"], said["limit"], 5e-5)
     near("as the formula of the summary", said["theory"]["finite_length"], load, 1e-9)
     expect("formulas of a pipe with weight stay out", said["theory"].get("sinusoidal") is None and said["theory"]["finite_half_waves"] == 1)
     for row in found:

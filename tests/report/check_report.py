@@ -193,7 +193,7 @@ def string_numbers(folder, text):
     fields = {field["name"]: field for field in scene["fields"]}
     near("string: contact forces at rest", numbers(fields["force"]["rest"]), data["/static/normal_force"] / 1e3, 1e-3)
     expect("string: stresses are those of bending in an arc of 150 m, at least", numbers(fields["stress"]["rest"]).max() > 206e3 * 0.0635 / 150)
-    for what, value in (("hook load", f"{summary['static']['hook_load'] / 1e3:.1f} kN"), ("surface torque", f"{-summary['static']['top_torque'] / 1e3:.2f} kN m"),
+    for what, value in (("hook load", f"{summary['static']['hook_load'] / 1e3:.1f} kN"), ("surface torque", f"{summary['static']['surface_torque'] / 1e3:.2f} kN m"),
                         ("side force", f"{summary['static']['max_normal_force'] / 1e3:.2f} kN"), ("bit speed", f"{summary['transient']['bit_speed_rpm']['mean']:.1f} rpm")):
         expect(f"string: the {what} is that of the summary", f'<div class="value">{value}</div>' in text, value)
     node = summary["static"]["max_normal_force_node"]

@@ -71,10 +71,16 @@ def last_screen():
     screen = done.stdout[done.stdout.index("\nhook load"):]
     expect("six numbers in this order", [name for name in NAMES if value(screen, name) is not None or name == "worst check"] == list(NAMES), screen)
     static, motion = summary["static"], summary["transient"]
-    for name, wanted, half in (("hook load", static["hook_load"] / 1e3, 0.05), ("surface torque", -static["top_torque"] / 1e3, 0.005),
+    for name, wanted, half in (("hook load", static["hook_load"] / 1e3, 0.05), ("surface torque", static["surface_torque"] / 1e3, 0.005),
                                ("largest side force", static["max_normal_force"] / 1e3, 0.005), ("bit speed", motion["bit_speed_rpm"]["mean"], 0.05)):
         found = value(screen, name)
         expect(f"{name} is that of the summary", found is not None and abs(found - wanted) <= 1.01 * half, f"{found} {wanted}")
+    torques = []
+    for sense in (1, -1):
+        done = tooljoint(*run("turned", "--without", "Transient", "--without", "Reduction", "--without", "Substructures",
+                              "--set", f"Rotary Speed/Exponential/Final Speed={120 * sense} rpm", "--set", f"Loads/Torque On Bit={500 * sense}"))
+        torques.append(value(done.stdout, "surface torque"))
+    expect("a string that turns the other way has the same torque against its rotation", torques[0] == torques[1] and torques[0] > 0, f"{torques}")
     name, worst, bound = checks.worst(summary)
     expect("the worst check is that of the report", f"{'met' if worst <= bound else 'NOT MET'}" in screen and f"{name} {worst:.2g}, bound {bound:g}" in screen, f"{name} {worst} {screen}")
     expect("it says where the report is", "open        plain/report.html in a browser" in screen, screen)

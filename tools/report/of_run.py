@@ -9,8 +9,7 @@ def headline(run):
     found = []
     if run.is_string and run.value("static.hook_load") is not None:
         found.append(("Hook load", *both(run.value("static.hook_load"), "hook load"), "at rest, without block", False))
-        sense, side = (-1, "left") if (run.value("static.friction_direction") or 0) < 0 else (1, "right")
-        found.append(("Surface torque", *both(-sense * run.value("static.top_torque"), "torque"), f"at rest, against a rotation to the {side}", False))
+        found.append(("Surface torque", *both(run.value("static.surface_torque"), "torque"), "at rest, against the rotation", False))
         node = run.value("static.max_normal_force_node")
         if node:
             depth, feet = both(run.s[node - 1], "length")

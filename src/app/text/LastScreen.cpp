@@ -125,12 +125,9 @@ void ofString(const Json& summary, const std::string& folder) {
   // exactly none where the string has no axial dofs
   if (const auto load = number(summary, "/static/hook_load"); load && *load != 0.0)
     line("hook load", quantity(*load, "kN", 1), "at rest, without block");
-  const double sense = number(summary, "/static/friction_direction").value_or(1.0) < 0.0 ? -1 : 1;
-  if (const auto torque = number(summary, "/static/top_torque"))
-    line("surface torque", quantity(-sense * *torque, "kN m", 2),
-         std::abs(*torque) < noTorque
-             ? "at rest"
-             : std::string("at rest, against a rotation to the ") + (sense < 0 ? "left" : "right"));
+  if (const auto torque = number(summary, "/static/surface_torque"))
+    line("surface torque", quantity(*torque, "kN m", 2),
+         std::abs(*torque) < noTorque ? "at rest" : "at rest, against the rotation");
   const auto force = number(summary, "/static/max_normal_force");
   const auto node = number(summary, "/static/max_normal_force_node");
   if (!force || !node || *node < 1.0) return;  // nothing touches

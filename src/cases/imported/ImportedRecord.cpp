@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <utility>
 
 #include "cases/imported/MeasuredComponents.hpp"
@@ -19,22 +20,6 @@ namespace {
 std::string pathName(std::string name) {
   std::replace(name.begin(), name.end(), '/', '|');
   return name;
-}
-
-/// Keys of the largest coordinates of the nodes: [m], [rad], and without a unit.
-constexpr const char* largestKeys[] = {"transient.max_displacement", "transient.max_rotation",
-                                       "transient.max_coordinate"};
-
-/// Into largestKeys.
-std::size_t kindIndex(const std::string& component) {
-  switch (coupling::kindOf(component)) {
-    case coupling::ComponentKind::Translation:
-      return 0;
-    case coupling::ComponentKind::Rotation:
-      return 1;
-    default:
-      return 2;
-  }
 }
 
 }  // namespace
@@ -56,6 +41,7 @@ ImportedRecord::ImportedRecord(const model::SecondOrderModel& model, bool forces
       components_(model.componentNames),
       recordsForces_(forces),
       row_(model.componentNames.size() + 1, 0.0),
+      largest_(model.componentNames.size(), 0.0),
       window_(window),
       names_(std::move(names)),
       measured_(measuredComponents(model.componentNames)),
@@ -104,10 +90,7 @@ void ImportedRecord::sample(const Sample& sample) {
     auto& largest = row_[1 + static_cast<std::size_t>(i) % width];
     largest = std::max(largest, std::abs(sample.displacement[i]));
   }
-  for (std::size_t c = 0; c < width; ++c) {
-    double& largest = largest_[kindIndex(components_[c])];
-    largest = std::max(largest, row_[c + 1]);
-  }
+  for (std::size_t c = 0; c < width; ++c) largest_[c] = std::max(largest_[c], row_[c + 1]);
   for (auto& points : points_) points.sample(sample);
   if (window_.contains(sample.t)) measure(sample);
 }
@@ -148,9 +131,20 @@ void ImportedRecord::restore(const double*& memory) {
   for (auto& stop : stops_) stop.figures.restore(memory);
 }
 
+std::map<std::string, double> ImportedRecord::largestByUnit() const {
+  std::map<std::string, double> found;
+  for (std::size_t c = 0; c < components_.size(); ++c) {
+    double& largest = found[unitOf(components_[c])];
+    largest = std::max(largest, largest_[c]);
+  }
+  return found;
+}
+
 void ImportedRecord::summarise(io::Summary& summary) const {
-  for (const auto& name : components_)
-    summary.set(largestKeys[kindIndex(name)], largest_[kindIndex(name)]);
+  const std::map<std::string, const char*> keys{
+      {"m", "max_displacement"}, {"rad", "max_rotation"}, {"", "max_coordinate"}};
+  for (const auto& [unit, largest] : largestByUnit())
+    summary.set(std::string("transient.") + keys.at(unit), largest);
   if (samples_ == 0 || displacement_.peak().size() == 0) return;
   summary.set("transient.figures.begin", first_);
   summary.set("transient.figures.end", last_);
@@ -217,14 +211,12 @@ void ImportedRecord::write(io::ResultsFile& file) const {
 
 std::string ImportedRecord::describe() const {
   constexpr int digits = 4;
+  const std::map<std::string, const char*> names{
+      {"m", "displacement "}, {"rad", "rotation "}, {"", "coordinate "}};
   std::vector<std::string> found;
-  const auto has = [&](const char* unit) {
-    return std::any_of(components_.begin(), components_.end(),
-                       [&](const auto& name) { return unitOf(name) == unit; });
-  };
-  if (has("m")) found.push_back("displacement " + deck::printed(largest_[0], "m", digits));
-  if (has("rad")) found.push_back("rotation " + deck::printed(largest_[1], "rad", digits));
-  if (has("")) found.push_back("coordinate " + fmt::format("{:.{}g}", largest_[2], digits));
+  for (const auto& [unit, largest] : largestByUnit())
+    found.push_back(names.at(unit) + (unit.empty() ? fmt::format("{:.{}g}", largest, digits)
+                                                   : deck::printed(largest, unit, digits)));
   return "            largest " + join(found, ", ");
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +56,8 @@ class ImportedRecord : public MotionRecord {
   };
 
   void measure(const Sample& sample);
+  /// largest_ of the components in m, in rad and without a unit.
+  std::map<std::string, double> largestByUnit() const;
   void summariseStops(io::Summary& summary) const;
   void summarise(const std::string& key, const MagnitudeFigures& figures,
                  io::Summary& summary) const;
@@ -65,7 +68,7 @@ class ImportedRecord : public MotionRecord {
   std::vector<Stop> stops_;
   bool recordsForces_;
   std::vector<double> row_;
-  std::array<double, 3> largest_ = {};  ///< of all nodes, by the kind of their component
+  std::vector<double> largest_;  ///< of all nodes, by component
   FigureWindow window_;
   NodeNames names_;
   std::vector<int> measured_;  ///< components in the magnitudes

@@ -31,6 +31,7 @@ const std::vector<std::string>& documentedKeys() {
       "static.contact_nodes",
       "static.compressed_elements",
       "static.hook_load",
+      "static.surface_torque",
       "static.top_axial_force",
       "static.last_element_axial_force",
       "static.last_element_torque",

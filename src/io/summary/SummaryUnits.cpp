@@ -27,6 +27,7 @@ const std::map<std::string, std::string>& single() {
       {"model.length", "m"},
       {"path.max_position_error", "m"},
       {"static.hook_load", "N"},
+      {"static.surface_torque", "N m"},
       {"static.top_axial_force", "N"},
       {"static.last_element_axial_force", "N"},
       {"static.last_element_torque", "N m"},

@@ -69,7 +69,9 @@ class RestingString : public cases::RestingCase {
   }
 
   std::string describe() const override { return describeStatic(stage_); }
-  void summarise(io::Summary& summary) const override { drillstring::summarise(stage_, summary); }
+  void summarise(io::Summary& summary) const override {
+    drillstring::summarise(scene_, stage_, summary);
+  }
   std::vector<cases::RestFigure> figures() const override { return restFigures(stage_); }
   void write(io::ResultsFile& file) const override {
     writeModel(scene_, stage_, file);

@@ -134,14 +134,16 @@ void StringFigures::summariseNodes(io::Summary& summary) const {
     place(std::string(name) + ".peak", cases::worst(figures->peak()));
     place(std::string(name) + ".worst_rms", cases::worst(figures->rms()));
   }
-  const Vector backward = orbit_.backwardShare(), whirling = backward + orbit_.forwardShare();
+  const Vector backward = orbit_.backwardShare();
   summary.set(key + "whirl.forward_share", orbit_.forwardShare().mean());
   summary.set(key + "whirl.backward_share", backward.mean());
   summary.set(key + "whirl.backward_contact_share", orbit_.backwardContact().mean());
-  place("whirl.worst_backward_share", orbit_.most(backward));
+  const auto worst = orbit_.most(backward);
+  place("whirl.worst_backward_share", worst);
   place("whirl.worst_backward_contact_share", orbit_.most(orbit_.backwardContact()));
-  if (const auto most = orbit_.most(whirling); most.value > 0.0)
-    place("whirl.worst_precession_rpm", {most.row, orbit_.rate()[most.row] * rpm});
+  const auto whirls = worst.value > 0.0 ? worst : orbit_.most(orbit_.forwardShare());
+  if (whirls.value > 0.0)
+    place("whirl.worst_precession_rpm", {whirls.row, orbit_.rate()[whirls.row] * rpm});
   if (scene_.contactPoints.size() == 0) return;
   summary.set(key + "contact.duty", contact_.duty().sum() / scene_.contactPoints.size());
   summary.set(key + "contact.total_force_mean", contact_.mean().sum());
@@ -162,36 +164,32 @@ void StringFigures::summariseBending(io::Summary& summary) const {
   if (bending_.hasDamage()) place("damage_per_hour", cases::worst(columns[2].values));
 }
 
-std::string StringFigures::weightWarning() const {
-  if (!known() || !scene_.bit || bit_.weight().samples() == 0) return "";
-  return drilling::outsideCalibration(*scene_.bit, "the motion", bit_.weight().min(),
-                                      bit_.weight().max());
-}
-
-std::string StringFigures::growthWarning() const {
-  constexpr double settled = 5.0;  // chaotic motions reach 3
-  const auto growth = bit_.growth();
-  if (!growth || *growth < settled) return "";
-  return fmt::sprintf(
-      "The bit has not settled: the range of its speed about the rotary speed is %.2g times as "
-      "large in the second half of %.4g to %.4g s as in the first. A vibration that grows is "
-      "larger "
-      "later. Let the motion last longer before its figures are taken (Transient/End Time, "
-      "Output/Figures/Begin).",
-      *growth, first_, last_);
-}
-
-std::string StringFigures::backwardWarning() const {
+std::vector<std::string> StringFigures::warnings() const {
+  constexpr double unsettled = 5.0;  // settled motions, chaotic ones too, stay below 2
   constexpr double negligible = 0.01;
-  if (!scene_.bit || !scene_.bit->law->cutsForwardOnly()) return "";
-  const auto share = bit_.backwardAdvance();
-  if (!share || *share < negligible) return "";
-  return fmt::sprintf(
-      "The bit made %.2g %% of its advance from %.4g to %.4g s while it turned backward, where the "
-      "law \"%s\" cuts nothing and carries no weight but that of its wear flats: it sinks into "
-      "uncut rock. Rate of penetration and specific energy count that advance. Damp the stick-slip "
-      "(Top Drive/Control), or raise the rotary speed.",
-      100.0 * *share, first_, last_, scene_.bit->name.c_str());
+  std::vector<std::string> found;
+  if (const auto growth = bit_.growth(); growth && *growth >= unsettled)
+    found.push_back(fmt::sprintf(
+        "The bit has not settled: the range of its speed about the rotary speed is %.2g times as "
+        "large in the second half of %.4g to %.4g s as in the first. A vibration that grows is "
+        "larger later. Let the motion last longer before its figures are taken "
+        "(Transient/End Time, Output/Figures/Begin).",
+        *growth, first_, last_));
+  if (!known() || !scene_.bit) return found;
+  if (bit_.weight().samples() > 0) {
+    auto weight = drilling::outsideCalibration(*scene_.bit, "the motion", bit_.weight().min(),
+                                               bit_.weight().max());
+    if (!weight.empty()) found.push_back(std::move(weight));
+  }
+  const auto backward = bit_.backwardAdvance();
+  if (scene_.bit->law->cutsForwardOnly() && backward && *backward >= negligible)
+    found.push_back(fmt::sprintf(
+        "The bit made %.3g %% of its advance from %.4g to %.4g s while it turned backward, where "
+        "the law \"%s\" cuts nothing and carries no weight but that of its wear flats: it sinks "
+        "into uncut rock. Rate of penetration and specific energy count that advance. Damp the "
+        "stick-slip (Top Drive/Control), or raise the rotary speed.",
+        100.0 * *backward, first_, last_, scene_.bit->name.c_str()));
+  return found;
 }
 
 std::string StringFigures::describe() const {

@@ -32,12 +32,8 @@ class StringFigures {
   bool known() const { return samples_ > 0; }
   /// Sets the keys transient.figures.
   void summarise(io::Summary& summary) const;
-  /// Of weights on bit outside of what the law of the bit was fitted to; "" without.
-  std::string weightWarning() const;
-  /// Of a bit whose vibration still grows; "" without.
-  std::string growthWarning() const;
-  /// Of a bit that advances into uncut rock as it turns backward; "" without.
-  std::string backwardWarning() const;
+  /// What the figures of the bit tell of the motion and of its law.
+  std::vector<std::string> warnings() const;
   /// Lines of the log.
   std::string describe() const;
   /// Group /figures of results.h5.

@@ -199,9 +199,7 @@ std::vector<std::string> StringRecord::warnings() const {
         " nodes reached the wall although contact is evaluated at retained nodes only (node " +
         std::to_string(missed.front()) +
         " first). Retain more nodes, or set Substructures/Contact Nodes to \"All\".");
-  for (auto& warning :
-       {merits_.weightWarning(), merits_.growthWarning(), merits_.backwardWarning()})
-    if (!warning.empty()) found.push_back(warning);
+  for (auto& warning : merits_.warnings()) found.push_back(std::move(warning));
   return found;
 }
 

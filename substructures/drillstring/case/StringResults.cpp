@@ -209,7 +209,7 @@ void summarise(const Scene& scene, io::Summary& summary) {
   summary.set("model.length", scene.string.length());
 }
 
-void summarise(const StaticStage& stage, io::Summary& summary) {
+void summarise(const Scene& scene, const StaticStage& stage, io::Summary& summary) {
   const auto& path = stage.path.report;
   summary.set("path.converged", path.converged);
   summary.set("path.increments", path.increments);
@@ -222,6 +222,8 @@ void summarise(const StaticStage& stage, io::Summary& summary) {
   summary.set("static.contact_nodes", state.contactNodes);
   summary.set("static.compressed_elements", state.compressedElements);
   summary.set("static.hook_load", state.hookLoad);
+  const double sense = scene.rotary.sense(scene.startTime()) < 0.0 ? -1.0 : 1.0;
+  summary.set("static.surface_torque", 0.0 - sense * state.topTorque);
   summary.set("static.top_axial_force", state.topAxialForce);
   summary.set("static.last_element_axial_force", state.lastElementAxialForce);
   summary.set("static.last_element_torque", state.lastElementTorque);

@@ -29,7 +29,7 @@ void writeProfile(const Scene& scene, const StaticStage& stage, io::ResultsFile&
 void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputFolder& folder);
 
 void summarise(const Scene& scene, io::Summary& summary);
-void summarise(const StaticStage& stage, io::Summary& summary);
+void summarise(const Scene& scene, const StaticStage& stage, io::Summary& summary);
 /// Contacts and loads at the ends.
 std::vector<cases::RestFigure> restFigures(const StaticStage& stage);
 
