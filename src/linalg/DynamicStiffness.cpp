@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linalg/DynamicStiffness.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tooljoint::linalg {
@@ -10,20 +11,46 @@ namespace {
 /// Relative change of an eigenvalue that ends its refinement, and the iterations allowed.
 constexpr double refined = 1e-9;
 constexpr int mostRefinements = 20;
+/// Rounds of equilibration: each halves the exponent by which sizes differ.
+constexpr int equilibrations = 8;
 
 }  // namespace
 
 DynamicStiffness::DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& K, Complex s) {
   const ComplexSparse Q = s * s * M.cast<Complex>() + s * C.cast<Complex>() + K.cast<Complex>();
-  factors_.compute(Q);
+  equilibrate(Q);
+  factors_.compute(rows_.asDiagonal() * Q * columns_.asDiagonal());
+}
+
+/// Rows and columns by the roots of their largest entries, again and again (D. Ruiz, report
+/// RAL-TR-2001-034), rounded to powers of two, which change no digit.
+void DynamicStiffness::equilibrate(const ComplexSparse& Q) {
+  rows_ = columns_ = Vector::Ones(Q.rows());
+  Vector inRow(Q.rows()), inColumn(Q.rows());
+  for (int round = 0; round < equilibrations; ++round) {
+    inRow.setZero();
+    inColumn.setZero();
+    for (int j = 0; j < Q.outerSize(); ++j)
+      for (ComplexSparse::InnerIterator it(Q, j); it; ++it) {
+        const double size = std::abs(it.value()) * rows_[it.row()] * columns_[j];
+        inRow[it.row()] = std::max(inRow[it.row()], size);
+        inColumn[j] = std::max(inColumn[j], size);
+      }
+    const auto factor = [](double size) {
+      return size > 0.0 && std::isfinite(size) ? std::exp2(-std::round(0.5 * std::log2(size)))
+                                               : 1.0;
+    };
+    rows_ = rows_.cwiseProduct(inRow.unaryExpr(factor));
+    columns_ = columns_.cwiseProduct(inColumn.unaryExpr(factor));
+  }
 }
 
 Eigen::MatrixXcd DynamicStiffness::solve(const Eigen::MatrixXcd& f) const {
-  return factors_.solve(f);
+  return columns_.asDiagonal() * factors_.solve(rows_.asDiagonal() * f);
 }
 
 Eigen::MatrixXcd DynamicStiffness::solveTransposed(const Eigen::MatrixXcd& c) {
-  return factors_.transpose().solve(c);
+  return rows_.asDiagonal() * factors_.transpose().solve(columns_.asDiagonal() * c);
 }
 
 std::optional<DampedMode> refine(const Sparse& M, const Sparse& C, const Sparse& K,

@@ -11,7 +11,9 @@
 
 namespace tooljoint::linalg {
 
-/// Q(s) = s^2 M + s C + K, factored; real square matrices of one size.
+/// Q(s) = s^2 M + s C + K, factored; real square matrices of one size. Rows and columns are brought
+/// to one size first: pivots are chosen among entries of translations, rotations, modal amplitudes
+/// and massless dofs, whose sizes say nothing of each other.
 class DynamicStiffness {
  public:
   DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& K, std::complex<double> s);
@@ -25,7 +27,10 @@ class DynamicStiffness {
 
  private:
   using ComplexSparse = Eigen::SparseMatrix<std::complex<double>, Eigen::ColMajor, int>;
-  Eigen::SparseLU<ComplexSparse> factors_;
+  void equilibrate(const ComplexSparse& Q);
+
+  Eigen::SparseLU<ComplexSparse> factors_;  ///< of R Q S
+  Vector rows_, columns_;                   ///< R, S; powers of two
 };
 
 /// A mode of (s^2 M + s C + K) phi = 0.

@@ -44,5 +44,48 @@ TEST(DynamicStiffness, RefinesAModeFromAGuess) {
   EXPECT_LT(std::abs(mode->s - exact), 1e-12 * std::abs(exact));
 }
 
+/// Modes eta of a part and its massless ends u, which they move but for small residual
+/// flexibilities, u = Phi'eta + G f, on springs k. Without u,
+///
+///     K = Omega^2 + Phi (G + 1/k)^-1 Phi'
+///
+/// The scale of u is nobody's choice and must not decide which pivots are taken.
+TEST(DynamicStiffness, TheScaleOfMasslessDofsDecidesNothing) {
+  constexpr int modes = 24, ends = 6;
+  constexpr double k = 100.0;
+  Matrix phi(modes, ends);
+  Vector squares(modes), g(ends);
+  for (int j = 0; j < ends; ++j) g[j] = std::pow(10.0, -10.0 - 0.4 * j);
+  for (int i = 0; i < modes; ++i) {
+    squares[i] = std::pow(10.0 * (i + 1), 2);
+    for (int j = 0; j < ends; ++j) phi(i, j) = 0.3 * std::sin(1.0 + 2.0 * i + 1.3 * i * j + j);
+  }
+  const Vector stiff = g.cwiseInverse(), both = (g.array() + 1 / k).inverse();
+  const Matrix coupling = phi * stiff.asDiagonal();
+  const Matrix condensed = Matrix(squares.asDiagonal()) + phi * both.asDiagonal() * phi.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix> exact(condensed);
+  constexpr int n = modes + ends;
+  Matrix M = Matrix::Zero(n, n), K(n, n);
+  M.topLeftCorner(modes, modes).setIdentity();
+  K << Matrix(squares.asDiagonal()) + phi * stiff.asDiagonal() * phi.transpose(), -coupling,
+      -coupling.transpose(), Matrix((stiff.array() + k).matrix().asDiagonal());
+  for (const double scale : {1e-7, 1e-9}) {
+    Vector d = Vector::Ones(n);
+    d.tail(ends).setConstant(scale);
+    const Matrix scaled = d.asDiagonal() * K * d.asDiagonal();
+    for (int j : {4, 11, 23}) {
+      const double omega = std::sqrt(exact.eigenvalues()[j]);
+      const Vector shape = exact.eigenvectors().col(j);
+      Eigen::VectorXcd guess(n);
+      guess << shape.cast<Complex>(), (phi.transpose() * shape / scale).cast<Complex>();
+      guess[0] += 0.01;
+      const auto mode = refine(M.sparseView(), Sparse(n, n), scaled.sparseView(),
+                               {Complex(0, 1.001 * omega), guess});
+      ASSERT_TRUE(mode) << scale << " " << j;
+      EXPECT_LT(std::abs(mode->s - Complex(0, omega)), 1e-8 * omega) << scale << " " << j;
+    }
+  }
+}
+
 }  // namespace DynamicStiffnessTest
 }  // namespace tooljoint::linalg
