@@ -141,6 +141,11 @@ void exportParts(const std::vector<parts::PartContent>& originals,
       for (const auto& law : content.omitted)
         log::warn("Part \"" + reduced[p].name + "\" is exported without its point law \"" + law +
                   "\", which a part file cannot hold.");
+      if (format == io::ExportFormat::ExtPtfm && originals[p].turned)
+        log::warn(
+            "Part \"" + reduced[p].name +
+            "\" is written in its own axes, without its rotation in the scene. OpenFAST takes "
+            "them for those of the platform.");
       auto path = fs::path(folder) / written[p];
       if (folders) path = path.parent_path();  // without the slash at the end
       parts::writePart(content, files.add(path, folders), kindOf(format).kind, times);

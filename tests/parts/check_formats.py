@@ -206,6 +206,10 @@ def written_formats():
     expect("a reduced plate is exported as extptfm", done.returncode == 0, done.stderr)
     mass, stiffness = superelement("written extptfm/plate.dat")
     same("and has its frequencies when it is read as OpenFAST does", frequencies(stiffness, mass), exact, 1e-10)
+    warning = "without its rotation in the scene"
+    expect("without a word on its axes, which are those of the scene", warning not in done.stderr, done.stderr)
+    done = tooljoint("export", reduced, "--set", "Parts/Imported/plate/Rotation Angle=30 deg", "--format", "extptfm", "--output", "written turned")
+    expect("one that the scene turns is exported with a warning", done.returncode == 0 and warning in done.stderr, done.stderr)
 
 
 def failing_export(K, M, labels, positions):

@@ -118,7 +118,10 @@ class RestingParts : public RestingCase {
         figureWindow(output.figures, lists_->list().sublist("Transient")), names);
   }
   std::vector<parts::PartContent> contents(const std::vector<model::Substructure>&) const override {
-    return joined_->scene.contents;
+    auto contents = joined_->scene.contents;
+    for (std::size_t p = 0; p < contents.size(); ++p)
+      contents[p].turned = lists_->settings.imported[p].turned;
+    return contents;
   }
 
  private:

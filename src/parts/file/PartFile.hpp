@@ -44,7 +44,8 @@ struct PartContent {
       positions;      ///< of nodes, in the frame of the part [m]; empty when the file gives none
   StoredBasis basis;  ///< empty unless the file holds one
   std::vector<std::string>
-      omitted;  ///< point laws of the original part, which a part file cannot hold
+      omitted;          ///< point laws of the original part, which a part file cannot hold
+  bool turned = false;  ///< a scene has other axes than the part
 };
 
 /// Nodes that a part knows: those of its dofs, and of the rows of its basis.
