@@ -119,8 +119,8 @@ void EnergyLedger::formWorks(const CompiledModel& model, const State& to, double
 
 void EnergyLedger::enter(CompiledModel& model, const State& to) {
   skipped_ = 0;
-  model.setTime(to.t);
   const double h = to.t - time_;
+  const bool jumps = model.setMean(time_, to.t);
   const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
   time_ = to.t;
   double exchanged = 0;
@@ -136,6 +136,10 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     q_[i] = to.q[i];
     loads += 0.5 * (load_[i] + load[i]) * step_[i];
     load_[i] = load[i];
+  }
+  if (jumps) {
+    model.setTime(to.t);
+    load_ = Eigen::Map<const Vector>(model.load(), model.size());
   }
   formWorks(model, to, loads);
   entry(account_.loads, sums_[0]);

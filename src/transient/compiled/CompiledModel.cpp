@@ -10,6 +10,7 @@
 #include "model/DofNames.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/Tuned.hpp"
+#include "transient/accuracy/LawResolution.hpp"
 #include "transient/compiled/ModelPattern.hpp"
 
 namespace tooljoint::transient {
@@ -175,6 +176,7 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model, const RankSha
     else
       loads_[it->second].vector += vector;
   }
+  loadLaws_.resize(loads_.size());
   lastLoadLaws_.assign(loads_.size(), std::numeric_limits<double>::quiet_NaN());
   load_ = Vector::Zero(n);
   lawValues_.assign(model.laws.size(), 0.0);
@@ -269,18 +271,24 @@ double CompiledModel::nextCorner(double t, double end) const {
 }
 
 void CompiledModel::setTime(double t) {
-  if (timeSet_ && t == time_) return;
+  if (timeSet_ && t == time_ && plainLoads_) return;
   time_ = t;
+  plainLoads_ = true;
   timeSet_ = true;
   for (std::size_t i = 0; i < lawValues_.size(); ++i) lawValues_[i] = model_.laws[i].value(t);
   const bool c = damping_.update(lawValues_);
   const bool k = stiffness_.update(lawValues_);
   if (c || k) ++stamp_;
+  for (std::size_t i = 0; i < loads_.size(); ++i) loadLaws_[i] = lawValues_[at(loads_[i].law)];
+  sumLoads();
+}
+
+/// load_ = sum_i f_i F_i where an f_i has changed
+void CompiledModel::sumLoads() {
   bool changed = false;
   for (std::size_t i = 0; i < loads_.size(); ++i) {
-    const double value = lawValues_[at(loads_[i].law)];
-    if (!(value == lastLoadLaws_[i])) changed = true;
-    lastLoadLaws_[i] = value;
+    if (!(loadLaws_[i] == lastLoadLaws_[i])) changed = true;
+    lastLoadLaws_[i] = loadLaws_[i];
   }
   if (!changed) return;
   load_.setZero();
@@ -288,9 +296,57 @@ void CompiledModel::setTime(double t) {
     if (lastLoadLaws_[i] != 0.0) load_ += lastLoadLaws_[i] * loads_[i].vector;
 }
 
+/// value(law) for loads whose law has a corner.
+template <class Value>
+void CompiledModel::crossCorners(double begin, double end, const Value& value) {
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    const auto& law = model_.laws[at(loads_[i].law)];
+    if (!hasCorner(law, begin, end)) continue;
+    loadLaws_[i] = value(law);
+    plainLoads_ = false;
+  }
+  if (!plainLoads_) sumLoads();
+}
+
+void CompiledModel::setStepEnd(double begin, double end) {
+  setTime(end);
+  const double next = end + (end - begin);
+  crossCorners(begin, next, [=](const model::ScalarLaw& law) {
+    const auto ahead = momentsOf(law, end, next);
+    return momentsOf(law, begin, end).first + ahead.mean - ahead.first;
+  });
+}
+
+void CompiledModel::setStart(double t, double h) {
+  setTime(t);
+  crossCorners(t, t + h, [=](const model::ScalarLaw& law) {
+    const auto ahead = momentsOf(law, t, t + h);
+    return 2 * (ahead.mean - ahead.first);
+  });
+}
+
+void CompiledModel::setStage(double t, double begin, double h) {
+  setTime(t);
+  crossCorners(begin, begin + h, [=](const model::ScalarLaw& law) {
+    const auto [mean, moment] = momentsOf(law, begin, begin + h);
+    const double first = law.value(begin), second = 3 * (mean - moment) - 0.5 * first;
+    const double left = begin + h - t;
+    return 2 * left > 0.5 * h ? second : 6 * mean - first - 4 * second;
+  });
+}
+
+bool CompiledModel::setMean(double begin, double end) {
+  setTime(end);
+  crossCorners(begin, end, [=](const model::ScalarLaw& law) {
+    return 2 * momentsOf(law, begin, end).mean - law.value(begin);
+  });
+  return !plainLoads_;
+}
+
 void CompiledModel::remember(Snapshot& snapshot) const {
   snapshot.time = time_, snapshot.timeSet = timeSet_, snapshot.stamp = stamp_;
   snapshot.lawValues = lawValues_, snapshot.loadLaws = lastLoadLaws_, snapshot.load = load_;
+  snapshot.plain = plainLoads_;
   damping_.remember(snapshot.damping);
   stiffness_.remember(snapshot.stiffness);
 }
@@ -298,6 +354,7 @@ void CompiledModel::remember(Snapshot& snapshot) const {
 void CompiledModel::comeBack(const Snapshot& snapshot) {
   time_ = snapshot.time, timeSet_ = snapshot.timeSet, stamp_ = snapshot.stamp;
   lawValues_ = snapshot.lawValues, lastLoadLaws_ = snapshot.loadLaws, load_ = snapshot.load;
+  plainLoads_ = snapshot.plain;
   damping_.comeBack(snapshot.damping);
   stiffness_.comeBack(snapshot.stiffness);
 }

@@ -127,6 +127,21 @@ class CompiledModel {
   /// Evaluate the laws at t and recombine what changed. Cheap when nothing did.
   void setTime(double t);
   double time() const { return time_; }
+  // Loads of steps of length h inside which a law f has corners: f is replaced by values that give
+  // its integral and first moment, since what jumps or pulses between two ends of steps would
+  // otherwise come early, late or not at all. Elsewhere they are those of setTime().
+
+  /// At the end of an implicit step, for one of the same length behind it:
+  /// int_{-h}^{h} f(end + t) (1 - |t|/h) dt / h.
+  void setStepEnd(double begin, double end);
+  /// Where the first one begins: the half of that which is ahead, twice.
+  void setStart(double t, double h);
+  /// A stage in the middle or at the end t of a Runge-Kutta step from `begin`: f_2 = f_3 and f_4
+  /// with (f_1 + 2 f_2 + 2 f_3 + f_4) / 6 = int f ds, (f_1 + f_2 + f_3) / 6 = int (1 - s) f ds.
+  void setStage(double t, double begin, double h);
+  /// At `end`, for the work since `begin`: (f(begin) + f) / 2 = int f ds. True when a law had a
+  /// corner.
+  bool setMean(double begin, double end);
   /// The first corner of a law after t and before `end`; else `end`.
   double nextCorner(double t, double end) const;
   /// What setTime() has left, for somebody who takes the model to other times and wants to leave no
@@ -137,6 +152,7 @@ class CompiledModel {
     long stamp = 0;
     std::vector<double> lawValues, loadLaws;
     Vector load;
+    bool plain = true;
     MatrixSum::Snapshot damping, stiffness;
   };
   void remember(Snapshot& snapshot) const;
@@ -222,6 +238,9 @@ class CompiledModel {
   CompiledModel(const model::SecondOrderModel& model, const RankShare* share);
   void countWhole();
   Vector inOrder(const Vector& dofs) const;
+  void sumLoads();
+  template <class Value>
+  void crossCorners(double begin, double end, const Value& value);
   linalg::BlockRange all() const { return {0, pattern_.blocks()}; }
 
   const model::SecondOrderModel& model_;
@@ -239,8 +258,9 @@ class CompiledModel {
     Vector vector;  ///< positions
   };
   std::vector<Load> loads_;
-  std::vector<double> lastLoadLaws_;
+  std::vector<double> loadLaws_, lastLoadLaws_;  ///< to sum up, and those in load_
   Vector load_;
+  bool plainLoads_ = true;  ///< load_ has the values of the laws at time_
   std::vector<double> lawValues_;
   std::vector<PointBatch> points_;
   double time_ = 0;

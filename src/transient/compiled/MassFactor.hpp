@@ -19,6 +19,8 @@ class MassFactor {
   /// -1 for none. Where there is one, M^-1 is not defined.
   int singularAt() const { return singularAt_; }
   bool regular() const { return singularAt_ < 0; }
+  /// Whether the dof at a position has no mass.
+  bool isMissing(int position) const { return missing_[static_cast<std::size_t>(position)] != 0; }
 
   /// a := M^-1 a, zero where there is no mass.
   void solve(Vector& a) const;

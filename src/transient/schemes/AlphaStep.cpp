@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/report/Log.hpp"
+#include "transient/schemes/MasslessStart.hpp"
 
 namespace tooljoint::transient {
 
@@ -15,10 +16,14 @@ StepScheme AlphaStep::scheme(double h) const {
       h, mass_->regular() && !holds(parameters_.equations.without, Strategy::RestingImpacts));
 }
 
-/// M q''_0 = F + R'f - C v - K q; dofs without mass start without acceleration.
-void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
+/// M q''_0 = F + R'f - C v - K q; dofs without mass start in balance and without acceleration.
+void AlphaStep::start(CompiledModel& model, double h, State& state, Counters& counters) {
   model_ = &model;
   const int n = model.size();
+  model.setStart(state.t, h);
+  mass_ = std::make_shared<MassFactor>(model);
+  ++counters.factorisations;
+  balanceMassless(model, *mass_, state);
   for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
   state.a.setZero();
   model.addStiffness(state.q.data(), state.a.data());
@@ -27,8 +32,6 @@ void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
   for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
   model.bindStates(state.x.data());
   model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
-  mass_ = std::make_shared<MassFactor>(model);
-  ++counters.factorisations;
   if (mass_->regular()) {
     mass_->solve(state.a);
   } else {
@@ -92,7 +95,7 @@ void AlphaStep::completeStates(const State& from, State& to) {
 
 bool AlphaStep::take(const State& from, State& to, double h, bool anyway, Counters& counters) {
   predict(from, to, h);
-  if (!equation_.solve(to, scheme(h), counters)) {
+  if (!equation_.solve(from.t, to, scheme(h), counters)) {
     if (!anyway || !equation_.isFinite()) return false;
     ++counters.unconvergedSteps;
   }

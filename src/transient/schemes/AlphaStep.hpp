@@ -26,8 +26,9 @@ class AlphaStep {
   explicit AlphaStep(const Parameters& parameters);
   const Parameters& parameters() const { return parameters_; }
 
-  /// Bind to a model and complete state.a from state.{t, q, v}; counts a factorisation.
-  void start(CompiledModel& model, State& state, Counters& counters);
+  /// Bind to a model and complete state.a from state.{t, q, v}, for a first step of length h;
+  /// counts a factorisation.
+  void start(CompiledModel& model, double h, State& state, Counters& counters);
   /// Bind to the model of another step that has started, and share its mass.
   void startLike(const AlphaStep& other);
   /// What depends on the length alone.

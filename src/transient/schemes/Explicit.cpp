@@ -21,10 +21,9 @@ void ExplicitRightHandSide::bind(CompiledModel& model, const std::string& integr
                      "give that degree of freedom a mass.");
 }
 
-void ExplicitRightHandSide::acceleration(double t, const Vector& q, const Vector& v,
-                                         const Vector& x, Vector& a, Vector& xDot) {
+void ExplicitRightHandSide::evaluate(double t, const Vector& q, const Vector& v, const Vector& x,
+                                     Vector& a, Vector& xDot) {
   ++counters_->rightHandSides;
-  model_->setTime(t);
   const int n = model_->size();
   // a = -(K q + C v), then the difference to F + R'f, then M^-1
   a.setZero();
@@ -56,17 +55,17 @@ void RungeKuttaStep::take(ExplicitRightHandSide& rhs, const State& from, double 
   qi_ = q0 + 0.5 * h * v0;
   vi_ = v0 + 0.5 * h * a0;
   xi_ = x0 + 0.5 * h * x1;
-  rhs.acceleration(t + 0.5 * h, qi_, vi_, xi_, a2_, x2_);
+  rhs.stage(t + 0.5 * h, t, h, qi_, vi_, xi_, a2_, x2_);
   to.q = v0 + 2.0 * vi_;
   qi_ = q0 + 0.5 * h * vi_;
   vj_ = v0 + 0.5 * h * a2_;
   xi_ = x0 + 0.5 * h * x2_;
-  rhs.acceleration(t + 0.5 * h, qi_, vj_, xi_, a3_, x3_);
+  rhs.stage(t + 0.5 * h, t, h, qi_, vj_, xi_, a3_, x3_);
   to.q += 2.0 * vj_;
   qi_ = q0 + h * vj_;
   vi_ = v0 + h * a3_;
   xi_ = x0 + h * x3_;
-  rhs.acceleration(t + h, qi_, vi_, xi_, a4_, x4_);
+  rhs.stage(t + h, t, h, qi_, vi_, xi_, a4_, x4_);
   to.q += vi_;
   to.q = q0 + h / 6.0 * to.q;
   to.v = v0 + h / 6.0 * (a0 + 2.0 * a2_ + 2.0 * a3_ + a4_);

@@ -25,7 +25,16 @@ class ExplicitRightHandSide {
   /// a = M^-1 (F(t) + R'f(q, v, t) - C(t) v - K(t) q), with the active points chosen by look();
   /// for point laws with states, at x, also their rates.
   void acceleration(double t, const Vector& q, const Vector& v, const Vector& x, Vector& a,
-                    Vector& xDot);
+                    Vector& xDot) {
+    model_->setTime(t);
+    evaluate(t, q, v, x, a, xDot);
+  }
+  /// The same at t in a step of length h from `begin`, see CompiledModel::setStage().
+  void stage(double t, double begin, double h, const Vector& q, const Vector& v, const Vector& x,
+             Vector& a, Vector& xDot) {
+    model_->setStage(t, begin, h);
+    evaluate(t, q, v, x, a, xDot);
+  }
   /// The same for a state: a and xDot.
   void complete(State& state) {
     acceleration(state.t, state.q, state.v, state.x, state.a, state.xDot);
@@ -50,6 +59,9 @@ class ExplicitRightHandSide {
   CompiledModel& model() { return *model_; }
 
  private:
+  void evaluate(double t, const Vector& q, const Vector& v, const Vector& x, Vector& a,
+                Vector& xDot);
+
   CompiledModel* model_ = nullptr;
   Counters* counters_ = nullptr;
   linalg::BlockFactor mass_;

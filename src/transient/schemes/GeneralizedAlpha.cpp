@@ -174,6 +174,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   void restore(const double*& memory) override;
 
  private:
+  static double longestStep(const Window& window);
   void bind(CompiledModel& model, const Window& window, double t);
   bool isAccurate(const State& from, double h);
   bool resolvesImpacts(const State& from, const State& to, double h);
@@ -202,7 +203,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
 void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State& state) {
   checkParameters(window.step);
   scheme_.emplace(parameters_);
-  scheme_->start(model, state, counters_);
+  scheme_->start(model, longestStep(window), state, counters_);
   bind(model, window, state.t);
 }
 
@@ -215,9 +216,13 @@ void GeneralizedAlpha::prepareRetaking(const Integrator& run, CompiledModel& mod
   bind(model, window, start.t);
 }
 
+double GeneralizedAlpha::longestStep(const Window& window) {
+  return fittedStep(window, window.step > 0 ? window.step : defaultAlphaStep);
+}
+
 void GeneralizedAlpha::bind(CompiledModel& model, const Window& window, double t) {
   model_ = &model;
-  const double step = fittedStep(window, window.step > 0 ? window.step : defaultAlphaStep);
+  const double step = longestStep(window);
   scheme_->prepare(step, t);
   resolveImpacts_ = resolveImpacts_ && !model.points().empty() && scheme_->mass().regular();
   const int deepest = controlled_ ? deepestLevel(step) : maxHalvings_;

@@ -23,10 +23,10 @@ void ImplicitStep::prepare(const StepScheme& scheme, double t) {
   factor_.setWeights(equations_.weight());
 }
 
-bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters) {
+bool ImplicitStep::solve(double begin, State& to, const StepScheme& scheme, Counters& counters) {
   strategies_.countIn(counters.strategies);
   prepare(scheme, to.t);
-  model_->setTime(to.t);
+  model_->setStepEnd(begin, to.t);
   equations_.begin(to, scheme_);
   return (relaxation_.isPossible() && relax(to, counters)) ||
          (strategies_.use(Strategy::Newton) && finish(to, counters));

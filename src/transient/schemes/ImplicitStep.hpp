@@ -37,9 +37,9 @@ class ImplicitStep {
 
   /// What depends on the scheme alone; solve() calls it when it has another one.
   void prepare(const StepScheme& scheme, double t);
-  /// Completes `to`, which has q and a as they are where v = 0, and the predicted v; false when
-  /// nothing converged (`to` then holds the last iterate).
-  bool solve(State& to, const StepScheme& scheme, Counters& counters);
+  /// Completes `to`, the end of a step from the time `begin`, which has q and a as they are where v
+  /// = 0, and the predicted v; false when nothing converged (`to` then holds the last iterate).
+  bool solve(double begin, State& to, const StepScheme& scheme, Counters& counters);
 
   /// Whether the iterate left by a failed solve() is made of numbers.
   bool isFinite() const { return std::isfinite(equations_.merit()); }

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Loads that jump: anywhere inside a step, for less than a step, and at the start on dofs without
+/// mass.
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "Models.hpp"
+#include "common/report/Log.hpp"
+
+namespace tooljoint::transient::testing {
+namespace SuddenLoadTest {
+
+constexpr double mass = 2.0, damping = 0.8, stiffness = 50.0, force = 3.0;
+
+/// Displacement and velocity of the oscillator a time t after the load has come.
+std::pair<double, double> stepResponse(double t) {
+  if (t <= 0) return {0.0, 0.0};
+  const double decay = 0.5 * damping / mass, omega = std::sqrt(stiffness / mass - decay * decay);
+  const double fade = std::exp(-decay * t);
+  return {
+      force / stiffness * (1 - fade * (std::cos(omega * t) + decay / omega * std::sin(omega * t))),
+      force / (mass * omega) * fade * std::sin(omega * t)};
+}
+
+model::SecondOrderModel pushed(double from) {
+  auto model = oscillator(mass, damping, stiffness, 0.0, 0.0);
+  const int law =
+      model.lawIndex({"push", [from](double t) { return t < from ? 0.0 : 1.0; }, {from}});
+  model.loads.push_back({"push", Vector::Constant(1, force), law});
+  return model;
+}
+
+/// Largest error of displacement and velocity, in parts of their own size. At the end of the step
+/// in which the load comes the velocity is known to first order only.
+double errorOf(TransientOptions o, double from, double h) {
+  o.step = h;
+  Keep samples;
+  const auto report = integrate(pushed(from), o, samples);
+  EXPECT_LT(std::abs(report.energy.residual()), 2 * h) << o.integrator;
+  double worst = 0;
+  const double omega = std::sqrt(stiffness / mass), static_ = force / stiffness;
+  for (std::size_t i = 0; i < samples.time.size(); ++i) {
+    if (std::abs(samples.time[i] - from) <= h) continue;
+    const auto [q, v] = stepResponse(samples.time[i] - from);
+    worst = std::max({worst, std::abs(samples.q[i][0] - q) / static_,
+                      std::abs(samples.v[i][0] - v) / (static_ * omega)});
+  }
+  return worst;
+}
+
+/// Of second order wherever the jump falls in the step, its ends included; a load that begins with
+/// the step it falls in, or with the next, would be off by the part of a step it comes early or
+/// late.
+TEST(SuddenLoad, isOfSecondOrderWhereverItFalls) {
+  const double h = 0.01;
+  for (const char* integrator : {"Generalized-alpha", "RK4"})
+    for (const double radius : {0.0, 0.8, 1.0})
+      for (const double part : {0.0, 0.1, 0.5, 0.75, 0.99}) {
+        auto o = options(integrator, 3.0, h, 0.05);
+        if (integrator == std::string("Generalized-alpha"))
+          o.own.set("Spectral Radius", radius).set("Phase Correction", false);
+        // the finer steps meet the jump at the same part of theirs
+        const double coarse = errorOf(o, 1.0 + part * h, h),
+                     fine = errorOf(o, 1.0 + 0.25 * part * h, 0.25 * h);
+        EXPECT_LT(coarse, 0.02 * std::pow(h / 0.02, 2) * 4) << integrator << radius << " " << part;
+        EXPECT_GT(coarse, 10 * fine) << integrator << radius << " " << part;
+      }
+}
+
+/// A pulse shorter than a step, between two ends of steps or around one of them, gives its impulse,
+/// at the end of a step: the motion is late or early by up to a step, h omega = 0.025 of it.
+TEST(SuddenLoad, aPulseShorterThanAStepGivesItsImpulse) {
+  for (const char* integrator : {"Generalized-alpha", "RK4"})
+    for (const auto& [from, to] : {std::pair{0.5013, 0.5016}, {0.4988, 0.5012}}) {
+      auto model = oscillator(mass, damping, stiffness, 0.0, 0.0);
+      const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+      const int law = model.lawIndex(
+          {"kick",
+           [=](double t) { return std::max(0.0, 1 - std::abs(t - middle) / half) / half; },
+           {from, middle, to}});
+      model.loads.push_back({"kick", Vector::Ones(1), law});
+      Keep samples;
+      auto o = options(integrator, 1.5, 5e-3, 0.05);
+      acceptCoarseSteps(o);
+      integrate(model, o, samples);
+      const double size = 1 / std::sqrt(mass * stiffness);
+      for (std::size_t i = 11; i < samples.time.size(); ++i)
+        EXPECT_NEAR(samples.q[i][0] / size,
+                    stepResponse(samples.time[i] - middle).second / force / size, 0.025)
+            << integrator << from;
+    }
+}
+
+/// A mass m with a dof without mass beyond a spring, which carries the load: at the start it is
+/// where spring and load put it, the motion is that of the mass under the load itself, and no
+/// energy is lost.
+TEST(SuddenLoad, aDofWithoutMassStartsInBalance) {
+  const double k = 80.0, q0 = 0.01, v0 = 0.3;
+  Matrix M = Matrix::Zero(2, 2), K(2, 2);
+  M(0, 0) = mass;
+  K << stiffness + k, -k, -k, k;
+  auto model = denseModel(M, Matrix(), K);
+  model.loads.push_back({"push", Vector::Unit(2, 1) * force, 0});
+  model.initialDisplacement[0] = q0;
+  model.initialVelocity[0] = v0;
+  Keep samples;
+  const auto report = integrate(model, options("Generalized-alpha", 2.0, 2e-3, 0.1), samples);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-4);
+  const double omega = std::sqrt(stiffness / mass), rest = force / stiffness;
+  for (std::size_t i = 0; i < samples.time.size(); ++i) {
+    const double t = samples.time[i];
+    const double q = rest + (q0 - rest) * std::cos(omega * t) + v0 / omega * std::sin(omega * t);
+    const double v = (rest - q0) * omega * std::sin(omega * t) + v0 * std::cos(omega * t);
+    EXPECT_NEAR(samples.q[i][0], q, 2e-4 * rest);
+    EXPECT_NEAR(samples.q[i][1], q + force / k, 2e-4 * rest);
+    EXPECT_NEAR(samples.v[i][1], v, i == 0 ? 1e-12 : 1e-3 * omega * rest);
+  }
+}
+
+/// With a damper beside its spring it keeps the start it is given, and creeps.
+TEST(SuddenLoad, aDampedDofWithoutMassKeepsItsStart) {
+  const double k = 80.0, c = 4.0, q1 = 0.05;
+  Matrix M = Matrix::Zero(2, 2), C = Matrix::Zero(2, 2), K(2, 2);
+  M(0, 0) = mass;
+  C(1, 1) = c;
+  K << 1e9 + k, -k, -k, k;
+  auto model = denseModel(M, C, K);
+  model.initialDisplacement[1] = q1;
+  Keep samples;
+  auto o = options("Generalized-alpha", 0.2, 1e-4, 0.01);
+  acceptCoarseSteps(o);
+  integrate(model, o, samples);
+  for (std::size_t i = 0; i < samples.time.size(); ++i)
+    EXPECT_NEAR(samples.q[i][1], q1 * std::exp(-k / c * samples.time[i]), 2e-3 * q1);
+}
+
+}  // namespace SuddenLoadTest
+}  // namespace tooljoint::transient::testing
