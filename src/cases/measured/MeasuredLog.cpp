@@ -139,8 +139,10 @@ deck::ListSpec measuredLogParameters() {
   list.text("File", deck::Required{},
             "CSV file with units in its header, or LAS file (version 2.0); relative to the folder "
             "of the deck.")
-      .text("Time Column", deck::Optional{},
-            "Name of the column of the time; by default Time, of a LAS file the index.")
+      .text(
+          "Time Column", deck::Optional{},
+          "Name of the column of the time; by default Time, of a LAS file the index. Times of day "
+          "(hh:mm:ss, also behind a date YYYY-MM-DD) count from the first row.")
       .text("Time Unit", deck::Optional{}, "Unit of the time where the file gives none.")
       .real("Time Offset", "s", 0.0, Range::any(), "Time of the motion at time 0 of the log.")
       .real("Begin", "s", deck::Optional{}, Range::any(),

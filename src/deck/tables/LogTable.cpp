@@ -10,6 +10,7 @@
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
 #include "deck/reading/Units.hpp"
+#include "deck/tables/ClockTime.hpp"
 #include "deck/tables/ColumnHeading.hpp"
 #include "deck/tables/DelimitedText.hpp"
 #include "deck/tables/LasFile.hpp"
@@ -23,7 +24,8 @@ constexpr double usualNull = -999.25;
 /// Faults that are told; the others are counted.
 constexpr std::size_t mostFaults = 10;
 /// Headings of the time, where the deck names none.
-const std::vector<std::string> timeNames{"time", "elapsed time", "etim", "t"};
+const std::vector<std::string> timeNames{"time",     "elapsed time", "etim",     "t",
+                                         "datetime", "date time",    "timestamp"};
 
 /// Names are compared without case, "_" and blanks around them.
 std::string plain(const std::string& name) {
@@ -106,8 +108,9 @@ class Reader {
     firstRow_ = 1;
     if (rows_.size() < 2 || rows_[1].cells.size() < headings_.size()) return;
     const auto& below = rows_[1].cells;
-    if (std::any_of(below.begin(), below.end(),
-                    [](const std::string& cell) { return cellNumber(cell).has_value(); }))
+    if (std::any_of(below.begin(), below.end(), [](const std::string& cell) {
+          return cellNumber(cell).has_value() || clockTime(cell).has_value();
+        }))
       return;
     for (std::size_t i = 0; i < headings_.size(); ++i) {
       const auto bracketed = splitHeading(below[i]);
@@ -135,7 +138,16 @@ class Reader {
                                     " occurs more than once in the header. Rename one.");
     column.place = places[0];
     if (column.wanted.name.empty()) column.wanted.name = names[places[0]];
+    if (&column == &columns_[0] && (clock_ = hasClock(column.place))) return;
     unit(column, headings_[column.place].unit);
+  }
+
+  /// Whether the first cell of a column that is not empty is a time of day.
+  bool hasClock(std::size_t place) const {
+    for (std::size_t i = firstRow_; i < rows_.size(); ++i)
+      if (place < rows_[i].cells.size() && !rows_[i].cells[place].empty())
+        return clockTime(rows_[i].cells[place]).has_value();
+    return false;
   }
 
   void missing(const WantedColumn& wanted, const std::vector<std::string>& names) {
@@ -185,7 +197,8 @@ class Reader {
       return fault(row.line, "found " + std::to_string(cells.size()) +
                                  " cells where the header has " + std::to_string(headings_.size()) +
                                  ".");
-    const auto time = number(row.line, cells, columns_[0]);
+    const auto time = clock_ ? sinceFirst(row.line, cells[columns_[0].place])
+                             : number(row.line, cells, columns_[0]);
     if (!time) {
       if (cells[columns_[0].place].empty() || isNull(cells[columns_[0].place]))
         fault(row.line, "the time is missing. Leave out rows without one.");
@@ -204,6 +217,27 @@ class Reader {
         signals_[i].time.push_back(*time);
         signals_[i].value.push_back(*value);
       }
+  }
+
+  /// A time of day counts from the first one; without a date, one that is earlier by more than half
+  /// a day belongs to the next day. Nothing for a gap, and for a fault that has been kept.
+  std::optional<double> sinceFirst(int line, const std::string& cell) {
+    if (cell.empty() || isNull(cell)) return std::nullopt;
+    const auto read = clockTime(cell);
+    if (!read || read->dated != firstClock_.value_or(*read).dated) {
+      fault(line, "the value " + inQuotes(cell) + " of the column " +
+                      inQuotes(columns_[0].wanted.name) +
+                      " is not a time as in the rows before. Write all of them as hh:mm:ss, or all "
+                      "as YYYY-MM-DD hh:mm:ss.");
+      return std::nullopt;
+    }
+    if (!firstClock_) firstClock_ = read;
+    double time = read->seconds - firstClock_->seconds + midnights_ * dayLength;
+    if (!read->dated && lastTime_ && time < *lastTime_ - 0.5 * dayLength) {
+      ++midnights_;
+      time += dayLength;
+    }
+    return time;
   }
 
   bool isNull(const std::string& cell) const {
@@ -236,6 +270,9 @@ class Reader {
   std::vector<DelimitedRow> rows_;
   std::size_t firstRow_ = 0;
   std::optional<double> null_, lastTime_;
+  bool clock_ = false;  ///< times are times of day
+  std::optional<ClockTime> firstClock_;
+  int midnights_ = 0;  ///< passed
   DecimalMarks marks_;
   bool sorted_ = true;
   std::vector<Column> columns_;  ///< the time first

@@ -8,8 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
+#include "deck/tables/ClockTime.hpp"
 #include "deck/tables/ColumnHeading.hpp"
 #include "deck/tables/LasFile.hpp"
+#include "tests/support/ErrorText.hpp"
 
 namespace LogTableTest {
 
@@ -54,6 +56,32 @@ TEST(LogTable, UnitsOfTheDeckFillIn) {
   const auto found = read("t,x\n0,1\n1,2\n", {{"x", "N", "klbf"}}, {"t", "s", "min"});
   EXPECT_EQ(found[0].time[1], 60.0);
   EXPECT_DOUBLE_EQ(found[0].value[0], 4448.2216152605);
+}
+
+TEST(LogTable, TimesOfDayCountFromTheFirstOne) {
+  const auto found =
+      read("Time,x [N]\n23:59:58.5,1\n23:59:59,2\n00:00:01,3\n13:00:00,4\n0:00:02,5\n",
+           {{"x", "N", ""}});
+  EXPECT_EQ(found[0].time, (std::vector<double>{0, 0.5, 2.5, 46801.5, 86403.5}));
+  const auto dated = read(
+      "Timestamp,x [N]\n2024-02-28 23:00:00,1\n2024-03-01T01:00:00Z,2\n2025/03/01 01:00:00.25,3\n",
+      {{"x", "N", ""}});
+  EXPECT_EQ(dated[0].time,
+            (std::vector<double>{0, 26 * 3600.0, 26 * 3600.0 + 365 * 86400.0 + 0.25}));
+  EXPECT_EQ(clockTime("1970-01-02 00:00:01")->seconds, 86401.0);
+  EXPECT_EQ(clockTime("2000-03-01 00:00:00")->seconds, 951868800.0);
+  EXPECT_EQ(clockTime("1900-01-01 00:00:00")->seconds, -2208988800.0);
+  for (const char* other :
+       {"", "1:00", "24:00:00", "1:60:00", "1:00:60", "2024-13-01 00:00:00", "12.5"})
+    EXPECT_FALSE(clockTime(other)) << other;
+  const auto text = tooljoint::errorText([] {
+    read("Time,x [N]\n01:00:00,1\n2024-03-01 01:00:01,2\n3,3\n01:00:02,4\n", {{"x", "N", ""}});
+  });
+  EXPECT_NE(text.find(":3: the value \"2024-03-01 01:00:01\" of the column \"Time\" is not a time "
+                      "as in the rows before"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find(":4: the value \"3\""), std::string::npos) << text;
 }
 
 constexpr const char* head =
