@@ -146,6 +146,9 @@ class Run {
     if (point != nullptr) requireFitting(*point);
     const bool anew = point != nullptr && point->shares.size() != shares();
     if (anew) takeState(*point);
+    if (options_.sampling > options_.end - options_.start)
+      log::warn("Transient/Sampling Interval (" + formatNumber(options_.sampling) +
+                " s) is longer than the motion: its start is the only sample.");
     const Window window{state_.t, options_.end, options_.sampling, options_.step};
     integrator_->prepare(model_, window, state_);
     if (anew) takeMemory(*point);

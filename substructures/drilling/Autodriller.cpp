@@ -26,6 +26,7 @@ using deck::Required;
 ///
 /// with anti-windup by back-calculation as in the law Speed Control. A block never goes up.
 struct Lines : model::Formula<1, 2> {
+  static constexpr bool walls = false;
   double k, kp, ki, F0, lack;  ///< lack: W_set - W_0 [N]
   double slowest, fastest;     ///< x' [m/s]
 

@@ -26,6 +26,7 @@ constexpr double a1 = 3.429e-3, a2 = 5.672e-8, a3 = 1.374e-4, a4 = 9.537e6, a5 =
 /// with w/Z = sqrt(w^2 + e^2) and Z^2/w = w/(w^2 + e^2), which hold at w = 0 too. Z^2 of the
 /// denominator is at least `floor`.
 struct Penetration : model::Formula<2> {
+  static constexpr bool walls = false;
   double a1, a2, a3, a4, a5, e, floor;
 
   template <class T>

@@ -30,6 +30,7 @@ class LawInFrame final : public model::StatefulPointLaw {
   int width() const override { return law_->width(); }
   int states() const override { return with_->states(); }
   int rated() const override { return with_->rated(); }
+  bool hasWalls() const override { return law_->hasWalls(); }
 
   void initialState(double t, const double* d, const double* v, double* x) const override {
     place(t, d, v);

@@ -15,6 +15,7 @@ using deck::Range;
 
 /// T = W b_0 [tanh(b_1 w) + b_2 w/(1 + b_3 w^2)]
 struct TanhTorque : model::Formula<1> {
+  static constexpr bool walls = false;
   double force, b1, b2, b3;  ///< force: W b_0 [N m]
 
   template <class T>

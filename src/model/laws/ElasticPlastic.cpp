@@ -15,6 +15,7 @@ namespace {
 ///
 ///     e = d - p_n;   |k e| <= F: f = -k e, p = p_n;   else f = -F sign e, p = d - (F/k) sign e
 struct ElasticPlastic : Formula<1, 0, 1> {
+  static constexpr bool walls = false;
   double k, F;
   explicit ElasticPlastic(const Teuchos::ParameterList& list)
       : k(list.get<double>("Stiffness")), F(list.get<double>("Yield Force")) {}

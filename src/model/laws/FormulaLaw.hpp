@@ -39,6 +39,8 @@ struct PointAt {
 template <int Width, int Rated = 0, int Held = 0>
 struct Formula {
   static constexpr int width = Width, rated = Rated;
+  /// PointLaw::hasWalls().
+  static constexpr bool walls = true;
   using Power = PointLaw::Power;
   int held() const { return Held; }
   /// States (rated ones first) at the start of a motion.
@@ -68,6 +70,7 @@ class FormulaLaw final : public StatefulPointLaw {
   int width() const override { return W; }
   int states() const override { return R + law_.held(); }
   int rated() const override { return R; }
+  bool hasWalls() const override { return Law::walls; }
   void initialState(double t, const double* d, const double* v, double* x) const override {
     for (int p = 0; p < points_; ++p) law_.initial(t, d + p * W, v + p * W, x + p * states());
   }

@@ -7,6 +7,7 @@ namespace {
 
 /// f = -k (d - x),  x' = (k/c) (d - x): x is the displacement of the dashpot. Relaxed at the start.
 struct Maxwell : Formula<1, 1> {
+  static constexpr bool walls = false;
   double k, c;
   explicit Maxwell(const Teuchos::ParameterList& list)
       : k(list.get<double>("Stiffness")), c(list.get<double>("Damping")) {}

@@ -46,6 +46,10 @@ class PointLaw {
   /// The first so many coordinates decide about it: it changes by no more than the length of their
   /// change.
   virtual int reach() const { return width(); }
+  /// Whether it may turn a point as a wall does, in an impact that steps are halved for. What acts
+  /// all the time without a wall, such as a spring, is followed as the stiffness and damping of the
+  /// model are.
+  virtual bool hasWalls() const { return true; }
 
   /// Stored energy [J] and dissipated power [W >= 0: normal damping, friction] summed over the
   /// points given, for the energy ledger.

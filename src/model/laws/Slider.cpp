@@ -12,6 +12,7 @@ namespace {
 /// f = -F v / sqrt(v^2 + v_r^2)
 class Frictions final : public PerPoint<FrictionParameters, Frictions> {
  public:
+  bool hasWalls() const override { return false; }
   explicit Frictions(const std::vector<FrictionParameters>& points) : PerPoint(points) {
     for (const auto& s : points) {
       require(s.force >= 0, "force of a friction", s.force, "zero or positive");

@@ -19,6 +19,7 @@ namespace {
 /// (anti-windup by back-calculation with the tracking time k_p/k_i; K. J. Astrom and T. Hagglund,
 /// Advanced PID Control, 2006, section 3.5). The states are x, and d_0 and t_0 which are held.
 struct SpeedControl : Formula<1, 1, 2> {
+  static constexpr bool walls = false;
   double V, kp, ki, F0, Fmax;
   explicit SpeedControl(const Teuchos::ParameterList& list)
       : V(list.get<double>("Speed")),

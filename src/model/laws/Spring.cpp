@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 
 #include "model/laws/Connectors.hpp"
@@ -41,6 +42,11 @@ class Springs final : public PerPoint<SpringParameters, Springs> {
       sum.damping += s.damping * v[p] * v[p];
     }
     return sum;
+  }
+  /// A spring that hardens is a bumper.
+  bool hasWalls() const override {
+    return std::any_of(points_.begin(), points_.end(),
+                       [](const auto& s) { return s.cubicStiffness > 0.0; });
   }
   std::vector<Channel> channels() const override {
     return {{"spring_force", "N", "Force of the spring and dashpot along their coordinate"}};

@@ -12,6 +12,7 @@ namespace {
 /// f = -c v - [F_d + (F_s - F_d) exp(-|v|/v_s)] sign(v), with the sign smoothed over +-v_r: what
 /// sticks creeps at less than v_r.
 struct Stribeck : Formula<1> {
+  static constexpr bool walls = false;
   double c, Fs, Fd, vs, vr;
   explicit Stribeck(const Teuchos::ParameterList& list)
       : c(list.get<double>("Viscous Damping")),

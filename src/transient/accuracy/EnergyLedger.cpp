@@ -122,6 +122,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   const double h = to.t - time_;
   const bool jumps = model.setMean(time_, to.t);
   const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
+  double fed = 0;  // by damping that is negative
   time_ = to.t;
   double exchanged = 0;
   const auto entry = [&exchanged](double& account, double work) {
@@ -147,8 +148,11 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   entry(account_.circulatory, work - (strain - strain_));
   exchanged += std::abs(strain - strain_);
   strain_ = strain;
-  for (std::size_t i = 0; i < dissipative_.size(); ++i)
-    entry(account_.damping[i], model.damping().factor(dissipative_[i]) * sums_[fewestSums + i] / h);
+  for (std::size_t i = 0; i < dissipative_.size(); ++i) {
+    const double taken = model.damping().factor(dissipative_[i]) * sums_[fewestSums + i] / h;
+    entry(account_.damping[i], taken);
+    fed += std::max(0.0, -taken);
+  }
   // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at
   // the end of a step that meets a wall is not what it went in with); friction by its own forces
   if (!model.points().empty()) {
@@ -171,7 +175,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   }
   account_.exchanged += exchanged;
   account_.supplied += std::abs(account_.loads - given) + std::abs(account_.drive - driven) +
-                       std::abs(account_.circulatory - turned);
+                       std::abs(account_.circulatory - turned) + fed;
 }
 
 /// States in the middle of the chord, and the rates at which they change along it.

@@ -143,6 +143,7 @@ void ImpactResolution::visitTurned(const State& from, const State& to, double h,
                                    const Visit& visit) {
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     PointBatch& batch = model_->points()[at(b)];
+    if (!batch.law().hasWalls()) continue;
     const int w = batch.width();
     for (int p : batch.active()) {
       const double* last = &sets_[at(b)].force[at(p * w)];
@@ -211,6 +212,7 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
   current_ = model_->massForm(to.v.data());
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     PointBatch& batch = model_->points()[at(b)];
+    if (!batch.law().hasWalls()) continue;
     for (int p : batch.active()) {
       const double* force = batch.force() + p * batch.width();
       if (std::all_of(force, force + batch.width(), [](double f) { return f == 0; })) continue;

@@ -54,7 +54,7 @@ void PointImpacts::set(CompiledModel& model, double h, double impact) {
 
 void PointImpacts::find(std::size_t number, PointBatch& batch, double t,
                         const std::vector<int>& points, const std::vector<double>& compliance) {
-  if (impact_ == 1.0) return;
+  if (impact_ == 1.0 || !batch.law().hasWalls()) return;
   const int w = batch.width();
   double G0[widest * widest];
   for (int p : points) {

@@ -47,6 +47,7 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/report/Log.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/Tuned.hpp"
 #include "transient/accuracy/NumericalDamping.hpp"
@@ -60,6 +61,10 @@ namespace tooljoint::transient {
 namespace {
 
 constexpr double defaultTolerance = 1e-5, defaultRadius = 0.8;
+/// Of a motion, over the error allowed in a step: with the errors of steps that grow as the square
+/// of their length, a motion 10 times as large is 20 % wrong, one 100 times as large 5 %. What is
+/// smaller than the other is rest.
+constexpr double smallMotion = 100, restingMotion = 1e-2;
 
 std::vector<std::string> strategyTitles() {
   std::vector<std::string> titles;
@@ -176,6 +181,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
  private:
   static double longestStep(const Window& window);
   void bind(CompiledModel& model, const Window& window, double t);
+  void watchMotion(const State& to);
   bool isAccurate(const State& from, double h);
   bool resolvesImpacts(const State& from, const State& to, double h);
   int deepestLevel(double longest) const;
@@ -197,13 +203,17 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   StepControl control_;
   ImpactResolution impacts_;
   MassNorm length_;
-  double error_ = 0;  ///< of the step under way [m]
+  double error_ = 0;    ///< of the step under way [m]
+  Vector start_, way_;  ///< of controlled steps: displacement at the start, and from there
+  double end_ = 0, largest_ = 0;  ///< of the run [s]; largest way, in the norm of the error [m]
 };
 
 void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State& state) {
   checkParameters(window.step);
   scheme_.emplace(parameters_);
   scheme_->start(model, longestStep(window), state, counters_);
+  start_ = way_ = state.q;
+  end_ = window.end;
   bind(model, window, state.t);
 }
 
@@ -289,6 +299,7 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   }
   scheme_->keep();
   counters_.accept(h);
+  if (controlled_) watchMotion(to);
   grid_.advance();
   if (resolveImpacts_) impacts_.keep(to, h);
   const int accurate =
@@ -299,6 +310,23 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   grid_.setLevel(level);
   if (controlled_) control_.lengthened();
   if (resolveImpacts_) impacts_.lengthened();
+}
+
+/// Warns at the end of a motion that is not much larger than what a step may be wrong by.
+void GeneralizedAlpha::watchMotion(const State& to) {
+  if (counters_.steps % Tuned::lookStride != 0 && to.t < end_) return;
+  way_ = to.q - start_;
+  largest_ = std::max(largest_, length_(way_));
+  if (to.t < end_ || largest_ <= restingMotion * stepTolerance_ ||
+      largest_ >= smallMotion * stepTolerance_)
+    return;
+  std::ostringstream text;
+  text.precision(2);
+  text << "Transient/Generalized-alpha/Step Tolerance (" << stepTolerance_
+       << " m) is coarse for this motion, which is only " << largest_ / stepTolerance_
+       << " times as large (root of the mean square over the mass); the errors of steps add up. "
+          "Lower it.";
+  log::warn(text.str());
 }
 
 /// False, with a deeper level, when the error of the step just taken is too large.

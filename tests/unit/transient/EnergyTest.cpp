@@ -198,6 +198,18 @@ TEST(Energy, aRunThatLivesOnEnergyMadeOfNothingIsRefused) {
 
 /// RK4 multiplies the energy of a vibration by 1 - (omega h)^6 / 72 in a step: steps near its
 /// stability limit lose it.
+/// Damping that is negative feeds the motion: that is work, and no instability of the scheme.
+TEST(Energy, aVibrationThatGrowsByItselfIsNotRefused) {
+  const double c = -0.8, omega = std::sqrt(400 - 0.16);
+  auto model = oscillator(1, c, 400, 1e-3, 0);
+  Keep samples;
+  const auto report = integrate(model, options("Generalized-alpha", 10, 1e-3, 0.1), samples);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-3);
+  const double t = samples.time.back(), grown = 1e-3 * std::exp(0.4 * t);
+  EXPECT_NEAR(samples.q.back()[0],
+              grown * (std::cos(omega * t) - 0.4 / omega * std::sin(omega * t)), 0.01 * grown);
+}
+
 TEST(Energy, aRunThatLosesItsEnergyIsRefusedWhileItGoes) {
   const auto model = oscillator(1.0, 0.0, 100.0, 0.1, 0.0);
   Keep samples;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "Models.hpp"
+#include "StatefulModels.hpp"
 #include "common/report/Log.hpp"
 
 namespace tooljoint::transient::testing {
@@ -91,6 +91,34 @@ TEST(SuddenLoad, aPulseShorterThanAStepGivesItsImpulse) {
                     stepResponse(samples.time[i] - middle).second / force / size, 0.025)
             << integrator << from;
     }
+}
+
+/// A stiff spring and dashpot act all the time and are no wall: the motion takes the steps it takes
+/// with the same terms in its matrices, and is the same.
+TEST(SuddenLoad, aSpringIsNoWall) {
+  for (const double k : {2e4, 2e7}) {
+    const double c = 0.02 * std::sqrt(k);
+    const auto pushedOn = [](model::SecondOrderModel model) {
+      model.loads.push_back({"push", Vector::Unit(2, 0) * force, 0});
+      return model;
+    };
+    Matrix K(2, 2), own = Matrix::Zero(2, 2), damper = Matrix::Zero(2, 2);
+    K << 50, -50, -50, 90;
+    own(1, 1) = k, damper(1, 1) = c;
+    const Matrix M = mass * Matrix::Identity(2, 2);
+    auto sprung = pushedOn(denseModel(M, Matrix(), K));
+    Teuchos::ParameterList list;
+    list.set("Stiffness", k).set("Cubic Stiffness", 0.0).set("Damping", c);
+    addLaw(sprung, "Spring", list);
+    sprung.points.back().rows = Matrix(own / k).sparseView();
+    Keep samples, expected;
+    const auto o = options("Generalized-alpha", 2.0, 1e-3, 0.05);
+    const auto report = integrate(sprung, o, samples);
+    integrate(pushedOn(denseModel(M, damper, K + own)), o, expected);
+    EXPECT_EQ(report.counters.steps, 2000) << k;
+    for (std::size_t i = 0; i < samples.time.size(); ++i)
+      EXPECT_LT((samples.q[i] - expected.q[i]).norm(), 1e-5 * force / 50) << k << " " << i;
+  }
 }
 
 /// A mass m with a dof without mass beyond a spring, which carries the load: at the start it is
