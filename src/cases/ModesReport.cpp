@@ -169,6 +169,11 @@ int modesOf(const model::SecondOrderModel& model, int wanted) {
   return count;
 }
 
+/// Those with damping: dofs that do not vibrate have two each.
+int dampedModesOf(const model::SecondOrderModel& model, int wanted) {
+  return std::min(wanted, 2 * model.size());
+}
+
 /// Undamped and damped modes of one model.
 ListedModes listFullModes(const model::SecondOrderModel& full, const ModesOptions& options,
                           double t) {
@@ -193,8 +198,8 @@ ListedModes listFullModes(const model::SecondOrderModel& full, const ModesOption
   listed.shapes = pairs.vectors;
   listed.model = full;
   const auto m = estimate::linearise(full, t);
-  const auto damped =
-      linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, count, model::namer(full));
+  const auto damped = linalg::lowestDampedModes(
+      m.mass, m.damping, m.stiffness, dampedModesOf(full, options.count), model::namer(full));
   log::info(dampedHeading(t) + ":");
   log::info("  mode  full |s| [Hz]  full Im s [Hz]       damping");
   io::Csv dampedTable({{"mode", ""}, {"full", "Hz"}, {"full_damping", ""}, {"full_im", "Hz"}});
@@ -245,7 +250,8 @@ ListedModes listComparedModes(const model::SecondOrderModel& full, const std::ve
   }
   listed.shapes = exact.vectors.leftCols(listedCount);
   listed.model = full;
-  const auto damped = estimate::compareDampedModes(full, parts, synthesis, count, t, maps);
+  const auto damped = estimate::compareDampedModes(full, parts, synthesis,
+                                                   dampedModesOf(full, options.count), t, maps);
   log::info(dampedHeading(t) + ", errors of s:");
   log::info(estimate::comparisonTable(damped, true));
   if (synthesis.coupled.wholeInterfaces)

@@ -137,12 +137,13 @@ void keepPhysical(const model::SecondOrderModel& model, Eigen::Index count,
 linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& model,
                                            const Linearised& m, int count,
                                            const linalg::EnergyRounding& rounding) {
-  for (int looked = std::min(count, model.size());; looked = std::min(2 * looked, model.size())) {
+  const int all = 2 * model.size();
+  for (int looked = std::min(count, all);; looked = std::min(2 * looked, all)) {
     auto modes = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, looked,
                                            model::namer(model), rounding);
     const auto found = modes.values.size();
     keepPhysical(model, count, modes);
-    if (modes.values.size() >= count || looked == model.size() || found < looked) return modes;
+    if (modes.values.size() >= count || looked == all || found < looked) return modes;
   }
 }
 

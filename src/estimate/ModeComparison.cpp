@@ -228,9 +228,9 @@ class DampedComparison {
         small_(linearise(synthesis.coupled.model, t)) {}
 
   std::vector<ModeComparison> lowest(int count) const {
-    const auto exact =
-        linalg::lowestDampedModes(whole_.mass, whole_.damping, whole_.stiffness,
-                                  std::min(count + moreModes, full_.size()), model::namer(full_));
+    const auto exact = linalg::lowestDampedModes(whole_.mass, whole_.damping, whole_.stiffness,
+                                                 std::min(count + moreModes, 2 * full_.size()),
+                                                 model::namer(full_));
     const auto coupled =
         physicalDampedModes(synthesis_.coupled.model, small_, count + 2 * moreModes,
                             roundingOfParts(parts_, synthesis_));

@@ -28,7 +28,10 @@ class Report {
  public:
   Report(const RotatingCase& rotating, const ResponseSettings& settings,
          const HarmonicResponse& response)
-      : rotating_(rotating), settings_(settings), response_(response) {}
+      : rotating_(rotating),
+        settings_(settings),
+        response_(response),
+        largest_(largestAmplitudes(response)) {}
 
   void print() const {
     log::info(fmt::format("largest amplitudes of {}:",
@@ -107,6 +110,9 @@ class Report {
  private:
   /// Of the largest amplitude: a larger estimate, or error, is worth a warning.
   static constexpr double tooCoarse = 0.05;
+  /// Of the largest amplitude of its unit: an output below moves by coupling of other directions,
+  /// or by rounding.
+  static constexpr double unmoved = 1e-6;
   static constexpr double degrees = 180.0 / constants::pi;
   static double rpm(double speed) { return speed * rpmPerRadianPerSecond; }
 
@@ -199,14 +205,28 @@ class Report {
     return table;
   }
 
-  /// Largest amplitude of an output in the sweep; errors are related to it.
+  /// What errors are related to: the largest amplitude of the output in the sweep; of one that the
+  /// load does not move, beside others of its unit, that of these.
   double scale(int load, int output) const {
-    double largest = 0.0;
-    for (const auto& point : response_.points)
-      largest = std::max(largest, std::abs(point.x(output, load)));
-    for (const auto& peak : response_.peaks)
-      largest = std::max(largest, std::abs(peak.at.x(output, load)));
-    return largest > 0.0 ? largest : 1.0;
+    const double own = largest_(output, load);
+    double ofUnit = own;
+    for (int other = 0; other < outputs(); ++other)
+      if (unitOf(load, other) == unitOf(load, output))
+        ofUnit = std::max(ofUnit, largest_(other, load));
+    if (own < unmoved * ofUnit) return ofUnit;
+    return own > 0.0 ? own : 1.0;
+  }
+
+  /// Largest amplitude of every output and load in the sweep.
+  static Matrix largestAmplitudes(const HarmonicResponse& response) {
+    Matrix largest;
+    const auto take = [&](const ResponsePoint& point) {
+      if (largest.size() == 0) largest.setZero(point.x.rows(), point.x.cols());
+      largest = largest.cwiseMax(point.x.cwiseAbs());
+    };
+    for (const auto& point : response.points) take(point);
+    for (const auto& peak : response.peaks) take(peak.at);
+    return largest;
   }
 
   double worstError() const {
@@ -239,6 +259,7 @@ class Report {
   const RotatingCase& rotating_;
   const ResponseSettings& settings_;
   const HarmonicResponse& response_;
+  Matrix largest_;  ///< amplitudes, outputs x loads
 };
 
 }  // namespace

@@ -79,7 +79,7 @@ std::vector<estimate::Linearised> RotatingCase::partsAt(double speed,
 }
 
 linalg::QuadraticModes RotatingCase::modes(const estimate::Linearised& m, int count) const {
-  const int most = std::min(count, model().size());
+  const int most = std::min(count, 2 * model().size());
   return reduced_ ? estimate::physicalDampedModes(model(), m, most, rounding_)
                   : linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, most,
                                               model::namer(model()));

@@ -102,7 +102,8 @@ struct DampedTarget {
 using EnergyRounding = std::function<double(const Eigen::VectorXcd& phi)>;
 
 /// The `count` modes of smallest |s|, one of each conjugate pair (Im s >= 0), by |s|, fewer when
-/// there are fewer finite ones: M may be singular. Where C = 0, K is symmetric and M is positive
+/// there are fewer (what does not vibrate has two real ones a dof: up to twice as many as dofs; M
+/// may be singular). Where C = 0, K is symmetric and M is positive
 /// definite, those of lowestModes. Else a block Arnoldi space of the inverse of the linearised
 /// problem near zero (GrowingKrylov; small ones whole), which is searched again for further copies
 /// of repeated values. A mode whose s is zero but for rounding has s = 0 and is listed once, though

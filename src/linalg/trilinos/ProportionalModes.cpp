@@ -76,7 +76,7 @@ std::optional<DampedModes> proportionalModes(const ScaledPencil& pencil, int cou
   options.name = name;
   const auto n = static_cast<int>(pencil.size());
   const int most = std::min(n, std::max(16 * count, 200));
-  for (int asked = count;; asked = std::min(most, 2 * asked)) {
+  for (int asked = std::min(n, count);; asked = std::min(most, 2 * asked)) {
     const EigenPairs pairs = lowestModes(pencil.K, pencil.M, asked, options);
     DampedModes modes;
     std::vector<double> sizes;

@@ -340,7 +340,7 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
 QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse& K, int count,
                                  const DofNamer& name, const EnergyRounding& rounding) {
   const auto n = M.rows();
-  if (count < 0 || count > n)
+  if (count < 0 || count > 2 * n)
     throw ModelError(std::to_string(count) +
                      " damped modes were requested, but the eigenproblem has " + std::to_string(n) +
                      " dofs.");
