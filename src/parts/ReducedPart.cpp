@@ -71,7 +71,14 @@ PartContent reducedContent(const PartContent& original,
           {"reference state of boundary dofs: " + term.name, Vector(term.matrix * s), term.law});
     m.initialDisplacement += s;
     if (m.recovery.rows() > 0) m.recoveryOffset -= m.recovery * s;
-    out.part.reference = s;
+  }
+  // springs and stops count from where they count for the original: in a scene that finds its
+  // equilibrium not from there
+  if (original.part.reference.size() > 0) {
+    Vector reference = Vector::Zero(m.size());
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      reference[static_cast<Eigen::Index>(k)] = original.part.reference[kept[k]];
+    if (!reference.isZero(0.0)) out.part.reference = reference;
   }
 
   const Vector offset =

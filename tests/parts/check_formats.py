@@ -7,6 +7,7 @@ read, its frequencies are those of its matrices; reduced, exported in each forma
 fails leaves nothing behind.
 """
 import csv
+import json
 import pathlib
 import shutil
 import sys
@@ -230,8 +231,40 @@ def failing_export(K, M, labels, positions):
     expect("a failing export leaves what was there", left == ["plate.dat"] and (folder / "plate.dat").read_text(encoding="utf-8") == "of an earlier export", str(left))
 
 
+def equilibrium_round_trip():
+    """A bar at rest under a load and on a spring of the deck, reduced, exported and read again: the spring counts from where it did, so that it rests."""
+    k = 1e4
+    content = {"format": "tooljoint part 1", "components": ["u"], "dofs": [[i, "u"] for i in (1, 2, 3, 4)], "mass": np.eye(4).tolist(),
+               "stiffness": [[2 * k, -k, 0, 0], [-k, 2 * k, -k, 0], [0, -k, 2 * k, -k], [0, 0, -k, k]], "interfaces": {"tip": [4]}}
+    pathlib.Path("bar.json").write_text(json.dumps(content), encoding="utf-8")
+    text = """<ParameterList name="bar"><ParameterList name="Parts"><ParameterList name="Imported"><ParameterList name="a">
+      <Parameter name="File" type="string" value="{file}"/></ParameterList></ParameterList>{start}</ParameterList>
+      <ParameterList name="Coupling"><Parameter name="Node Numbers" type="string" value="Own"/><ParameterList name="Springs"><ParameterList name="k">
+      <Parameter name="First" type="string" value="a:4"/><Parameter name="Component" type="string" value="u"/>
+      <Parameter name="Stiffness" type="double" value="1e4"/></ParameterList></ParameterList></ParameterList>{reduction}
+      <ParameterList name="Transient"><Parameter name="End Time" type="double" value="0.5"/></ParameterList></ParameterList>"""
+    equilibrium = '<Parameter name="Initial State" type="string" value="Equilibrium"/>'
+    load = """<ParameterList name="Loads"><ParameterList name="l"><Parameter name="Part" type="string" value="a"/><Parameter name="Node" type="int" value="4"/>
+      <Parameter name="Component" type="string" value="u"/><Parameter name="Value" type="double" value="100"/></ParameterList></ParameterList>"""
+    reduction = '<ParameterList name="Reduction"><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="2"/></ParameterList></ParameterList>'
+    for name, file, start, reduce in (("bar", "bar.json", equilibrium + load, reduction), ("bar_again", "bars/a.h5", "", ""),
+                                      ("bar_at_rest", "bars/a.h5", equilibrium, "")):
+        pathlib.Path(f"{name}.xml").write_text(text.format(file=file, start=start, reduction=reduce), encoding="utf-8")
+    done = tooljoint("export", "bar.xml", "--output", "bars")
+    expect("a bar at rest on a spring is exported", done.returncode == 0, done.stderr)
+    for name in ("bar", "bar_again", "bar_at_rest"):
+        done = tooljoint("run", f"{name}.xml", "--output", name)
+        expect(f"{name}: moves", done.returncode == 0, done.stderr)
+        if done.returncode:
+            continue
+        with h5py.File(f"{name}/results.h5") as results:
+            force = results["transient/k/spring_force"][()]
+        expect(f"{name}: the spring goes on carrying 80 N", np.allclose(force, -80.0, rtol=1e-6), f"({force.min()} to {force.max()} N)")
+
+
 part = plate()
 read_formats(*part)
 written_formats()
 failing_export(*part)
+equilibrium_round_trip()
 finish()
