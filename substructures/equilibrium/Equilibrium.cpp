@@ -290,6 +290,9 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
   }
 }
 
+/// A torque below that of the largest axial force at this lever [m] is not told from rounding.
+constexpr double leastLever = 1e-6;
+
 /// Torques about the axis of the string. A spin of all sections by the same angle meets no elastic
 /// force, so the torque at the top balances loads, friction and supports below.
 void describeTorque(const StaticInput& input, StaticState& state) {
@@ -301,8 +304,10 @@ void describeTorque(const StaticInput& input, StaticState& state) {
   }
   for (const StaticElement& element : input.elements)
     state.torqueScale = std::max(state.torqueScale, element.bendingMoment);
-  state.torqueScale = std::max(
-      state.torqueScale, std::abs(state.appliedTorque) + state.frictionTorque.cwiseAbs().sum());
+  const double pull = state.axialForce.size() > 0 ? state.axialForce.cwiseAbs().maxCoeff() : 0.0;
+  state.torqueScale =
+      std::max({state.torqueScale, leastLever * pull,
+                std::abs(state.appliedTorque) + state.frictionTorque.cwiseAbs().sum()});
 }
 
 bool movesAlongTheWell(const StaticInput& input) {

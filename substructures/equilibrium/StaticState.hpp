@@ -58,8 +58,8 @@ struct StaticState {
   double appliedTorque = 0.0;  ///< theta_z entries of F_s and of the support reactions below the
                                ///< first node (TOB, usually), summed [N m]
   double totalFrictionTorque = 0.0;  ///< [N m]
-  double torqueScale = 0.0;  ///< the larger of |appliedTorque| + sum |friction torque| and E I
-                             ///< kappa_max of the well [N m]
+  double torqueScale = 0.0;  ///< the largest of |appliedTorque| + sum |friction torque|, E I
+                             ///< kappa_max of the well and the largest axial force at 1 um [N m]
   /// Top torque that balances loads, friction and the supports below [N m].
   double topTorqueEquilibrium() const { return appliedTorque + totalFrictionTorque; }
   /// topTorque - topTorqueEquilibrium [N m]: zero for a shaft that turns freely about its curved

@@ -28,6 +28,9 @@ constexpr std::array kinds{
     Kind{"Ream", &TorqueDragSettings::reamingSpeed, 1.0, true, false},
 };
 
+/// Bit depths of one analysis: with the profiles of six operations they take some 240 kB each.
+constexpr int mostDepths = 2000;
+
 }  // namespace
 
 std::vector<std::string> operationNames() {
@@ -42,7 +45,7 @@ deck::ListSpec torqueDragParameters() {
       "Hook load and surface torque against the depth of the bit by the soft-string "
       "model: what `tooljoint torque-drag` computes. Weight and torque on bit come "
       "from Loads, friction (Dynamic) from Contact, buoyancy from Mud.");
-  list.integer("Count", 20, deck::Range::atLeast(1),
+  list.integer("Count", 20, deck::Range::between(1, mostDepths),
                "Number of bit depths, evenly spaced from the surface to the bit of the deck.");
   list.realArray("Depths", "m", deck::Optional{}, deck::Range::positive(),
                  "Bit depths, in place of Count.");

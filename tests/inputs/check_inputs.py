@@ -220,6 +220,17 @@ def absurd_counts_are_told():
     expect("the size of the results is told shortly", done.returncode == 0 and 0 < len(line) < 80, line)
 
 
+def a_mistyped_depth_is_told():
+    """A station 1 m below the one before instead of 60 m: the well would turn on a radius of 5 m."""
+    text = (SURVEY.parent / "survey.csv").read_text(encoding="utf-8")
+    sentence = "sharper than wells are drilled: check the depths and angles there"
+    for name, depth, told in (("as it is", "180", False), ("mistyped", "121", True)):
+        pathlib.Path("survey.csv").write_text(text.replace("\n180,", f"\n{depth},"), encoding="utf-8")
+        said = subprocess.run([PROGRAM, "check", str(SURVEY), "--set", f"Well/Survey/File={pathlib.Path('survey.csv').resolve()}"], stdout=subprocess.PIPE,
+                              text=True, check=False).stdout
+        expect(f"a survey {name} has its largest dogleg judged", (sentence in " ".join(said.split())) == told, said[-500:])
+
+
 def main():
     shutil.rmtree("inputs", ignore_errors=True)  # of an earlier run of this test
     pathlib.Path("inputs").mkdir()
@@ -230,6 +241,7 @@ def main():
     many_attributes()
     check_refuses_what_run_refuses()
     absurd_counts_are_told()
+    a_mistyped_depth_is_told()
     return finish()
 
 

@@ -268,6 +268,7 @@ const std::vector<std::string>& documentedKeys() {
       "map.points",
       "map.done",
       "map.failed",
+      "map.unsettled",
       "map.cpu_per_point_s",
       "map.wall_per_point_s",
       "map.axes[].name",

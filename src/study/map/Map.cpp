@@ -14,6 +14,8 @@
 #include "common/ranks/RankGroups.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/WarnOnce.hpp"
+#include "deck/PrintedUnits.hpp"
+#include "io/summary/SummaryUnits.hpp"
 #include "study/engine/RowCommands.hpp"
 #include "study/engine/RunDecks.hpp"
 #include "study/engine/StudyProgress.hpp"
@@ -113,8 +115,11 @@ class Map {
     if (row.status == "failed") return "failed: " + row.reason;
     std::string text;
     for (const auto& value : plan_.settings.values)
-      if (const auto number = row.number(value.key))
-        text += fmt::format("{} {:.4g}, ", value.name, *number);
+      if (const auto number = row.number(value.key)) {
+        const deck::PrintedUnit unit(io::unitOfKey(value.key));
+        text += fmt::format("{} {:.4g}{}{}, ", value.name, unit(*number),
+                            unit.name().empty() ? "" : " ", unit.name());
+      }
     return text + fmt::format("{:.3g} s", row.wall);
   }
 
@@ -131,6 +136,7 @@ class Map {
     if (missing.size() > mostNamed)
       log::warn(std::to_string(missing.size() - mostNamed) +
                 " further cells are missing; map.csv has their reasons.");
+    if (const auto text = unsettledPoints(plan_, rows_->rows()); !text.empty()) log::warn(text);
   }
 
   /// Rank 0 knows the rows.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include "cases/figures/Settling.hpp"
 #include "common/Text.hpp"
 #include "common/report/Likewise.hpp"
 #include "deck/PrintedUnits.hpp"
@@ -54,6 +55,10 @@ Totals totalsOf(const std::vector<MapRow>& rows) {
 double perPoint(double sum, const Totals& totals) {
   const auto count = totals.done + totals.failed;
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+bool hasNotSettled(const MapRow& row) {
+  return row.number(cases::bitSpeedGrowthKey).value_or(0.0) >= cases::unsettledGrowth;
 }
 
 }  // namespace
@@ -114,6 +119,8 @@ void summarise(const MapPlan& plan, const std::vector<MapRow>& rows, io::Summary
   summary.set("map.points", static_cast<long>(rows.size()));
   summary.set("map.done", static_cast<long>(totals.done));
   summary.set("map.failed", static_cast<long>(totals.failed));
+  summary.set("map.unsettled",
+              static_cast<long>(std::count_if(rows.begin(), rows.end(), hasNotSettled)));
   summary.set("map.cpu_per_point_s", perPoint(totals.cpu, totals));
   summary.set("map.wall_per_point_s", perPoint(totals.wall, totals));
   for (const auto& axis : plan.settings.axes)
@@ -172,6 +179,23 @@ std::vector<std::string> missingPoints(const MapPlan& plan, const std::vector<Ma
         out.add(value.key, "", point + "has no number " + value.key + ".");
   }
   return out.told("point");
+}
+
+std::string unsettledPoints(const MapPlan& plan, const std::vector<MapRow>& rows) {
+  constexpr std::size_t mostNamed = 5;
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (hasNotSettled(rows[i])) labels.push_back(plan.points[i].plan.label);
+  if (labels.empty()) return "";
+  const auto count = labels.size();
+  if (count > mostNamed) labels.resize(mostNamed);
+  return fmt::format(
+      "The bit has not settled at {} of {} points ({}{}): its vibration still grows, and the maps "
+      "show the begin of it. A point that counts as safe there may not be. Let the motions last "
+      "longer (Transient/End Time, Output/Figures/Begin), or start them with a disturbance, such "
+      "as "
+      "a ramp of the Rotary Speed.",
+      count, rows.size(), join(labels, "; "), count > mostNamed ? "; ..." : "");
 }
 
 void drawMap(const std::string& folder) { drawPictures("plot_map.py", "map_", folder); }

@@ -34,6 +34,9 @@ std::string describe(const MapPlan& plan, const std::vector<MapRow>& rows);
 /// alone.
 std::vector<std::string> missingPoints(const MapPlan& plan, const std::vector<MapRow>& rows);
 
+/// A sentence on the points whose bit has not settled; "" where all have.
+std::string unsettledPoints(const MapPlan& plan, const std::vector<MapRow>& rows);
+
 /// Draws the maps of a folder with the installed script. When that is not possible, warns with the
 /// command to draw them later. Rank 0 only.
 void drawMap(const std::string& folder);

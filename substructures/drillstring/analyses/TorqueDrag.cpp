@@ -8,6 +8,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Interrupt.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "deck/Defaults.hpp"
@@ -300,8 +301,10 @@ std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFo
   std::vector<TorqueDragProfile> profiles;
   const double deepest = *std::max_element(settings.depths.begin(), settings.depths.end());
   for (const double depth : settings.depths)
-    for (const auto& operation : operations)
+    for (const auto& operation : operations) {
+      if (interruptRequested()) throw InterruptedError("Interrupted.");
       profiles.push_back(torqueDragAt(model, settings, operation, depth, depth == deepest));
+    }
 
   const auto stiffDepths = depthsOfStiffString(settings);
   const auto rows = stiffRows(scene, stiffDepths, operations, store);

@@ -5,6 +5,7 @@
 #include <fmt/printf.h>
 #include <utility>
 
+#include "cases/figures/Settling.hpp"
 #include "common/Constants.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
@@ -165,10 +166,9 @@ void StringFigures::summariseBending(io::Summary& summary) const {
 }
 
 std::vector<std::string> StringFigures::warnings() const {
-  constexpr double unsettled = 5.0;  // settled motions, chaotic ones too, stay below 2
   constexpr double negligible = 0.01;
   std::vector<std::string> found;
-  if (const auto growth = bit_.growth(); growth && *growth >= unsettled)
+  if (const auto growth = bit_.growth(); growth && *growth >= cases::unsettledGrowth)
     found.push_back(fmt::sprintf(
         "The bit has not settled: the range of its speed about the rotary speed is %.2g times as "
         "large in the second half of %.4g to %.4g s as in the first. A vibration that grows is "

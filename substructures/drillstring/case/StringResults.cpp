@@ -242,6 +242,9 @@ void summarise(const Scene& scene, const StaticStage& stage, io::Summary& summar
 
 namespace {
 
+/// 150 deg/30 m [1/m], a radius of 11 m: what is drilled with a short radius turns on 12 m or more.
+constexpr double sharpestDrilled = 150.0 * constants::degree / 30.0;
+
 /// Measured and vertical depth of the bit, the sharpest bend above it, its inclination.
 std::string describeWell(const Scene& scene) {
   constexpr double beside = 1e-6;  // [m] of a depth where the curvature jumps
@@ -260,8 +263,11 @@ std::string describeWell(const Scene& scene) {
       deck::printed(bit, "m", 5), deck::printed(fall, "m", 5),
       scene.well.inclination(bit) / constants::degree);
   if (sharpest == 0.0) return text + "straight";
-  return text + fmt::sprintf("largest dogleg %s at %s", deck::printed(sharpest, "deg/30 m", 3),
-                             deck::printed(where, "m", 5));
+  text += fmt::sprintf("largest dogleg %s at %s", deck::printed(sharpest, "deg/30 m", 3),
+                       deck::printed(where, "m", 5));
+  return sharpest > sharpestDrilled
+             ? text + ", sharper than wells are drilled: check the depths and angles there"
+             : text;
 }
 
 /// Weight, what hangs below the uppermost kind of component, the longest element.

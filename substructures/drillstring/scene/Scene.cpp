@@ -181,10 +181,10 @@ void checkAutodriller(const Scene& scene, Faults& faults) {
   const std::string path = "Top Drive/Autodriller";
   if (!scene.bit || !scene.bit->law->givesWeight())
     faults.add(path, "has no effect without a Bit law that gives the weight on bit.");
-  if (!vibrates(scene))
+  if (!vibrates(scene) && !scene.list().isSublist("Torque and Drag"))
     faults.add(path,
-               "has no effect without Transient, Response or Campbell: the hook holds the static "
-               "state. Add one of these lists.");
+               "has no effect without Transient, Response, Campbell or Torque and Drag: the hook "
+               "holds the static state. Add one of these lists.");
   if (scene.topDrive.constantHookLoad)
     faults.add(path,
                "moves the block, but Top Drive/Hook is \"Constant Load\". Leave one of the "

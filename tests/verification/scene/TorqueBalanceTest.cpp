@@ -47,6 +47,19 @@ class TorqueBalance : public testing::TestWithParam<WellCase> {
   }
 };
 
+/// A straight hole with an inclination has no torque at all: what rounding leaves is none either.
+TEST(TorqueOfAStraightHole, IsNone) {
+  for (const char* azimuth : {"0 deg", "37 deg", "200 deg"}) {
+    const auto scene = drillstring::readScene(
+        testing_::sourceFolder() + "/xml/vertical_1000m.xml",
+        {"!Transient", "!Reduction", "!Substructures", "!Study", "!Rotary Speed",
+         "Well/Vertical/Inclination=50 deg", std::string("Well/Vertical/Azimuth=") + azimuth,
+         "Loads/Torque On Bit=0"});
+    const auto stage = drillstring::solveStatic(scene);
+    EXPECT_LT(stage.state.relativeTorqueDefect(), 1e-3) << azimuth;
+  }
+}
+
 TEST_P(TorqueBalance, HoldsWithOneElementPerBody) {
   const auto coarse = state(1);
   EXPECT_GT(std::abs(coarse.totalFrictionTorque), 1e3);
