@@ -72,14 +72,7 @@ ModelPointer makeModel(const py::object& mass, const py::object& stiffness, cons
 
 /// The index of the law f(t) `function` of that name; None is the constant 1.
 int lawOf(SecondOrderModel& model, const std::string& name, const py::object& function) {
-  if (function.is_none()) return 0;
-  const Kept kept(function);
-  return model.lawIndex({name, [kept, name](double t) {
-                           double value = 0;
-                           fromPython("The law of time \"" + name + "\"",
-                                      [&] { value = (*kept)(t).cast<double>(); });
-                           return value;
-                         }});
+  return function.is_none() ? 0 : model.lawIndex(lawOfTime(name, function));
 }
 
 py::dict terms(const model::SharedList<model::MatrixTerm>& list) {
@@ -264,6 +257,20 @@ void bindParts(py::module_& module) {
 }
 
 }  // namespace
+
+model::ScalarLaw lawOfTime(const std::string& name, const py::object& function) {
+  if (PyCallable_Check(function.ptr()) == 0)
+    throw ModelError("The law of time \"" + name + "\" is " +
+                     py::repr(function).cast<std::string>() +
+                     ", which cannot be called. Give a function of the time.");
+  const Kept kept(function);
+  return {name, [kept, name](double t) {
+            double value = 0;
+            fromPython("The law of time \"" + name + "\"",
+                       [&] { value = (*kept)(t).cast<double>(); });
+            return value;
+          }};
+}
 
 std::vector<model::Substructure> valuesOf(const std::vector<PartPointer>& parts) {
   std::vector<model::Substructure> values;

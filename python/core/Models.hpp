@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <pybind11/pybind11.h>
+#include <string>
 #include <vector>
 
 #include "model/Substructure.hpp"
@@ -18,5 +19,8 @@ using PartPointer = std::shared_ptr<model::Substructure>;
 
 /// The parts as values; what they hold is shared.
 std::vector<model::Substructure> valuesOf(const std::vector<PartPointer>& parts);
+
+/// The law f(t) `function`, a Python callable. ModelError where it is none.
+model::ScalarLaw lawOfTime(const std::string& name, const py::object& function);
 
 }  // namespace tooljoint::python

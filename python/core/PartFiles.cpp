@@ -15,6 +15,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Parallel.hpp"
+#include "common/report/Log.hpp"
 #include "parts/file/PartFile.hpp"
 
 namespace tooljoint::python {
@@ -49,7 +50,11 @@ void write(const PartPointer& part, const std::string& path, const Sets& interfa
                        std::to_string(position.size()) + " coordinates; expected are three.");
     content.positions.emplace(node, Vector3(position[0], position[1], position[2]));
   }
-  for (const auto& points : part->model.points) content.omitted.push_back(points.name);
+  for (const auto& points : part->model.points) {
+    content.omitted.push_back(points.name);
+    log::warn("Part \"" + part->name + "\" is written without its point law \"" + points.name +
+              "\", which a part file cannot hold.");
+  }
   const auto ending = path.rfind(".h5");
   const bool hdf5 = ending != std::string::npos && ending + 3 == path.size();
   longCall([&] {  // all ranks wait for the one that writes
@@ -59,10 +64,38 @@ void write(const PartPointer& part, const std::string& path, const Sets& interfa
   });
 }
 
-PartPointer read(const std::string& path, const std::string& name) {
+using Laws = std::map<std::string, model::ScalarLaw>;
+
+/// The laws of time that a file names without saying what they are.
+void setLaws(parts::PartContent& content, Laws given) {
+  const std::string who = "Part \"" + content.part.name + "\" (" + content.file + ")";
+  for (auto& law : content.part.model.laws.own()) {
+    if (law.name == model::ScalarLaw::one().name) continue;
+    const auto known = given.find(law.name);
+    if (known == given.end())
+      throw DeckError(who + " has terms times the law of time \"" + law.name +
+                      "\", which its file does not hold. Give it: read_part(path, laws={\"" +
+                      law.name + "\": function of the time}).");
+    law = known->second;
+    given.erase(known);
+  }
+  if (!given.empty())
+    throw DeckError(who + " has no law of time \"" + given.begin()->first + "\". Leave it out.");
+}
+
+PartPointer read(const std::string& path, const std::string& name, const py::dict& laws) {
+  Laws given;
+  for (const auto& [key, function] : laws) {
+    const auto law = key.cast<std::string>();
+    given.emplace(law, lawOfTime(law, function.cast<py::object>()));
+  }
   return longCall([&] {
     auto content = parts::readPartEverywhere(path, name);
     content.part.name = name;
+    setLaws(content, given);
+    for (const auto& law : content.omitted)
+      log::warn("Part \"" + name + "\" had the point law \"" + law +
+                "\" where it came from; it is not in the file.");
     return std::make_shared<model::Substructure>(std::move(content.part));
   });
 }
@@ -72,7 +105,7 @@ PartPointer read(const std::string& path, const std::string& name) {
 void bindPartFiles(py::module_& module) {
   module.def("write_part", &write, py::arg("part"), py::arg("path"), py::arg("interfaces"),
              py::arg("positions"), "Write a part: a file .h5, or a folder.");
-  module.def("read_part", &read, py::arg("path"), py::arg("name"),
+  module.def("read_part", &read, py::arg("path"), py::arg("name"), py::arg("laws") = py::dict(),
              "Read a part; its interface are all its interface sets.");
 }
 

@@ -312,7 +312,7 @@ def ranks() -> int:
 def read_deck(deck: DeckSource) -> ReadDeck:
     """Read and check a deck. DeckError, FileError."""
 
-def read_part(path: str, name: str) -> Part:
+def read_part(path: str, name: str, laws: dict = {}) -> Part:
     """Read a part; its interface are all its interface sets."""
 
 def reduce(parts: Iterable[Part], reduction: DeckList) -> list[ReducedPart]:

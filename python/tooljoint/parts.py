@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from . import _core
-from .errors import ModelError
+from .errors import ModelError, UsageError
 from .lists import checked, describe, placed
 
 if TYPE_CHECKING:
@@ -85,9 +85,14 @@ def write_part(part: _core.Part, path: str | os.PathLike, interfaces: Mapping[st
     _core.write_part(part, str(path), {name: list(map(int, dofs)) for name, dofs in sets.items() if len(list(dofs))}, dict(positions or {}))
 
 
-def read_part(path: str | os.PathLike, name: str = "part") -> _core.Part:
-    """Read a part: a file .h5 or .json, or a folder with a part.json. DeckError for what is malformed, ModelError."""
-    return _core.read_part(str(path), name)
+def read_part(path: str | os.PathLike, name: str = "part", laws: dict[str, Any] | None = None) -> _core.Part:
+    """Read a part: a file .h5 or .json, or a folder with a part.json. DeckError for what is malformed, ModelError.
+
+    laws: of every law of time that terms of the file name, its function of the time [s], or a number: `laws={"Omega": 12.5}`.
+    Point laws, which a file cannot hold, are warned of.
+    """
+    functions = {law: value if callable(value) else (lambda t, value=float(value): value) for law, value in (laws or {}).items()}
+    return _core.read_part(str(path), name, functions)
 
 
 def reduction(method: str = "Craig-Bampton", **parameters: Any) -> _core.DeckList:
@@ -132,7 +137,12 @@ def couple(parts: Iterable[Any], coupling: dict | _core.Connections | None = Non
     ModelError names what cannot be joined.
     """
     parts = list(parts)
-    if parts and isinstance(parts[0], _core.ReducedPart):
+    reduced = [isinstance(part, _core.ReducedPart) for part in parts]
+    if any(reduced) and not all(reduced):
+        raise UsageError("Some of the parts are reduced and some are not. Reduce all of them, or none.")
+    if any(reduced):
+        if coupling is not None:
+            raise UsageError("Reduced parts are joined by their labels alone. Give the coupling to synthesise(), which reduces and couples.")
         return _core.couple_reduced(parts)
     return _core.couple(parts, _joining(coupling))
 

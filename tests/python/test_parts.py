@@ -198,6 +198,31 @@ class Reduction(unittest.TestCase):
         with self.assertRaises(tj.DeckError):
             tj.read_part("nowhere.h5")
 
+    def test_laws_of_a_file_are_given_and_point_laws_told(self):
+        stiff, k = np.diag([5e3, 0, 0]), 1e3 * np.array([[2.0, -1, 0], [-1, 2, -1], [0, -1, 2]])
+        part = tj.part("bearing", np.eye(3), k, interface=[2])
+        part.model.add_stiffness(stiff, "bearing", lambda t: 2.0)
+        part.model.add_points("spring", tj.law("Spring", stiffness=1.0), [[1.0, 0, 0]])
+        exact = tj.modes(tj.part("fixed", np.eye(3), k + 2 * stiff, interface=[2]), 3).frequency
+        tj.write_part(part, "bearing.h5")
+        with self.assertRaisesRegex(tj.DeckError, "law of time \"bearing\".*laws="):
+            tj.read_part("bearing.h5")
+        with self.assertRaisesRegex(tj.DeckError, "has no law of time \"Omega\""):
+            tj.read_part("bearing.h5", laws={"bearing": 2, "Omega": 1})
+        for law in (2, lambda t: 2.0):
+            again = tj.read_part("bearing.h5", laws={"bearing": law})
+            self.assertTrue(any("point law \"spring\"" in warning for warning in tj.warnings()), tj.warnings())
+            self.assertTrue(np.allclose(tj.modes(again, 3).frequency, exact, rtol=1e-9))
+        with self.assertRaisesRegex(tj.ModelError, "cannot be called"):
+            part.model.add_load([1.0, 0, 0], "load", {"Form": "Ramp"})
+
+    def test_reduced_parts_take_no_coupling(self):
+        reduced = tj.reduce([self.left, self.right], modes=2)
+        with self.assertRaisesRegex(tj.UsageError, "synthesise"):
+            tj.couple(reduced, {"Springs": {}})
+        with self.assertRaisesRegex(tj.UsageError, "Some of the parts are reduced"):
+            tj.couple([self.left, reduced[1]])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -194,6 +194,7 @@ def static_walls(program, short):
 # Truths of strings on stiff walls: tolerance of RK4 adaptive, and a step of generalized-alpha of about
 # a fifteenth of the impact of a node of 60 kg, pi sqrt(m / k), by the wall's stiffness [N/m].
 TRUTHS = {1e8: (1e-2, 1e-4), 3e9: (3e-3, 2e-5), 5e11: (1e-4, 2e-6)}
+TRUTH_SECONDS = 5400  # a million steps of 2 us take half an hour
 
 
 def striking_strings(program, short):
@@ -207,7 +208,7 @@ def striking_strings(program, short):
                     "Contact/Damping": 0.0 if damping == "none" else 1e4 * math.sqrt(stiffness / 1e7)}
             # of the same model: what the basis misses is no matter of the wall
             tight_ways = {"full": [(rk4_adaptive(tolerance), FULL), (alpha(tight, 1.0), FULL)], "reduced": [(alpha(step, 1.0), ()) for step in (2 * tight, tight)]}
-            truths = {model: [program.run(f"c8_truth_{model}{i}", STRESS, {**wall, **way}, without) for i, (way, without) in enumerate(runs)]
+            truths = {model: [program.run(f"c8_truth_{model}{i}", STRESS, {**wall, **way}, without, seconds=TRUTH_SECONDS) for i, (way, without) in enumerate(runs)]
                       for model, runs in tight_ways.items() if not (short and model == "reduced")}
             ways = [(1e-3, 0.2, "full", FULL)]
             if not short:
