@@ -69,6 +69,23 @@ TEST(SuddenLoad, isOfSecondOrderWhereverItFalls) {
       }
 }
 
+/// A heavy mass in motion: the work of a load that comes late in a step is that of the rest of it.
+TEST(SuddenLoad, worksFromWhenItComes) {
+  const double heavy = 1e6, speed = 2.0, end = 2.0;
+  for (const char* integrator : {"Generalized-alpha", "RK4"})
+    for (const double from : {1.0, 1.0009, 1.0001}) {
+      auto model = denseModel(scalar(heavy), Matrix(), Matrix());
+      model.initialVelocity[0] = speed;
+      const int law =
+          model.lawIndex({"push", [from](double t) { return t < from ? 0.0 : 1.0; }, {from}});
+      model.loads.push_back({"push", Vector::Constant(1, force), law});
+      Keep samples;
+      const auto report = integrate(model, options(integrator, end, 1e-3, 0.1), samples);
+      const double t = end - from, work = force * (speed * t + 0.5 * force / heavy * t * t);
+      EXPECT_NEAR(report.energy.loads, work, 1e-6 * work) << integrator << from;
+    }
+}
+
 /// A pulse shorter than a step, between two ends of steps or around one of them, gives its impulse,
 /// at the end of a step: the motion is late or early by up to a step, h omega = 0.025 of it.
 TEST(SuddenLoad, aPulseShorterThanAStepGivesItsImpulse) {
