@@ -53,8 +53,9 @@ TEST(TorqueOfAStraightHole, IsNone) {
     const auto scene = drillstring::readScene(
         testing_::sourceFolder() + "/xml/vertical_1000m.xml",
         {"!Transient", "!Reduction", "!Substructures", "!Study", "!Rotary Speed",
-         "Well/Vertical/Inclination=50 deg", std::string("Well/Vertical/Azimuth=") + azimuth,
-         "Loads/Torque On Bit=0"});
+         "!Loads/Unbalance", "!Contact/Friction", "!Well/Arc", "Well/Trajectory=Vertical",
+         "Well/Vertical/Length=1100", "Well/Vertical/Inclination=50 deg",
+         std::string("Well/Vertical/Azimuth=") + azimuth, "Loads/Torque On Bit=0"});
     const auto stage = drillstring::solveStatic(scene);
     EXPECT_LT(stage.state.relativeTorqueDefect(), 1e-3) << azimuth;
   }
