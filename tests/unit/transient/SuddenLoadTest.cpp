@@ -113,10 +113,11 @@ TEST(SuddenLoad, aPulseShorterThanAStepGivesItsImpulse) {
 /// A stiff spring and dashpot act all the time and are no wall: the motion takes the steps it takes
 /// with the same terms in its matrices, and is the same.
 TEST(SuddenLoad, aSpringIsNoWall) {
-  for (const double k : {2e4, 2e7}) {
-    const double c = 0.02 * std::sqrt(k);
-    const auto pushedOn = [](model::SecondOrderModel model) {
+  for (const double k : {2e5, 2e7}) {
+    const double c = 0.02 * std::sqrt(k), speed = 1.0;
+    const auto pushedOn = [speed](model::SecondOrderModel model) {
       model.loads.push_back({"push", Vector::Unit(2, 0) * force, 0});
+      model.initialVelocity[1] = speed;
       return model;
     };
     Matrix K(2, 2), own = Matrix::Zero(2, 2), damper = Matrix::Zero(2, 2);
@@ -129,12 +130,13 @@ TEST(SuddenLoad, aSpringIsNoWall) {
     addLaw(sprung, "Spring", list);
     sprung.points.back().rows = Matrix(own / k).sparseView();
     Keep samples, expected;
-    const auto o = options("Generalized-alpha", 2.0, 1e-3, 0.05);
+    auto o = options("Generalized-alpha", 2.0, 1e-3, 0.05);
+    acceptCoarseSteps(o);
     const auto report = integrate(sprung, o, samples);
     integrate(pushedOn(denseModel(M, damper, K + own)), o, expected);
     EXPECT_EQ(report.counters.steps, 2000) << k;
     for (std::size_t i = 0; i < samples.time.size(); ++i)
-      EXPECT_LT((samples.q[i] - expected.q[i]).norm(), 1e-5 * force / 50) << k << " " << i;
+      EXPECT_LT((samples.q[i] - expected.q[i]).norm(), 1e-4 * force / 50) << k << " " << i;
   }
 }
 
