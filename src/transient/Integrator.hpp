@@ -79,6 +79,10 @@ class Integrator {
   /// decisions are taken over CompiledModel::cut(). Other motions are computed by all ranks alike.
   virtual bool dividesAmongRanks() const { return false; }
 
+  /// Whether loads that jump or pulse inside a step act as they do, by CompiledModel::setStepEnd()
+  /// or setStage(). Of others the run judges whether the ends of steps see such laws.
+  virtual bool followsCorners() const { return false; }
+
   /// Every how many steps the energy ledger has to look, for steps that are short beside what
   /// moves.
   virtual int ledgerStride() const { return 1; }

@@ -403,8 +403,14 @@ class Run {
     const Counters& c = integrator_->counters();
     const double equal = integrator_->equalStep(), h = equal > 0 ? equal : c.maxStep;
     if (!(equal > 0) && c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
-    for (const auto& law : model_.source().laws) {
-      const double missed = missedPart(law, options_.start, state_.t, h);
+    const auto& model = model_.source();
+    for (std::size_t i = 0; i < model.laws.size(); ++i) {
+      const auto& law = model.laws[i];
+      const auto follows = [i](const auto& term) { return term.law == static_cast<int>(i); };
+      const bool ofMatrix = std::any_of(model.damping.begin(), model.damping.end(), follows) ||
+                            std::any_of(model.stiffness.begin(), model.stiffness.end(), follows);
+      const double missed =
+          missedPart(law, options_.start, state_.t, h, integrator_->followsCorners() && !ofMatrix);
       if (missed <= unresolved) continue;
       const std::string text =
           "The time step (" + formatNumber(h) + " s) is too large for the law \"" + law.name +

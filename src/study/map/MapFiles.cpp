@@ -191,10 +191,9 @@ std::string unsettledPoints(const MapPlan& plan, const std::vector<MapRow>& rows
   if (count > mostNamed) labels.resize(mostNamed);
   return fmt::format(
       "The bit has not settled at {} of {} points ({}{}): its vibration still grows, and the maps "
-      "show the begin of it. A point that counts as safe there may not be. Let the motions last "
-      "longer (Transient/End Time, Output/Figures/Begin), or start them with a disturbance, such "
-      "as "
-      "a ramp of the Rotary Speed.",
+      "show its beginning. A point that counts as safe there may not be. Let the motions last "
+      "longer (Transient/End Time, Output/Figures/Begin), or start them with a disturbance: a ramp "
+      "of the Rotary Speed.",
       count, rows.size(), join(labels, "; "), count > mostNamed ? "; ..." : "");
 }
 

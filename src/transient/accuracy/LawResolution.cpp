@@ -3,14 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "common/Index.hpp"
 
 namespace tooljoint::transient {
 namespace {
 
-/// Steps of a run at which laws are looked at: the first ones, and as many spread over the rest.
+/// Steps of a run at which laws are looked at: the first ones, as many spread over the rest, and
+/// those with a corner.
 constexpr long lawSteps = 10000;
 
-/// Looks at a law within a step: what is shorter than the distance of two of them may be missed.
+/// Looks at a law within a step, corners aside: what is shorter than the distance of two of them
+/// may be missed.
 constexpr int looksInStep = 8;
 
 }  // namespace
@@ -44,22 +49,35 @@ LawMoments momentsOf(const model::ScalarLaw& law, double begin, double end) {
   return sum;
 }
 
-double missedPart(const model::ScalarLaw& law, double start, double end, double h) {
+double missedPart(const model::ScalarLaw& law, double start, double end, double h,
+                  bool followsCorners) {
   const auto steps = static_cast<long>(std::floor((end - start) / h * (1 + 1e-12)));
   const long stride = std::max(1L, steps / lawSteps);
   const auto begin = [&](long step) { return start + static_cast<double>(step) * h; };
+  std::vector<long> looked;
+  for (long i = 0; i < steps; i += i < lawSteps ? 1 : stride) looked.push_back(i);
+  for (const double corner : law.corners)
+    if (corner >= start && corner < begin(steps))
+      looked.push_back(static_cast<long>(std::floor((corner - start) / h)));
+  makeUnique(looked);
   double missed = 0.0, sum = 0.0;
-  for (long i = 0; i < steps; i += i < lawSteps ? 1 : stride) {
+  std::vector<double> times;
+  for (const long i : looked) {
     const double t = begin(i), next = begin(i + 1);
-    if (hasCorner(law, t, next)) {
+    if (followsCorners && hasCorner(law, t, next)) {
       sum += h * std::abs(momentsOf(law, t, next).mean);
       continue;
     }
+    times.clear();
+    for (int k = 0; k <= looksInStep; ++k) times.push_back(t + h * k / looksInStep);
+    const auto corner = std::upper_bound(law.corners.begin(), law.corners.end(), t);
+    times.insert(times.end(), corner, std::lower_bound(corner, law.corners.end(), next));
+    std::sort(times.begin(), times.end());
     double fine = 0.0, before = law.value(t);
     const double whole = 0.5 * h * (before + law.value(next));
-    for (int k = 1; k <= looksInStep; ++k) {
-      const double value = law.value(t + h * k / looksInStep);
-      fine += 0.5 * h / looksInStep * (before + value);
+    for (std::size_t k = 1; k < times.size(); ++k) {
+      const double value = law.value(times[k]);
+      fine += 0.5 * (times[k] - times[k - 1]) * (before + value);
       before = value;
     }
     if (i > 0 || std::abs(whole) < std::abs(fine)) missed += std::abs(whole - fine);

@@ -20,9 +20,10 @@ bool hasCorner(const model::ScalarLaw& law, double begin, double end);
 LawMoments momentsOf(const model::ScalarLaw& law, double begin, double end);
 
 /// sum |T_h - T_{h/8}| / sum |T_{h/8}|, with T the trapezoidal sums of a law over a step and over
-/// its eighths; steps with a corner, whose loads have the moments of the law, miss nothing. What
-/// the first step has too much is left out: a load that is let go at the start has its value there
-/// alone, and no integral to compare that with.
-double missedPart(const model::ScalarLaw& law, double start, double end, double h);
+/// its eighths and corners. What the first step has too much is left out: a load that is let go at
+/// the start has its value there alone, and no integral to compare that with. \param followsCorners
+/// steps with a corner have the moments of the law, as loads have, and miss nothing
+double missedPart(const model::ScalarLaw& law, double start, double end, double h,
+                  bool followsCorners);
 
 }  // namespace tooljoint::transient

@@ -285,6 +285,28 @@ TEST(Transient, aPulseBetweenTheHalvesOfAStepIsRefused) {
   }));
 }
 
+/// The same of a stiffness, which steps see at their ends alone, where the program knows the
+/// corners of the law, however short it is; and one that ends of steps see twice as large as it is.
+TEST(Transient, aPulseOfStiffnessThatEndsOfStepsMissOrExaggerateIsRefused) {
+  for (const char* integrator : {"RK4", "Generalized-alpha"}) {
+    auto o = options(integrator, 1.0, 1e-2, 0.1);
+    o.ledger = false;
+    o.stepErrorLimit = 0.9;
+    for (const auto& [from, to] : {std::pair{0.5013, 0.5016}, {0.495, 0.505}}) {
+      auto model = oscillator(1.0, 1.0, 4.0, 0.1, 0.0);
+      const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+      const int law =
+          model.lawIndex({"kick",
+                          [=](double t) { return std::max(0.0, 1 - std::abs(t - middle) / half); },
+                          {from, middle, to}});
+      model.stiffness.push_back({"kick", scalar(1.0).sparseView(), law});
+      Keep samples;
+      const auto text = errorText([&] { integrate(model, o, samples); });
+      EXPECT_NE(text.find("too large for the law \"kick\""), std::string::npos) << from << text;
+    }
+  }
+}
+
 /// A load that is let go at the start has its value there alone: its integral is none, and no part
 /// of it is lost.
 TEST(Transient, aLoadThatIsLetGoIsNotRefused) {
