@@ -8,6 +8,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "coupling/input/ComponentAxes.hpp"
 #include "coupling/input/ResolvedCoupling.hpp"
 #include "model/SpeedLaw.hpp"
 #include "parts/ContentEdits.hpp"
@@ -87,7 +88,21 @@ class Builder {
     for (const auto& content : scene_.contents)
       for (const auto& name : content.part.model.componentNames)
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    for (std::size_t p = 0; p < scene_.contents.size(); ++p)
+      if (imported()[p].turned) addTurned(scene_.contents[p], imported()[p].axes, names);
+    for (const auto& frame : plan_.frames)
+      for (const auto& content : scene_.contents)
+        if (content.part.name == frame.frame.part) addTurned(content, frame.frame.axes, names);
     for (auto& content : scene_.contents) widen(content, names);
+  }
+
+  /// Components that a part moves in once it is turned, and no part has.
+  static void addTurned(const PartContent& content, const Matrix3& axes,
+                        model::ComponentNames& names) {
+    for (const auto& name : coupling::namesTurnedInto(content.part.model.componentNames, axes))
+      if (std::none_of(names.begin(), names.end(),
+                       [&](const auto& other) { return coupling::sameDirection(name, other); }))
+        names.push_back(name);
   }
 
   int partNumber(const std::string& name) const {
@@ -154,7 +169,13 @@ class Builder {
       std::set<int> kept(content.part.retained.begin(), content.part.retained.end());
       for (const auto& text : given.retained)
         attempt(given.where + "/Retained", [&] {
-          for (int i : positionsOf(content, text)) kept.insert(i);
+          const auto named = positionsOf(content, text);
+          if (std::all_of(named.begin(), named.end(),
+                          [&](int i) { return held[static_cast<std::size_t>(i)] != 0; }))
+            throw DeckError("names " + inQuotes(text) +
+                            ", whose dofs are all in Fixed of this part. Take it out of one of "
+                            "the two");
+          kept.insert(named.begin(), named.end());
         });
       for (int i = 0; i < content.part.model.size(); ++i) {
         if (!given.reduce) kept.insert(i);
@@ -326,9 +347,9 @@ void requireHeldThere(const PartStart& start, double value) {
 
 }  // namespace
 
-void findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver,
-               PartsScene& scene) {
-  if (!settings.atRest && settings.starts.empty()) return;
+Vector findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver,
+                 PartsScene& scene) {
+  if (!settings.atRest && settings.starts.empty()) return {};
   auto options = scene.coupling;
   options.assembly = coupling::Assembly::Primal;
   options.requireAgreeingStarts = false;  // they are found here
@@ -338,6 +359,7 @@ void findStart(const PartsSettings& settings, double t, const model::NonlinearSo
   if (settings.atRest)
     for (std::size_t p = 0; p < scene.parts.size(); ++p)
       scene.parts[p].reference = full.maps[p] * z + full.offsets[p];
+  const Vector rest = settings.atRest ? z : Vector();
   std::vector<std::pair<Vector, const PartStart*>> given;
   for (const auto& start : settings.starts) {
     const auto it =
@@ -376,6 +398,7 @@ void findStart(const PartsSettings& settings, double t, const model::NonlinearSo
     scene.parts[p].model.initialDisplacement = full.maps[p] * z + full.offsets[p];
     scene.parts[p].model.initialVelocity = full.maps[p] * zDot;
   }
+  return rest;
 }
 
 }  // namespace tooljoint::parts

@@ -73,10 +73,12 @@ Vector largestOfRows(const Sparse& K) {
   return rows;
 }
 
-/// K has a skew part, or friction acts at the points: a motion can grow without negative pivots.
+/// K has a skew part, friction acts at the points or a dof is damped negatively: a motion can grow
+/// without negative pivots.
 bool canFlutter(const model::SecondOrderModel& model, const estimate::Linearised& tangent,
                 double t) {
   if (Sparse(tangent.damping - model.dampingAt(t)).squaredNorm() > 0.0) return true;
+  if (tangent.damping.diagonal().minCoeff() < 0.0) return true;
   const Sparse transposed = tangent.stiffness.transpose(), skew = tangent.stiffness - transposed;
   const Vector rows = largestOfRows(tangent.stiffness);
   for (int i = 0; i < skew.outerSize(); ++i)

@@ -212,6 +212,8 @@ def refused():
     """A study of parts without a Study list is refused with a sentence; tests/study/check_frame_study.py has one that runs."""
     done = tooljoint("study", str(ROOT / "xml" / "frame.xml"))
     expect("a study of parts needs a Study list", done.returncode == 2 and "has no Study list" in done.stderr)
+    done = tooljoint("check", bars("kept"), "--set", "Parts/Imported/a/Retained={left}")
+    expect("a set that is retained and fixed is refused", done.returncode == 2 and 'a/Retained names "left", whose dofs are all in Fixed' in " ".join(done.stderr.split()), done.stderr[-300:])
 
 
 def released():
@@ -338,6 +340,60 @@ def creeping_dofs():
     expect("damping in proportion to the stiffness is none of it", full.returncode == 0 and done.returncode == 0 and "with damping but no mass" not in " ".join(done.stderr.split()), done.stderr[-300:])
 
 
+def unstable_equilibria():
+    """An equilibrium that the parts leave is told, with the growth rate of the matrices; so is one that a negative damper drives."""
+    deck = bars("leaves", {"Initial State": "Equilibrium"})
+    bar = json.loads(pathlib.Path("bar10.json").read_text(encoding="utf-8"))
+    count = len(bar["dofs"])
+
+    def rest(name, share, damping):
+        """What a run says of these bars in a row, held on the left, with this damping; `share` of the stiffness of both is taken off the free end."""
+        weak = dict(bar)
+        K = np.array(bar["stiffness"])
+        K[-1, -1] -= share * 1e6 / (count - 1) / 2
+        weak["stiffness"], weak["damping"] = K.tolist(), (damping * np.eye(count)).tolist()
+        pathlib.Path("weak.json").write_text(json.dumps(weak), encoding="utf-8")
+        done = tooljoint("run", deck, "--output", name, "--set", "Parts/Imported/b/File=weak.json", "--set", "Transient/End Time=2e-3")
+        size = 2 * count - 1
+        whole = {key: np.zeros((size, size)) for key in ("mass", "stiffness", "damping")}
+        for at, part in ((0, bar), (count - 1, weak)):
+            for key, matrix in whole.items():
+                if key in part:
+                    matrix[at:at + count, at:at + count] += np.array(part[key])
+        M, C, K = (whole[key][1:, 1:] for key in ("mass", "damping", "stiffness"))
+        inverse = np.linalg.inv(M)
+        growth = np.linalg.eigvals(np.block([[np.zeros_like(M), np.eye(size - 1)], [-inverse @ K, -inverse @ C]])).real.max()
+        with open(f"{name}/summary.json", encoding="utf-8") as file:
+            summary = json.load(file)["static"]
+        return " ".join(done.stderr.split()), summary, growth
+
+    said, summary, growth = rest("leaves", 2.0, 0.0)
+    expect("an equilibrium that the parts leave is warned of", "The equilibrium of the parts is unstable: the parts leave it" in said and "u of node b:11" in said, said[-500:])
+    expect("its growth rate is that of the matrices", summary["stable"] is False and abs(summary["growth_rate"] / growth - 1) < 1e-6 and summary["unstable_node"] == "b:11",
+           f"{summary['growth_rate']} of {growth}")
+    said, summary, _ = rest("stays", 0.5, 0.1)
+    expect("one that they stay in is stable", "unstable" not in said and summary["stable"] is True and summary["negative_pivots"] == 0, said[-300:])
+    said, summary, growth = rest("driven", 0.5, -0.1)
+    expect("negative damping makes a vibration grow", "a vibration of" in said and abs(summary["growth_rate"] / growth - 1) < 1e-6, f"{summary.get('growth_rate')} of {growth}: {said[-400:]}")
+
+
+def turned_out_of_the_plane():
+    """A part that moves in u and v, turned about its x axis, moves along w in the common frame; the results have it."""
+    pathlib.Path("plane.json").write_text(json.dumps({"format": "tooljoint part 1", "components": ["u", "v"], "dofs": [[1, "u"], [1, "v"]], "mass": [[1, 0], [0, 1]],
+                                                      "stiffness": [[1e4, 0], [0, 4e4]], "initial_displacement": [0, 1e-3]}), encoding="utf-8")
+    turned = {"File": "plane.json", "Rotation Axis": [1.0, 0.0, 0.0], "Rotation Angle": "30 deg"}
+    deck = pathlib.Path("plane.xml")
+    deck.write_text(parameter_list("plane", {"Parts": {"Imported": {"a": turned}}, "Transient": {"End Time": 0.02, "Step": 1e-4, "Sampling Interval": 1e-3}}), encoding="utf-8")
+    done = tooljoint("run", str(deck), "--output", "plane")
+    expect("a part of u and v turned about x runs", done.returncode == 0, done.stderr[-400:])
+    with h5py.File("plane/results.h5") as results:
+        names = [name.decode() for name in results["/model/components"][:]]
+        motion = results["/transient/displacement"][:].reshape(-1, len(names))
+    exact = 1e-3 * np.cos(200.0 * 1e-3 * np.arange(len(motion)))
+    expect("its motion along w is in the results", names == ["u", "v", "w"] and np.abs(motion[:, 1] - np.cos(np.pi / 6) * exact).max() < 1e-6 and
+           np.abs(motion[:, 2] - np.sin(np.pi / 6) * exact).max() < 1e-6, f"{names} {motion[-1]}")
+
+
 if __name__ == "__main__":
     documented_scripts()
     frame()
@@ -352,4 +408,6 @@ if __name__ == "__main__":
     starts_of_joints()
     floating_beams()
     creeping_dofs()
+    unstable_equilibria()
+    turned_out_of_the_plane()
     sys.exit(finish())

@@ -17,7 +17,9 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
 #include "parts/PartsGeometry.hpp"
+#include "stability/StabilityText.hpp"
 
 namespace tooljoint::cases {
 
@@ -71,9 +73,25 @@ class RestingParts : public RestingCase {
     return m;
   }
 
-  std::string describe() const override { return ""; }
+  void judge() const override {
+    const auto& found = joined_->stability;
+    if (!found || found->stable()) return;
+    log::warn("The equilibrium of the parts is " + stabilityText() +
+              (found->diverges()
+                   ? " A small disturbance leaves it: check the signs of the stiffness, reduce the "
+                     "loads, or start where the parts come to rest (Parts/Starts)."
+                   : " A small disturbance grows into a vibration without an excitation."));
+  }
+
+  std::string describe() const override {
+    return joined_->stability ? "stability   " + stabilityText() : "";
+  }
   void summarise(io::Summary& summary) const override {
-    if (lists_->settings.atRest) summary.set("static.converged", true);
+    if (!lists_->settings.atRest) return;
+    summary.set("static.converged", true);
+    if (!joined_->stability) return;
+    stability::summarise(*joined_->stability, summary);
+    if (!joined_->stability->stable()) summary.set("static.unstable_node", unstableNode());
   }
 
   /// Group /model (which node of which part a row is), and the displacements at the start.
@@ -126,6 +144,18 @@ class RestingParts : public RestingCase {
 
  private:
   const model::SecondOrderModel& model() const { return joined_->whole.model; }
+
+  /// "part:node"; empty where no node moves.
+  std::string unstableNode() const {
+    const auto found = joined_->scene.nodes.find(joined_->stability->outline.node);
+    if (found == joined_->scene.nodes.end()) return "";
+    const auto& name = found->second.front();
+    return joined_->scene.parts[static_cast<std::size_t>(name.part)].name + ":" +
+           std::to_string(name.node);
+  }
+  std::string stabilityText() const {
+    return stability::inWords(*joined_->stability, "the parts leave it", "node " + unstableNode());
+  }
 
   /// Positions of the nodes and edges of the mesh, where the files give positions.
   void writeGeometry(io::ResultsFile& file) const {
@@ -340,9 +370,14 @@ void ImportedCase::verify() const {
 std::shared_ptr<const RestingCase> ImportedCase::solveStatic() const {
   lists_->requireMass(joined_->scene, joined_->whole.model);
   if (!joined_->started) {
-    lists_->start(joined_->scene);
+    const Vector rest = lists_->start(joined_->scene);
     joined_->whole = joinUnreduced(joined_->scene, true);
     joined_->started = true;
+    if (rest.size() > 0 && !isZero(joined_->whole.model.mass)) {
+      auto resting = joined_->whole.model;
+      resting.initialDisplacement = rest;
+      joined_->stability = stability::assess(resting, lists_->startTime());
+    }
   }
   return std::make_shared<RestingParts>(lists_, joined_);
 }

@@ -5,20 +5,23 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cases/Case.hpp"
 #include "cases/imported/ImportedDeck.hpp"
 #include "cases/recording/RecordedNodes.hpp"
+#include "stability/StateStability.hpp"
 
 namespace tooljoint::cases {
 
 /// Parts put together, and the state they start from once it is found.
 struct JoinedParts {
   parts::PartsScene scene;
-  coupling::Coupling whole;  ///< unreduced, always primal
-  bool started = false;      ///< the parts hold the state they start from
+  coupling::Coupling whole;                            ///< unreduced, always primal
+  bool started = false;                                ///< the parts hold the state they start from
+  std::optional<stability::StateStability> stability;  ///< of the equilibrium they start from
 };
 
 class ImportedCase : public Case, public NodeChoice {

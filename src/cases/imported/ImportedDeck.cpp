@@ -96,10 +96,10 @@ void ImportedDeck::checkReduction(const parts::PartsScene& scene) const {
   });
 }
 
-void ImportedDeck::start(parts::PartsScene& scene) const {
-  locating(deck, [&] {
-    parts::findStart(settings, startTime(), statics::noxSolver(Teuchos::ParameterList("Static")),
-                     scene);
+Vector ImportedDeck::start(parts::PartsScene& scene) const {
+  return locating(deck, [&] {
+    return parts::findStart(settings, startTime(),
+                            statics::noxSolver(Teuchos::ParameterList("Static")), scene);
   });
 }
 

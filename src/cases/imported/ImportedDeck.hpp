@@ -34,8 +34,9 @@ struct ImportedDeck {
   parts::PartsScene build() const;
   /// DeckError, ModelError: what the list Reduction asks of these parts and they do not have.
   void checkReduction(const parts::PartsScene& scene) const;
-  /// Finds the state the parts start from. DeckError, ConvergenceError. Collective.
-  void start(parts::PartsScene& scene) const;
+  /// Finds the state the parts start from; the rest as in parts::findStart. DeckError,
+  /// ConvergenceError. Collective.
+  Vector start(parts::PartsScene& scene) const;
   /// ModelError naming a dof without mass where the integrator of the deck divides by it.
   void requireMass(const parts::PartsScene& scene, const model::SecondOrderModel& full) const;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/input/ComponentAxes.hpp"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,9 @@
 namespace tooljoint::coupling {
 
 namespace {
+
+/// Entries of a rotation below this are rounding.
+constexpr double rounding = 1e-12;
 
 /// Kind and axis (0, 1, 2) of a name.
 std::pair<ComponentKind, int> meaning(const std::string& name) {
@@ -31,6 +35,17 @@ std::pair<ComponentKind, int> meaning(const std::string& name) {
   return {ComponentKind::Unknown, -1};
 }
 
+/// The name of the component along or about `axis` (0, 1, 2) of one with this name: "w" of "u",
+/// "theta_x" of "theta_y" and of "theta".
+std::string alongAxis(std::string name, int axis) {
+  for (const std::string letters : {"uvw", "UVW", "xyz", "XYZ", "123"})
+    if (letters.find(name.back()) != std::string::npos) {
+      name.back() = letters[static_cast<std::size_t>(axis)];
+      return name;
+    }
+  return name + "_" + "xyz"[axis];
+}
+
 }  // namespace
 
 ComponentAxes componentAxes(const model::ComponentNames& names) {
@@ -46,6 +61,26 @@ ComponentAxes componentAxes(const model::ComponentNames& names) {
 }
 
 ComponentKind kindOf(const std::string& name) { return meaning(name).first; }
+
+bool sameDirection(const std::string& first, const std::string& second) {
+  return meaning(first) == meaning(second) && kindOf(first) != ComponentKind::Unknown;
+}
+
+std::vector<std::string> namesTurnedInto(const model::ComponentNames& names, const Matrix3& axes) {
+  const auto have = componentAxes(names);
+  std::vector<std::string> more;
+  for (const auto& vector : {have.translation, have.rotation})
+    for (int a = 0; a < 3; ++a) {
+      if (vector[static_cast<std::size_t>(a)] >= 0) continue;
+      for (int b = 0; b < 3; ++b) {
+        const int from = vector[static_cast<std::size_t>(b)];
+        if (from < 0 || std::abs(axes(a, b)) < rounding) continue;
+        more.push_back(alongAxis(names[static_cast<std::size_t>(from)], a));
+        break;
+      }
+    }
+  return more;
+}
 
 std::function<std::string(const std::string&)> unitByKind(const std::string& translation,
                                                           const std::string& rotation,

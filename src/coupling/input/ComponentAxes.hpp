@@ -6,7 +6,9 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "common/Types.hpp"
 #include "model/DofLabel.hpp"
 
 namespace tooljoint::coupling {
@@ -24,6 +26,12 @@ enum class ComponentKind { Translation, Rotation, Unknown };
 /// do not matter.
 ComponentAxes componentAxes(const model::ComponentNames& names);
 ComponentKind kindOf(const std::string& name);
+/// Both are the translation along, or the rotation about, the same axis: "w" and "uz".
+bool sameDirection(const std::string& first, const std::string& second);
+
+/// Names, in the manner of those given, of the components they lack and a rotation d_common = axes
+/// d_part leads into: {"w"} of (u, v) that is turned out of its plane.
+std::vector<std::string> namesTurnedInto(const model::ComponentNames& names, const Matrix3& axes);
 
 /// Chooses between the unit of a translation and that of a rotation by the name of a component: for
 /// deck::ListSpec::unitBy. A name of neither kind has none; `absent` is the unit without a name.

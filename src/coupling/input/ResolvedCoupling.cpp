@@ -10,6 +10,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "coupling/input/ComponentAxes.hpp"
+#include "coupling/input/LinkLoops.hpp"
 #include "reduction/part/Partition.hpp"
 
 namespace tooljoint::coupling {
@@ -49,10 +50,12 @@ class Planner {
         term.dof.node = translated({term.dof.part, term.dof.node}, one.path).node;
       add(constraint);
     }
-    for (const auto& one : plan_.links)
-      for (const auto& constraint : rigidLink(translated(one.from, one.path),
-                                              translated(one.to, one.path), one.arm, names()))
-        add(constraint);
+    LinkLoops loops(names());
+    for (const auto& one : plan_.links) {
+      const PartNode from = translated(one.from, one.path), to = translated(one.to, one.path);
+      loops.add(place(from), place(to), one.arm, one.path);
+      for (const auto& constraint : rigidLink(from, to, one.arm, names())) add(constraint);
+    }
     for (const auto& one : plan_.hinges)
       addHinge(translated(one.first, one.path), translated(one.second, one.path), one.axis);
     for (const auto& one : plan_.points) addPoint(one);
@@ -96,6 +99,11 @@ class Planner {
       throw ModelError(path + " names node " + std::to_string(node.node) + " of part \"" +
                        node.part + "\", but the part has no such node.");
     return {node.part, number->second};
+  }
+
+  /// The same for all parts that a joint puts in one place, unless something is released there.
+  LinkLoops::Node place(const PartNode& node) const {
+    return {out_.options.connections.releases(node.node) ? node.part : "", node.node};
   }
 
   /// Calls visit(part, position) for every part that has the dof.

@@ -232,6 +232,47 @@ TEST(ResolvedCoupling, ARigidLinkIsALever) {
               1.0, 1e-9);
 }
 
+TEST(ResolvedCoupling, LinksThatDoNotLeadBackAreRefused) {
+  samples::Frame frame;
+  frame.corners = {{1, {0, 0}}, {2, {2, 0}}, {3, {2.5, 0}}, {4, {4.5, 0}}};
+  frame.clamped = {1};
+  const std::vector<model::Substructure> parts{
+      samples::framePart("left", frame, {{1, 2, {11, 12}}}),
+      samples::framePart("right", frame, {{3, 4, {21, 22}}})};
+  const auto link = [](const std::string& name, const std::string& from, const std::string& to,
+                       const std::string& arm) {
+    return list(name, text("From", from) + text("To", to) + numbers("Arm", arm));
+  };
+  const auto said = [&](const std::string& links) -> std::string {
+    try {
+      resolve(parts, read(list("Rigid Links", links)));
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto there = link("there", "left:2", "right:3", "0.5, 0, 0");
+  EXPECT_EQ(said(there + link("back", "right:3", "left:2", "-0.5, 0, 0")), "accepted");
+  EXPECT_EQ(said(there + link("out of the plane", "right:3", "left:2", "-0.5, 0, 1")), "accepted");
+  const auto other = said(there + link("back", "right:3", "left:2", "-0.4, 0, 0"));
+  EXPECT_NE(other.find("back leads along (-0.4, 0, 0) m, but the other links between its nodes "
+                       "lead along (-0.5, 0, 0) m"),
+            std::string::npos)
+      << other;
+  const auto round = said(there + link("on", "right:3", "right:4", "2, 0, 0") +
+                          link("home", "left:2", "right:4", "2, 0.5, 0"));
+  EXPECT_NE(round.find("home leads along (2, 0.5, 0) m"), std::string::npos) << round;
+  // The ends of one joint are one node.
+  const auto joint = clampedBeam();
+  try {
+    resolve(joint, read(list("Rigid Links", link("arm", "left:3", "right:3", "0.1, 0, 0"))));
+    ADD_FAILURE() << "accepted";
+  } catch (const ModelError& error) {
+    EXPECT_NE(std::string(error.what()).find("its ends are one node"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(ResolvedCoupling, DirectionsAreMeantInTheCommonFrame) {
   // The right part in axes turned by 90 degrees: its own v is the common -u.
   auto parts = clampedBeam();
