@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/ReducedCase.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "common/Constants.hpp"
@@ -10,8 +11,9 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// A motion that is faster than its samples is looked at up to so many times as often.
-constexpr double mostSamples = 16;
+/// A motion that is faster than its samples is looked at up to so many times as often; more often
+/// than its steps it cannot be looked at.
+constexpr double mostSamples = 1024;
 
 estimate::MotionOptions motionOptions(const RestingCase& rest) {
   estimate::MotionOptions options;
@@ -32,20 +34,25 @@ std::vector<double> ReducedCase::cutOffs() const {
   return ends;
 }
 
+double ReducedCase::watchInterval(const Case& one) const {
+  return sampling > 0.0 ? sampling : one.transient().get<double>("Sampling Interval");
+}
+
 ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress) {
   ReducedCase out{rest.parts(), {}};
   const auto& parts = out.unreduced.parts;
-  double sampling = 0.0;  // of the rounds before
+  double& sampling = out.sampling;
   const auto probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
     auto options = transient::readOptions(one.transient());
     options.progress = options.progress && progress;
-    const double finest = options.sampling / mostSamples;
+    const double finest = std::max(options.step, options.sampling / mostSamples);
     if (sampling > 0) options.sampling = sampling;
     for (;; options.sampling *= 0.5) {
       sampling = options.sampling;
       estimate::MotionEstimator estimator(parts, synthesis, rest.rest(), motionOptions(rest));
       const auto found = estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
       if (found.reached < 1.0 || !found.isTooFast() || sampling <= finest) return found;
+      if (found.roughness > estimate::MotionEstimate::roughest) options.sampling *= 0.5;
     }
   };
   out.outcome = estimate::synthesise(parts, one.reduction(), probe, out.unreduced.options);

@@ -14,6 +14,7 @@ namespace tooljoint::cases {
 struct ReducedCase {
   coupling::ResolvedCoupling unreduced;  ///< the parts before the reduction, and what joins them
   estimate::Outcome outcome;
+  double sampling = 0.0;  ///< of the motion that chose the modes [s]; 0: none did
 
   const std::vector<reduction::ReducedSubstructure>& parts() const {
     return outcome.synthesis.parts;
@@ -23,6 +24,9 @@ struct ReducedCase {
   /// Frequencies [rad/s] at which the modes of the parts end, infinite where none is missing;
   /// empty where nothing was reduced.
   std::vector<double> cutOffs() const;
+  /// Time between two samples at which the error of the motion is estimated [s]: that at which the
+  /// modes were chosen, else that of the results.
+  double watchInterval(const Case& one) const;
 };
 
 /// Reduces the parts of a case that has the list Reduction. A motion tolerance moves candidates;

@@ -134,6 +134,7 @@ struct MotionEstimator::Impl {
   double startTime = 0;
   double time = 0;
   Vector q, qDot;         ///< at the last sample, dofs
+  Vector lastRate;        ///< of the recovered displacement there
   Vector u, uDot;         ///< error equation, positions
   std::vector<Vector> w;  ///< truncated motion of each part, mean of the last interval
   Vector s;               ///< P w of the last interval, positions
@@ -143,12 +144,13 @@ struct MotionEstimator::Impl {
     double errors = 0, motions = 0;
     double worst = 0;  ///< errors of one sample
     long samples = 0;
+    double ways = 0, rates = 0;  ///< (x(t + h) - x(t))^2 and (h x')^2
   } sums;
   double wall = 0;
 
   void begin(double t);
   void advance(double t, const Vector& qNew, const Vector& qDotNew);
-  void measure(const Vector& qNew);
+  void measure(double h, const Vector& moved);
   Vector positions(const Vector& dofs) const {
     Vector x(dofs.size());
     compiled.toPositions(dofs, x);
@@ -190,12 +192,15 @@ void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot,
 void MotionEstimator::look(Impl& m, double t, const Vector& q, const Vector& qDot) {
   if (m.pointStates.size() != m.compiled.stateSize())
     throw Error(ExitCode::Internal, "The states of the point laws were not given to the estimate.");
-  if (m.sums.samples > 0 && t > m.time) m.advance(t, q, qDot);
+  const bool first = m.sums.samples == 0;
+  const double h = first ? 0.0 : t - m.time;
+  const Vector moved = first ? Vector(Vector::Zero(q.size())) : Vector(q - m.q);
+  if (h > 0.0) m.advance(t, q, qDot);
   m.time = t;
   m.q = q;
   m.qDot = qDot;
-  if (m.sums.samples == 0) m.begin(t);
-  m.measure(q);
+  if (first) m.begin(t);
+  m.measure(h, moved);
 }
 
 /// The error of the initial state: u = P e, u' = P e'; what of it no mode has vibrates in the
@@ -403,7 +408,8 @@ void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& 
   s = sNew;
 }
 
-void MotionEstimator::Impl::measure(const Vector& qNew) {
+/// \param h, moved  since the last sample [s], dofs; 0 at the first
+void MotionEstimator::Impl::measure(double h, const Vector& moved) {
   ++sums.samples;
   // e = Phi (u - P w) + w
   Vector correction(u.size());
@@ -415,7 +421,9 @@ void MotionEstimator::Impl::measure(const Vector& qNew) {
     for (std::size_t i = 0; i < recovered[p].size(); ++i)
       error[recovered[p][i]] += local[static_cast<Eigen::Index>(i)];
   }
-  const Vector motion = model.recoveryOffset + model.recovery * qNew - rest;
+  const Vector motion = model.recoveryOffset + model.recovery * q - rest;
+  const Vector way = model.recovery * moved, rateNew = model.recovery * qDot;
+  if (lastRate.size() == 0) lastRate = rateNew;
   const auto width = static_cast<Eigen::Index>(model.componentNames.size());
   double e = 0, x = 0;
   for (Eigen::Index node = 0; node < error.size() / width; ++node)
@@ -423,7 +431,10 @@ void MotionEstimator::Impl::measure(const Vector& qNew) {
       const Eigen::Index row = node * width + c;
       e += error[row] * error[row];
       x += motion[row] * motion[row];
+      sums.ways += way[row] * way[row];
+      sums.rates += 0.5 * h * h * (lastRate[row] * lastRate[row] + rateNew[row] * rateNew[row]);
     }
+  lastRate = rateNew;
   sums.errors += e;
   sums.motions += x;
   sums.worst = std::max(sums.worst, e);
@@ -435,6 +446,7 @@ MotionEstimate MotionEstimator::result() const {
   estimate.samples = m.sums.samples;
   estimate.motion = m.sums.motions;
   estimate.wall = m.wall;
+  if (m.sums.ways > 0) estimate.roughness = m.sums.rates / m.sums.ways;
   if (coarse_ && coarse_->sums.samples > fewSamples && coarse_->sums.motions > 0)
     estimate.ofEverySecond = std::sqrt(coarse_->sums.errors / coarse_->sums.motions);
   if (m.sums.motions > 0) {

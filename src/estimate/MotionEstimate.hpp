@@ -32,13 +32,21 @@ struct MotionEstimate {
                   ///< sum over the parts
   long samples = 0;
   double motion = 0;  ///< |x - x_static|^2, summed over all recovered nodes and samples
+  /// Sum of (h x')^2 over that of (x(t + h) - x(t))^2, h the time between two samples: 1 for a
+  /// motion that the samples follow, (omega h)^2 / (2 - 2 cos(omega h)) for a vibration.
+  double roughness = 1;
   double reached =
       1;  ///< fraction of the window that was computed, below 1 where the motion was stopped
   double wall = 0;  ///< wall time of the estimate [s]
 
-  /// The error grows when the motion is looked at more often: it is faster than the samples, and
-  /// larger than said here.
-  bool isTooFast() const { return ofEverySecond && *ofEverySecond < slowest * error; }
+  /// The motion is faster than the samples, or its error grows when it is looked at more often: the
+  /// error may be larger than said here.
+  bool isTooFast() const {
+    return error > 0.0 &&
+           (roughness > roughest || (ofEverySecond && *ofEverySecond < slowest * error));
+  }
+  /// Of a vibration with three samples a period.
+  static constexpr double roughest = 1.45;
   /// What an estimate of every second sample has of a motion that all of them follow.
   static constexpr double slowest = 0.6;
 };

@@ -91,6 +91,11 @@ class Run {
         sampler_(model_, options, sink, hooks.resume != nullptr ? hooks.resume->samples : 0,
                  share_.get()),
         energy_(options_) {
+    if (hooks.watcher != nullptr) {
+      TransientOptions own = options;
+      own.sampling = hooks.watchInterval;
+      watcher_.emplace(model_, own, *hooks.watcher, 0, share_.get());
+    }
     state_.resize(model_.size(), model_.stateSize());
     next_.resize(model_.size(), model_.stateSize());
   }
@@ -160,6 +165,7 @@ class Run {
     if (options_.ledger) ledger_.start(model_, state_, integrator_->ledgerStride());
     if (anew) return countOn(*point);
     sampler_.first(state_);
+    if (watcher_) watcher_->first(state_);
     if (!integrator_->goesOnFromAnywhere()) keepCheckpoint();
   }
 
@@ -286,7 +292,8 @@ class Run {
   /// An error that one rank has met outside the steps is thrown on all of them.
   void throwFailures() const {
     if (!share_) return;
-    const auto& failure = failure_ ? failure_ : sampler_.failure();
+    auto failure = failure_ ? failure_ : sampler_.failure();
+    if (!failure && watcher_) failure = watcher_->failure();
     if (!model_.cut().any(failure != nullptr)) return;
     parallel::agree([&failure] {
       if (failure) std::rethrow_exception(failure);
@@ -345,6 +352,7 @@ class Run {
       if (options_.ledger) ledger_.book(model_, next_);
       const long before = sampler_.count();
       sampler_.step(state_, next_);
+      if (watcher_) watcher_->step(state_, next_);
       const bool sampled = sampler_.count() > before;
       if (sampled && cutOffEnergy_) cutOffEnergy_->look(next_);
       const bool refused = options_.ledger && sampled && ledger_.isDue() &&
@@ -440,6 +448,7 @@ class Run {
   std::unique_ptr<RankShare> share_;  ///< null: all ranks do the same
   CompiledModel model_;
   Sampler sampler_;
+  std::optional<Sampler> watcher_;
   EnergyLedger ledger_;
   EnergyVerdict energy_;
   std::optional<StepError> stepError_;  ///< of equal steps

@@ -65,6 +65,10 @@ struct RunHooks {
   /// Of a reduced model: the frequencies [rad/s] at which the modes of each part end, infinite
   /// where none is missing. With them the report has a cutOffEnergy.
   std::vector<double> cutOffs;
+  /// Receives the motion too, at multiples of an interval of its own [s]; not in a run that goes on
+  /// from a checkpoint.
+  SampleSink* watcher = nullptr;
+  double watchInterval = 0;
 };
 
 /// Integrate. Samples go to `sink`; with hooks.resume only those after the checkpoint.

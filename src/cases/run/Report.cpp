@@ -80,9 +80,11 @@ std::vector<std::string> remarks(const estimate::MotionEstimate& error) {
   std::vector<std::string> out;
   if (error.isTooFast())
     out.push_back("The motion is faster than its samples: the estimate of its error, " +
-                  percent(error.error) + ", is " + percent(*error.ofEverySecond) +
-                  " from half of them, and the error may be larger. Reduce Transient/Sampling "
-                  "Interval.");
+                  percent(error.error) +
+                  (error.ofEverySecond
+                       ? ", is " + percent(*error.ofEverySecond) + " from half of them, and"
+                       : ", is not to be relied on:") +
+                  " the error may be larger. Reduce Transient/Sampling Interval.");
   if (!(error.error <= largeError))
     out.push_back("The reduced motion is estimated to be " + percent(error.error) +
                   " off that of the full model. Keep more modes or nodes, or give Reduction a "

@@ -24,25 +24,6 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// Hands every sample to two sinks.
-class TeeSink : public transient::SampleSink {
- public:
-  TeeSink(transient::SampleSink& first, transient::SampleSink& second)
-      : first_(first), second_(second) {}
-  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
-    first_.sample(t, q, qDot, qDDot);
-    second_.sample(t, q, qDot, qDDot);
-  }
-  void states(const Vector& x) override {
-    first_.states(x);
-    second_.states(x);
-  }
-
- private:
-  transient::SampleSink& first_;
-  transient::SampleSink& second_;
-};
-
 /// One run of one case into one folder.
 class Run {
  public:
@@ -128,9 +109,8 @@ class Run {
     if (estimates_ && files_.goesOn())
       log::warn("The error of the motion is not estimated in a run restarted from a checkpoint.");
     const bool estimating = estimates_ && !files_.goesOn();
-    const auto report =
-        estimating ? integrateEstimating(model)
-                   : files_.integrate(model, list, *recorder_, *recorder_, reduced_.cutOffs());
+    const auto report = estimating ? integrateEstimating(model)
+                                   : files_.integrate(model, list, *recorder_, *recorder_, hooks());
     if (!estimating)
       for (const auto& remark : remarks(report)) log::warn(remark);
     summarise(report, case_.reduces(), files_.summary());
@@ -162,10 +142,18 @@ class Run {
     if (case_.output().csv) stageTables(compared, files_.folder());
   }
 
+  transient::RunHooks hooks() const {
+    transient::RunHooks out;
+    out.cutOffs = reduced_.cutOffs();
+    return out;
+  }
+
   transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {
     const auto estimator = motionEstimator(*rest_, reduced_);
-    TeeSink both(*recorder_, *estimator);
-    auto report = files_.integrate(model, case_.transient(), *recorder_, both, reduced_.cutOffs());
+    auto watching = hooks();
+    watching.watcher = estimator.get();
+    watching.watchInterval = reduced_.watchInterval(case_);
+    auto report = files_.integrate(model, case_.transient(), *recorder_, *recorder_, watching);
     const auto error = estimator->result();
     log::info(describeMotionError(error));
     for (const auto& remark : remarks(error)) log::warn(remark);

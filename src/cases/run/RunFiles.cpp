@@ -190,9 +190,7 @@ void RunFiles::keep(const transient::Checkpoint& checkpoint, const Recorder& rec
 transient::TransientReport RunFiles::integrate(const model::SecondOrderModel& model,
                                                const Teuchos::ParameterList& transient,
                                                Recorder& recorder, transient::SampleSink& sink,
-                                               std::vector<double> cutOffs) {
-  transient::RunHooks hooks;
-  hooks.cutOffs = std::move(cutOffs);
+                                               transient::RunHooks hooks) {
   if (goesOn()) {
     hooks.resume = &*checkpoint_;
     const double* memory = checkpoint_->recorder.data();

@@ -48,10 +48,11 @@ class RunFiles {
   void complete(const std::function<void()>& stages, const std::function<void()>& tables);
 
   /// The motion, with checkpoints, from the start or from the checkpoint. `sink` receives the
-  /// samples and hands them to `recorder`. \param cutOffs as in transient::RunHooks
+  /// samples and hands them to `recorder`. \param hooks  of the reduction: `keep` and `resume` are
+  /// set here
   transient::TransientReport integrate(const model::SecondOrderModel& model,
                                        const Teuchos::ParameterList& transient, Recorder& recorder,
-                                       transient::SampleSink& sink, std::vector<double> cutOffs);
+                                       transient::SampleSink& sink, transient::RunHooks hooks);
   /// Throws InterruptedError, which says how to go on, when the motion did not reach its end.
   void requireComplete(const transient::TransientReport& report) const;
 

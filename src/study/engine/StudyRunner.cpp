@@ -42,18 +42,36 @@ std::vector<Eigen::Index> measuredRows(const cases::Measures& measures,
   return rows;
 }
 
-/// Recovers the measured displacements and the bit speed, lets the estimator see the motion if
-/// there is one, and measures how long that takes.
+/// Hands samples on and measures how long that takes.
+class TimedSink : public transient::SampleSink {
+ public:
+  explicit TimedSink(transient::SampleSink& sink) : sink_(sink) {}
+  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
+    const Stopwatch watch;
+    sink_.sample(t, q, qDot, qDDot);
+    cpu_ += watch.cpu();
+    wall_ += watch.wall();
+  }
+  void states(const Vector& x) override { sink_.states(x); }
+
+  double cpu() const { return cpu_; }
+  double wall() const { return wall_; }
+
+ private:
+  transient::SampleSink& sink_;
+  double cpu_ = 0.0, wall_ = 0.0;
+};
+
+/// Recovers the measured displacements and the bit speed.
 class HistoryRecorder : public transient::SampleSink {
  public:
   HistoryRecorder(const cases::Measures& measures, const model::SecondOrderModel& model,
-                  const ExecutionOptions& options, estimate::MotionEstimator* estimator)
+                  const ExecutionOptions& options)
       : measures_(measures),
         model_(model),
         rows_(measuredRows(measures, model)),
         record_(options.record),
-        sink_(options.sink),
-        estimator_(estimator) {
+        sink_(options.sink) {
     history_.nodes = measures.nodes.size();
     history_.components = measures.components.size();
     history_.vibrating = measures.vibrating;
@@ -61,8 +79,6 @@ class HistoryRecorder : public transient::SampleSink {
   }
 
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
-    const Stopwatch watch;
-    if (estimator_ != nullptr) estimator_->sample(t, q, qDot, qDDot);
     if (sink_ != nullptr) sink_->sample(t, q, qDot, qDDot);
     if (record_) {
       displacement_ = model_.recoveryOffset;
@@ -71,17 +87,12 @@ class HistoryRecorder : public transient::SampleSink {
       if (bit_.size() > 0) history_.bitSpeed.push_back(measures_.turning(t) + bit_.dot(qDot));
       for (auto row : rows_) history_.displacement.push_back(displacement_(row));
     }
-    cpu_ += watch.cpu();
-    wall_ += watch.wall();
   }
 
   void states(const Vector& x) override {
-    if (estimator_ != nullptr) estimator_->states(x);
     if (sink_ != nullptr) sink_->states(x);
   }
 
-  double cpu() const { return cpu_; }
-  double wall() const { return wall_; }
   RecordedHistory& history() { return history_; }
 
  private:
@@ -90,10 +101,8 @@ class HistoryRecorder : public transient::SampleSink {
   std::vector<Eigen::Index> rows_;
   bool record_;
   transient::SampleSink* sink_;
-  estimate::MotionEstimator* estimator_;
   Vector bit_, displacement_;
   RecordedHistory history_;
-  double cpu_ = 0.0, wall_ = 0.0;
 };
 
 /// Dofs of the vibration moved by at most `size`, each by another amount.
@@ -138,12 +147,18 @@ void reduce(const cases::Case& scene, PreparedModel& prepared) {
 
 Execution integrate(const cases::Case& scene, const cases::Measures& measures,
                     const model::SecondOrderModel& model, const ExecutionOptions& options,
-                    estimate::MotionEstimator* estimator) {
+                    estimate::MotionEstimator* estimator = nullptr, double watchInterval = 0.0) {
   auto transientOptions = transient::readOptions(scene.transient());
   transientOptions.progress = !options.title.empty();
   transient::RunHooks hooks;
   hooks.title = options.title;
-  HistoryRecorder recorder(measures, model, options, estimator);
+  HistoryRecorder recorder(measures, model, options);
+  TimedSink recording(recorder);
+  std::optional<TimedSink> watching;
+  if (estimator != nullptr) {
+    hooks.watcher = &watching.emplace(*estimator);
+    hooks.watchInterval = watchInterval;
+  }
   Execution execution;
   double cpu = 0.0, wall = 0.0, setupCpu = 0.0, setupWall = 0.0;
   bool late = false;
@@ -158,9 +173,9 @@ Execution integrate(const cases::Case& scene, const cases::Measures& measures,
       }
       return late || interruptRequested();
     };
-    execution.report = transient::integrate(model, transientOptions, recorder, hooks);
-    cpu = execution.report.cpu - recorder.cpu();
-    wall = execution.report.wall - recorder.wall();
+    execution.report = transient::integrate(model, transientOptions, recording, hooks);
+    cpu = execution.report.cpu - recording.cpu() - (watching ? watching->cpu() : 0.0);
+    wall = execution.report.wall - recording.wall() - (watching ? watching->wall() : 0.0);
     setupCpu = watch.cpu() - execution.report.cpu;
     setupWall = watch.wall() - execution.report.wall;
     if (execution.report.interrupted && !late)
@@ -230,12 +245,13 @@ Execution StudyRunner::move(const cases::Case& scene, const PreparedModel& prepa
   const auto measures = prepared.rest->measures();
   if (options.perturbation > 0.0)
     return integrate(scene, measures, perturbed(prepared.model(), measures, options.perturbation),
-                     options, nullptr);
+                     options);
   const bool estimates =
       prepared.reduced && options.record && estimate::readEstimateOptions(scene.reduction()).motion;
-  if (!estimates) return integrate(scene, measures, prepared.model(), options, nullptr);
+  if (!estimates) return integrate(scene, measures, prepared.model(), options);
   const auto estimator = cases::motionEstimator(*prepared.rest, prepared.reduction);
-  auto execution = integrate(scene, measures, prepared.model(), options, estimator.get());
+  auto execution = integrate(scene, measures, prepared.model(), options, estimator.get(),
+                             prepared.reduction.watchInterval(scene));
   execution.estimatedVibration = estimator->result().error;
   return execution;
 }
