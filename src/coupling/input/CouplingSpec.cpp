@@ -125,7 +125,9 @@ deck::ListSpec stopSpec() {
 }
 
 deck::ListSpec sliderSpec() {
-  deck::ListSpec entry("Slider", "Coulomb friction of constant size; the name is free.");
+  deck::ListSpec entry(
+      "Slider",
+      "Coulomb friction of constant size, f = -Force v / sqrt(v^2 + v_r^2); the name is free.");
   return deck::ListSpec("Sliders", "Dry friction between parts or to the ground.")
       .namedLists(law(ends(entry), "Slider", true));
 }

@@ -59,10 +59,13 @@ std::unique_ptr<PointLaw> makeSlider(const Teuchos::ParameterList& own,
 const bool sliderRegistered = PointLawRegistry::instance().add(
     "Slider",
     {"Coulomb friction of constant size.",
-     deck::ListSpec("Slider", "Coulomb friction of constant size.")
+     deck::ListSpec("Slider",
+                    "Coulomb friction of constant size, f = -Force v / sqrt(v^2 + v_r^2): a "
+                    "slider at rest creeps.")
          .real("Force", "N", deck::Required{}, deck::Range::positive(),
                "Sliding force, or moment about a rotation.")
-         .real("Slip Velocity", "m/s", 1e-3, deck::Range::positive(), "Regularisation velocity.")
+         .real("Slip Velocity", "m/s", 1e-3, deck::Range::positive(),
+               "Regularisation velocity v_r.")
          .expert(),
      makeSlider});
 

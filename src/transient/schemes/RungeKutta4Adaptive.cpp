@@ -18,10 +18,16 @@
 #include <sstream>
 
 #include "common/Error.hpp"
+#include "common/report/Log.hpp"
 #include "transient/schemes/Explicit.hpp"
 
 namespace tooljoint::transient {
 namespace {
+
+/// Errors of steps that add up to more than this part of the motion are told, of the steps of the
+/// first `judged` seconds, as long as equal steps are judged: without damping the error of the
+/// motion is as large.
+constexpr double coarse = 0.05, judged = 3.0;
 
 deck::ListSpec rungeKutta4AdaptiveParameters() {
   return deck::ListSpec("RK4 adaptive", "Parameters of the adaptive Runge-Kutta integrator.")
@@ -65,6 +71,8 @@ class RungeKutta4Adaptive final : public Integrator {
     ++counters_.factorisations;
     stage_.resize(state);
     end_ = window.end;
+    judgedUntil_ = std::min(end_, window.begin + judged);
+    begin_ = state;
     if (window.step > 0) step_ = window.step;
     whole_ = half_ = state;
     difference_ = state.q;
@@ -85,6 +93,7 @@ class RungeKutta4Adaptive final : public Integrator {
       if (error <= tolerance_ && !missesImpact) {
         to.t = last ? end : from.t + h;
         rhs_.accept(to);
+        addUp(to, error);
         counters_.accept(h);
         if (error <= tolerance_ / 100 && !last) step_ *= growth_;
         return;
@@ -101,11 +110,13 @@ class RungeKutta4Adaptive final : public Integrator {
     restore(numbers);
   }
   void save(std::vector<double>& memory) const override {
-    memory.insert(memory.end(), {step_, longestAtWalls_});
+    memory.insert(memory.end(), {step_, longestAtWalls_, errors_, largest_});
   }
   void restore(const double*& memory) override {
     step_ = *memory++;
     longestAtWalls_ = *memory++;
+    errors_ = *memory++;
+    largest_ = *memory++;
   }
 
  private:
@@ -127,6 +138,27 @@ class RungeKutta4Adaptive final : public Integrator {
     return (distance(whole_.q, to.q) + distance(whole_.v, to.v) +
             rhs_.model().stateDistance(whole_.x, to.x)) /
            15.0;
+  }
+
+  /// Warns when the errors of the judged steps have become a part of the motion that matters.
+  void addUp(const State& to, double error) {
+    if (errors_ < 0.0) return;
+    errors_ += error;
+    const auto length = [this](const Vector& a, const Vector& b) {
+      difference_ = a - b;
+      return std::sqrt(rhs_.model().squaredNorm(difference_));
+    };
+    largest_ = std::max(largest_, length(to.q, begin_.q) + length(to.v, begin_.v));
+    if (to.t < judgedUntil_) return;
+    const double sum = errors_;
+    errors_ = -1.0;
+    if (sum <= coarse * largest_) return;
+    std::ostringstream text;
+    text.precision(2);
+    text << "Transient/RK4 adaptive/Tolerance (" << tolerance_
+         << ") is coarse for this motion: the errors of the steps up to t = " << to.t
+         << " s add up to " << 100.0 * sum / largest_ << " % of it. Lower the tolerance.";
+    log::warn(text.str());
   }
 
   /// Whether the step just tried, by way of half_ to `to`, meets or leaves a wall in halves too
@@ -155,6 +187,10 @@ class RungeKutta4Adaptive final : public Integrator {
   }
 
   double tolerance_ = 0, step_ = 0, growth_ = 0, shrink_ = 0, smallest_ = 0, end_ = 0;
+  double judgedUntil_ = 0;  ///< [s]
+  double errors_ = 0;       ///< of the judged steps, in the norm of the tolerance; < 0: judged
+  double largest_ = 0;      ///< way and change of velocity from the start in that norm
+  State begin_;
   double longestAtWalls_ = 0;  ///< step in which a point meets or leaves a wall [s]
   ExplicitRightHandSide rhs_;
   RungeKuttaStep stage_;

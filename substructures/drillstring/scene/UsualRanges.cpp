@@ -16,8 +16,10 @@ namespace {
 /// Units that are proposed for one number.
 constexpr std::size_t mostUnits = 2;
 
-/// Of a string that turns [rad/s]: 760 rpm.
-constexpr double fastest = 80.0;
+/// Of a string that turns [rad/s]: 760 rpm; of a diagram over its speed: 2400 rpm.
+constexpr double fastest = 80.0, fastestDrawn = 250.0;
+/// Once round, and friction coefficients.
+constexpr double round = 6.3, roughest = 1.5;
 /// Weight on bit and torques [N, N m].
 constexpr double leastWeight = 1e3, mostWeight = 5e6, leastTorque = 10.0, mostTorque = 3e5;
 /// A well along the hole [m], its curvature [rad/m] (11 deg/m) and the speed of a block [m/s].
@@ -76,10 +78,13 @@ std::string otherUnits(double value, const std::string& si, double scale, const 
   return found.empty() ? "" : " Is " + join(found, " or ") + " meant?";
 }
 
+std::string withUnit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + " " + unit;
+}
+
 std::string bounds(double scale, const UsualRange& range, const std::string& unit) {
   const auto text = [&](double bound) { return formatNumber(bound / scale); };
-  return range.low > 0 ? text(range.low) + " to " + text(range.high) + " " + unit
-                       : "up to " + text(range.high) + " " + unit;
+  return (range.low > 0 ? text(range.low) + " to " : "up to ") + withUnit(text(range.high), unit);
 }
 
 }  // namespace
@@ -103,8 +108,13 @@ const std::vector<UsualRange>& usualRanges() {
       {"Loads/Torque On Bit", leastTorque, mostTorque},
       {"Loads/Gravity", 1, 30},
       {"Rotary Speed/Constant/Speed", 0, fastest},
+      {"Drillstring/Tool Face", 0, round},
+      {"Contact/Friction/Static", 0, roughest},
+      {"Contact/Friction/Dynamic", 0, roughest},
+      {"Rotary Speed/Exponential/Initial Speed", 0, fastest},
       {"Rotary Speed/Exponential/Final Speed", 0, fastest},
       {"Rotary Speed/Harmonic/Mean Speed", 0, fastest},
+      {"Rotary Speed/Ramp/Initial Speed", 0, fastest},
       {"Rotary Speed/Ramp/Final Speed", 0, fastest},
       {"Rotary Speed/Table/Speeds", 0, fastest},
       {"Top Drive/Torque Limit", leastTorque, mostTorque},
@@ -113,14 +123,18 @@ const std::vector<UsualRange>& usualRanges() {
       {"Torque and Drag/Depths", 0, longest},
       {"Torque and Drag/Block Weight", leastWeight, mostWeight},
       {"Torque and Drag/Rotary Speed", 0, fastest},
+      {"Torque and Drag/Broomstick", 0, roughest},
       {"Torque and Drag/Reaming Speed", 0, fastestBlock},
       {"Torque and Drag/Rate Of Penetration", 0, 0.1},
       {"Torque and Drag/Pump Pressure", 1e4, 2e8},
       {"Torque and Drag/Yield Strength", weakest, strongest},
       {"Bottom-Hole Assembly/Weight On Bit", leastWeight, mostWeight},
+      {"Bottom-Hole Assembly/Tool Face", 0, round},
       {"Bottom-Hole Assembly/Build Rate", 0, mostCurved},
       {"Bottom-Hole Assembly/Turn Rate", 0, mostCurved},
-      {"Buckling/Last Weight On Bit", leastWeight, mostWeight}};
+      {"Buckling/Last Weight On Bit", leastWeight, mostWeight},
+      {"Campbell/Highest Speed", 0, fastestDrawn},
+      {"Response/Highest Speed", 0, fastestDrawn}};
   return ranges;
 }
 
@@ -141,7 +155,7 @@ std::vector<std::string> unusualValues(const deck::Deck& scene) {
     if (odd == values.end()) continue;
     const double scale = doubled ? 0.5 : 1.0, given = *odd / scale;
     found.push_back(scene.error(doubled ? other : range.path,
-                                "is " + formatNumber(given) + " " + parameter.unit +
+                                "is " + withUnit(formatNumber(given), parameter.unit) +
                                     ", outside what is usual in drilling (" +
                                     bounds(scale, range, parameter.unit) + ")." +
                                     otherUnits(given, parameter.unit, scale, range)));

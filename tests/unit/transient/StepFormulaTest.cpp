@@ -3,10 +3,13 @@
 /// One step of each scheme against its formulas worked out here: coefficients of generalized-alpha,
 /// stages of Runge-Kutta, and the error by which each of the two adaptive integrators judges a
 /// step.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
+#include "common/Constants.hpp"
+#include "common/report/Log.hpp"
 
 namespace tooljoint::transient::testing {
 namespace StepFormulaTest {
@@ -158,6 +161,34 @@ TEST(StepFormula, GeneralizedAlphaJudgesAStepByTheTermItHasWrong) {
   EXPECT_GT(
       oneStep("Generalized-alpha", h, "Step Tolerance", 0.999 * error, samples).counters.rejected,
       0);
+}
+
+/// Undamped vibrations of 10 and 100 Hz over 3 s: the errors of the steps add up to no less than
+/// the error of the motion, and it is said where they are 5 % of it.
+TEST(StepFormula, RungeKuttaSaysWhenItsErrorsAddUp) {
+  const struct {
+    double hertz, speed;
+    bool coarse;
+  } cases[] = {{10, 1e-4, true}, {10, 1.0, false}, {100, 1e-2, true}, {100, 30.0, false}};
+  for (const auto& [hertz, v0, coarse] : cases) {
+    log::clearWarnings();
+    const double omega = hertz * constants::twoPi;
+    Keep samples;
+    integrate(oscillator(1.0, 0.0, omega * omega, 0.0, v0), options("RK4 adaptive", 3.0, 0, 0.003),
+              samples);
+    const auto& warnings = log::warnings();
+    const bool warned = std::any_of(warnings.begin(), warnings.end(), [](const auto& text) {
+      return text.find("the errors of the steps up to t = 3 s add up to") != std::string::npos;
+    });
+    double error = 0;
+    for (std::size_t i = 0; i < samples.time.size(); ++i)
+      error = std::max(error, std::abs(samples.v[i][0] / v0 - std::cos(omega * samples.time[i])));
+    EXPECT_EQ(warned, coarse) << hertz << " Hz, " << v0 << " m/s: " << error;
+    if (!warned) {
+      EXPECT_LT(error, 0.05) << hertz << " Hz, " << v0 << " m/s";
+    }
+  }
+  log::clearWarnings();
 }
 
 }  // namespace StepFormulaTest
