@@ -99,6 +99,8 @@ double residualOfPanel(const Sparse& A, const Panel<W>& panel, const Matrix& B, 
 
 }  // namespace
 
+bool isZero(const Sparse& A) { return A.cwiseAbs().sum() == 0.0; }
+
 Matrix product(const Sparse& A, const Matrix& X) {
   return multiplied(A, X, [](double value, const auto& x) { return value * x; });
 }

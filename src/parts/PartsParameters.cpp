@@ -151,9 +151,9 @@ PartsSettings readSettings(const ParameterList& list) {
                                one.get<std::string>("Component"), one.get<double>("Displacement"),
                                one.get<double>("Velocity")});
   });
-  std::function<double(double)> speed;
+  model::ScalarLaw speed;
   forEachList(list, "Laws", [&](const std::string& name, const ParameterList& one) {
-    if (name == rotarySpeedName) speed = readTimeLaw(name, one, {}).value;
+    if (name == rotarySpeedName) speed = readTimeLaw(name, one, {});
   });
   forEachList(list, "Laws", [&](const std::string& name, const ParameterList& one) {
     if (name == "1")

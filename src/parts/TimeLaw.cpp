@@ -203,19 +203,21 @@ deck::ListSpec timeLawParameters() {
 }
 
 model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list,
-                             const std::function<double(double)>& speed) {
+                             const model::ScalarLaw& speed) {
   const auto form = list.get<std::string>("Form");
   if (!list.isSublist(form))
     throw DeckError(list.name() + "/Form is " + inQuotes(form) + ", but the list " +
                     inQuotes(form) + " with its parameters is missing.");
   const std::shared_ptr<const TimeLaw> law = TimeLaws::instance().make(form, list.sublist(form));
   if (law->ofSpeed()) {
-    if (!speed)
+    if (!speed.value)
       throw DeckError(list.name() + "/Form is " + inQuotes(form) +
                       ", but there is no law of time \"" + rotarySpeedName +
                       "\". Add one to Laws: its value is the rotary speed in rad/s.");
-    return {name, model::SpeedLaw{[law, speed](double t) { return law->value(speed(t)); },
-                                  [law](double omega) { return Complex(law->value(omega)); }}};
+    const auto inTime = [law, speed = speed.value](double t) { return law->value(speed(t)); };
+    return {name,
+            model::SpeedLaw{inTime, [law](double omega) { return Complex(law->value(omega)); }},
+            speed.corners};
   }
   const auto inTime = [law](double t) { return law->value(t); };
   const auto corners = law->corners();

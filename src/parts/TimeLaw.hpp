@@ -36,9 +36,9 @@ deck::ListSpec timeLawParameters();
 
 /// The law of a validated list, under the name of the law. The law rotarySpeedName, its derivative
 /// "dOmega/dt" and forms of the speed hold a model::SpeedLaw. \param speed rotary speed over time;
-/// empty: the deck has no such law. DeckError when its numbers are missing or make no sense
-/// together, or when it needs the speed and there is none.
+/// without a value: the deck has no such law. DeckError when its numbers are missing or make no
+/// sense together, or when it needs the speed and there is none.
 model::ScalarLaw readTimeLaw(const std::string& name, const Teuchos::ParameterList& list,
-                             const std::function<double(double)>& speed);
+                             const model::ScalarLaw& speed);
 
 }  // namespace tooljoint::parts

@@ -23,10 +23,10 @@
 #include "model/DofNames.hpp"
 #include "transient/ModelIdentity.hpp"
 #include "transient/Sampler.hpp"
-#include "transient/accuracy/LawResolution.hpp"
 #include "transient/ranks/MotionShare.hpp"
 #include "transient/verdict/CutOffEnergy.hpp"
 #include "transient/verdict/EnergyVerdict.hpp"
+#include "transient/verdict/LawVerdict.hpp"
 #include "transient/verdict/StepError.hpp"
 #include "transient/verdict/StepVerdict.hpp"
 
@@ -35,10 +35,6 @@ namespace {
 
 /// A displacement, rotation or modal coordinate beyond this is a run that has blown up.
 constexpr double blowUp = 1e6;
-/// Part of the integral of a law of time that fixed steps may miss without a warning.
-constexpr double unresolved = 0.01;
-/// And without a refusal: as much as an error of the motion that none passes.
-constexpr double lostLaw = 0.5;
 
 double cpuSeconds() {
   timespec time{};
@@ -371,7 +367,7 @@ class Run {
     if (options_.ledger)
       energy_.judge(ledger_.account(model_, state_), state_.t, integrator_->advice());
     judgeSteps();
-    judgeLaws();
+    judgeLaws(model_.source(), *integrator_, {options_.start, state_.t, options_.stepErrorLimit});
     return false;
   }
 
@@ -404,29 +400,6 @@ class Run {
     if (!(options_.checkpointInterval > 0)) return 0;
     return static_cast<long>(
         std::floor((t - options_.start) / options_.checkpointInterval * (1 + 1e-12) + 1e-9));
-  }
-
-  /// Laws of time that change faster than steps of one length follow.
-  void judgeLaws() const {
-    const Counters& c = integrator_->counters();
-    const double equal = integrator_->equalStep(), h = equal > 0 ? equal : c.maxStep;
-    if (!(equal > 0) && c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
-    const auto& model = model_.source();
-    for (std::size_t i = 0; i < model.laws.size(); ++i) {
-      const auto& law = model.laws[i];
-      const auto follows = [i](const auto& term) { return term.law == static_cast<int>(i); };
-      const bool ofMatrix = std::any_of(model.damping.begin(), model.damping.end(), follows) ||
-                            std::any_of(model.stiffness.begin(), model.stiffness.end(), follows);
-      const double missed =
-          missedPart(law, options_.start, state_.t, h, integrator_->followsCorners() && !ofMatrix);
-      if (missed <= unresolved) continue;
-      const std::string text =
-          "The time step (" + formatNumber(h) + " s) is too large for the law \"" + law.name +
-          "\". The steps do not resolve " + formatNumber(std::round(1e3 * missed) / 10.0) +
-          " % of its integral over time. " + integrator_->advice() + ".";
-      if (missed > lostLaw && options_.stepErrorLimit < 1) throw ConvergenceError(text);
-      log::warn(text);
-    }
   }
 
   /// \param rate simulated time over wall time

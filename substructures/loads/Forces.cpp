@@ -87,9 +87,14 @@ model::ScalarLaw lawOf(const NodalForce& force) {
         " from " + formatNumber(force.startTime) + " s to " + formatNumber(force.endTime) + " s";
   const double pulsation = twoPi * force.frequency;
   const double phase = force.frequency == 0.0 ? 0.0 : force.phase;
-  return {name, [pulsation, phase, start = force.startTime, end = force.endTime](double t) {
+  std::vector<double> corners;
+  for (const double corner : {force.startTime, force.endTime})
+    if (corner > 0.0 && std::isfinite(corner)) corners.push_back(corner);
+  return {name,
+          [pulsation, phase, start = force.startTime, end = force.endTime](double t) {
             return t >= start && t < end ? std::cos(pulsation * t + phase) : 0.0;
-          }};
+          },
+          corners};
 }
 
 class Forces final : public Load {

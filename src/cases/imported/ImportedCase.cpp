@@ -18,14 +18,13 @@
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "parts/PartsGeometry.hpp"
 #include "stability/StabilityText.hpp"
 
 namespace tooljoint::cases {
 
 namespace {
-
-bool isZero(const Sparse& A) { return A.cwiseAbs().sum() == 0.0; }
 
 void append(std::string& text, const double* values, Eigen::Index count) {
   text.append(reinterpret_cast<const char*>(values),
@@ -311,9 +310,9 @@ std::vector<std::string> ImportedCase::remarks() const {
   for (const auto& content : joined_->scene.contents) {
     const auto& m = content.part.model;
     const std::string who = "Part \"" + content.part.name + "\" (" + content.file + ")";
-    if (isZero(m.mass)) out.push_back(who + " has no mass: its mass matrix is zero.");
+    if (linalg::isZero(m.mass)) out.push_back(who + " has no mass: its mass matrix is zero.");
     if (std::all_of(m.stiffness.begin(), m.stiffness.end(),
-                    [](const auto& term) { return isZero(term.matrix); }))
+                    [](const auto& term) { return linalg::isZero(term.matrix); }))
       out.push_back(who + " has no stiffness: its stiffness matrix is zero.");
     for (const auto& law : content.omitted)
       out.push_back(who + " had the point law \"" + law +
@@ -373,7 +372,7 @@ std::shared_ptr<const RestingCase> ImportedCase::solveStatic() const {
     const Vector rest = lists_->start(joined_->scene);
     joined_->whole = joinUnreduced(joined_->scene, true);
     joined_->started = true;
-    if (rest.size() > 0 && !isZero(joined_->whole.model.mass)) {
+    if (rest.size() > 0 && !linalg::isZero(joined_->whole.model.mass)) {
       auto resting = joined_->whole.model;
       resting.initialDisplacement = rest;
       joined_->stability = stability::assess(resting, lists_->startTime());

@@ -120,7 +120,8 @@ void EnergyLedger::formWorks(const CompiledModel& model, const State& to, double
 void EnergyLedger::enter(CompiledModel& model, const State& to) {
   skipped_ = 0;
   const double h = to.t - time_;
-  const bool jumps = model.setMean(time_, to.t);
+  const double begin = time_;
+  const bool jumps = model.setMean(begin, to.t);
   const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
   double fed = 0;  // by damping that is negative
   time_ = to.t;
@@ -139,6 +140,9 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     load_[i] = load[i];
   }
   if (jumps) {
+    // of a velocity that grows evenly to the one at the end
+    model.setMoment(begin, to.t);
+    for (int i = 0; i < step_.size(); ++i) loads += 2 * load[i] * (h * to.v[i] - step_[i]);
     model.setTime(to.t);
     load_ = Eigen::Map<const Vector>(model.load(), model.size());
   }

@@ -343,6 +343,15 @@ bool CompiledModel::setMean(double begin, double end) {
   return !plainLoads_;
 }
 
+void CompiledModel::setMoment(double begin, double end) {
+  std::fill(loadLaws_.begin(), loadLaws_.end(), 0.0);
+  plainLoads_ = false;
+  crossCorners(begin, end, [=](const model::ScalarLaw& law) {
+    const auto [mean, moment] = momentsOf(law, begin, end);
+    return moment - 0.5 * mean;
+  });
+}
+
 void CompiledModel::remember(Snapshot& snapshot) const {
   snapshot.time = time_, snapshot.timeSet = timeSet_, snapshot.stamp = stamp_;
   snapshot.lawValues = lawValues_, snapshot.loadLaws = lastLoadLaws_, snapshot.load = load_;

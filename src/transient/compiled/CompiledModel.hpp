@@ -142,6 +142,9 @@ class CompiledModel {
   /// At `end`, for the work since `begin`: (f(begin) + f) / 2 = int f ds. True when a law had a
   /// corner.
   bool setMean(double begin, double end);
+  /// int (s - 1/2) f ds, with s from 0 at `begin` to 1 at `end`, of laws with a corner between; the
+  /// work of a load on a velocity v(0) + s Dv is its mean times that of v, and this times Dv.
+  void setMoment(double begin, double end);
   /// The first corner of a law after t and before `end`; else `end`.
   double nextCorner(double t, double end) const;
   /// What setTime() has left, for somebody who takes the model to other times and wants to leave no

@@ -176,15 +176,47 @@ bool ImpactResolution::isCoarse(const State& from, const State& to, double h) {
   return lossy > 0 || sum > mostMisplaced();
 }
 
+/// Calls visit(dv, speed) for each point of this rank that opens from its wall, met_, in the first
+/// step.
+template <class Visit>
+void ImpactResolution::visitReleased(const State& state, double h, const Visit& visit) {
+  for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
+    PointBatch& batch = model_->points()[at(b)];
+    if (!batch.law().hasWalls()) continue;
+    for (int p : batch.active()) {
+      met_.face(batch, p, mobility(b, p), state.t);
+      const double a = met_.along(state.a) * (met_.push() < 0 ? -1.0 : 1.0),
+                   v = met_.along(state.v);
+      met_.measure(std::abs(v) + h * std::abs(a), h);
+      const double w = met_.frequency();
+      if (w == 0 || std::hypot(a, w * v) <= met_.mobility() * std::abs(met_.push()) - a) continue;
+      const double speed = std::hypot(a / w, v);
+      measureBy(b, speed);
+      visit(2 * speed, speed);
+    }
+  }
+}
+
 /// What is resolved beside the mean motion of the run is so beside more; v'M v of the step costs a
 /// product.
 int ImpactResolution::halvings(const State& from, const State& to, double h) {
   current_ = 0;
   if (!isCoarse(from, to, h)) return 0;
   current_ = model_->massForm(to.v.data());
+  return halvingsOf(h, [&](const auto& visit) { visitTurned(from, to, h, visit); });
+}
+
+int ImpactResolution::halvingsAtStart(const State& state, double h) {
+  current_ = model_->massForm(state.v.data());
+  return halvingsOf(h, [&](const auto& visit) { visitReleased(state, h, visit); });
+}
+
+/// \param visitPoints  calls its argument with (dv, speed) for each point
+template <class Points>
+int ImpactResolution::halvingsOf(double h, const Points& visitPoints) {
   double lossy = 0;
   sums_.fill(0);
-  visitTurned(from, to, h, [&](double reversal, double speed) {
+  visitPoints([&](double reversal, double speed) {
     if (!isFast(met_, reversal, h)) return;
     met_.findOnset(h * speed);
     for (int n = 0; n <= Tuned::mostHalvings; ++n) {

@@ -47,6 +47,10 @@ class ImpactResolution {
   /// Halvings of the step from `from` to `to` of length h, just taken, that resolve its impacts; 0
   /// where it does so itself.
   int halvings(const State& from, const State& to, double h);
+  /// The same for a first step of length h: halvings that resolve contact which is closed at the
+  /// start and opens. In contact of force f, out of balance by a_n along it and moving at v_n, a
+  /// point leaves its wall where hypot(a_n, w v_n) > W f - a_n, and reverses 2 hypot(a_n / w, v_n).
+  int halvingsAtStart(const State& state, double h);
   /// The step that ended at `to` counts.
   void keep(const State& to, double h);
   /// Level that the next step may have. After an impact steps grow, at most by Tuned::atATime
@@ -85,6 +89,10 @@ class ImpactResolution {
   bool matters(double change) const;
   template <class Visit>
   void visitTurned(const State& from, const State& to, double h, const Visit& visit);
+  template <class Visit>
+  void visitReleased(const State& state, double h, const Visit& visit);
+  template <class Points>
+  int halvingsOf(double h, const Points& visitPoints);
   bool isCoarse(const State& from, const State& to, double h);
 
   CompiledModel* model_ = nullptr;

@@ -41,7 +41,16 @@ bool withoutLaws(int w, const double* G, const double* P, double* G0) {
 void PointImpacts::bind(const CompiledModel& model, Strategies& strategies) {
   strategies_ = &strategies;
   stiffness_.clear();
-  for (const auto& batch : model.points()) stiffness_.emplace_back(at(batch.points()), 0.0);
+  light_.clear();
+  Vector massless(model.size());
+  model.diagonal(1.0, 0.0, 0.0, massless.data());
+  for (double& m : massless) m = m == 0.0 ? 1.0 : 0.0;
+  for (const auto& batch : model.points()) {
+    stiffness_.emplace_back(at(batch.points()), 0.0);
+    light_.emplace_back(at(batch.points()), char{0});
+    for (int row = 0; row < batch.points() * batch.width(); ++row)
+      if (batch.rowWeight(row, massless.data()) > 0.0) light_.back()[at(row / batch.width())] = 1;
+  }
 }
 
 void PointImpacts::set(CompiledModel& model, double h, double impact) {
@@ -58,6 +67,7 @@ void PointImpacts::find(std::size_t number, PointBatch& batch, double t,
   const int w = batch.width();
   double G0[widest * widest];
   for (int p : points) {
+    if (light_[number][at(p)]) continue;
     const double* J = batch.dfdd() + p * w * w;
     const double* G = &compliance[at(p * w * w)];
     if (yielding(w, J, G) < 0.5) continue;  // with J = P that is a stiffness of 1/h^2

@@ -5,7 +5,8 @@
 ///
 ///     -tr(df/dd G0) > 1,   G0 = G (I + P G)^-1,   G = R S^-1 R',   P the tangent frozen in S
 ///
-/// which is about two radians of the point's own contact frequency per step.
+/// which is about two radians of the point's own contact frequency per step. A point on a dof
+/// without mass has no impacts: it stays in balance with its neighbours.
 #pragma once
 
 #include <vector>
@@ -36,6 +37,7 @@ class PointImpacts {
   Strategies* strategies_ = nullptr;
   std::vector<std::vector<double>> stiffness_;  ///< of each batch and point, the largest
                                                 ///< -tr(df/dd G0) / h^2 seen
+  std::vector<std::vector<char>> light_;        ///< of each: on a dof without mass
   double h_ = 0, impact_ = 1;
 };
 

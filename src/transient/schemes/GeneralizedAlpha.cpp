@@ -216,6 +216,9 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
   start_ = way_ = state.q;
   end_ = window.end;
   bind(model, window, state.t);
+  if (!resolveImpacts_) return;
+  grid_.setLevel(
+      std::min(grid_.deepest(), impacts_.halvingsAtStart(state, grid_.length(grid_.level()))));
 }
 
 /// Of fixed steps. The mass is that of the run.

@@ -32,7 +32,6 @@ class RungeKutta4 final : public FixedStepIntegrator {
   bool carriesPointStates() const override { return true; }
   bool dividesAmongRanks() const override { return true; }
   bool followsCorners() const override { return true; }
-  int ledgerStride() const override { return 4; }
   std::string advice() const override {
     return "Reduce Transient/Step, or use the integrator \"Generalized-alpha\"";
   }

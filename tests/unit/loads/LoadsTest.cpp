@@ -170,6 +170,9 @@ TEST(NodalForces, HarmonicAndWindowed) {
   EXPECT_EQ(total(list, 2, 1, 0.999), 0.0);
   EXPECT_NEAR(total(list, 2, 1, 1.3), 100.0 * std::cos(4.0 * constants::pi * 1.3 + 0.5), 1e-12);
   EXPECT_EQ(total(list, 2, 1, 3.0), 0.0);
+  EXPECT_EQ(list[0].law.corners, std::vector<double>({1.0, 3.0}));
+  EXPECT_EQ(force(0.0, 0.0, 0.0, 2.0)[0].law.corners, std::vector<double>({2.0}));
+  EXPECT_EQ(force(2.0, 0.0, 0.0, never)[0].law.corners, std::vector<double>());
 }
 
 TEST(NodalForces, EqualLawsAreOneAndDifferentOnesAreNot) {

@@ -381,9 +381,11 @@ TEST(TimeLaw, FormsOfTheSpeedFollowIt) {
       .sublist("Speed Table")
       .set("Speeds", numbers({0.0, 10.0}))
       .set("Values", numbers({5.0, 7.0}));
-  const auto speed = [](double t) { return -2.0 * t; };
+  const model::ScalarLaw speed{"Omega", [](double t) { return -2.0 * t; }, {3.0}},
+      rising{"Omega", [](double t) { return 2.0 * t; }};
   const auto square = readTimeLaw("square", power, speed),
-             bearing = readTimeLaw("bearing", table, [](double t) { return 2.0 * t; });
+             bearing = readTimeLaw("bearing", table, rising);
+  EXPECT_EQ(square.corners, speed.corners);
   EXPECT_EQ(square.value(1.0), -12.0);
   EXPECT_EQ(bearing.value(2.5), 6.0);
   EXPECT_EQ(model::speedLaw(square)->steady(4.0), 48.0);

@@ -310,5 +310,64 @@ TEST(Impacts, ABarRebounds) {
     }
 }
 
+/// A hard spring on a dof without mass is no impact: the dof stays in balance.
+TEST(Impacts, ADofWithoutMassStaysInBalance) {
+  Matrix M = Matrix::Zero(2, 2), K(2, 2);
+  M(0, 0) = 2;
+  K << 900, -800, -800, 800;
+  const double linear = 100, cubic = 5e4;
+  auto model = denseModel(M, scalar(0.0), K);
+  model.damping.clear();
+  Vector load = Vector::Zero(2);
+  load[0] = 40;
+  model.loads.push_back(
+      {"push", load, model.lawIndex({"sine", [](double t) { return std::sin(10 * t); }})});
+  model::PointSet set;
+  set.name = "spring";
+  set.law = model::springs({{linear, cubic, 0.0}});
+  set.rows.resize(1, 2);
+  set.rows.insert(0, 1) = 1.0;
+  set.offset = Vector::Zero(1);
+  set.entities = {2};
+  model.points.push_back(set);
+  for (double radius : {0.3, 0.8, 1.0}) {
+    auto o = options("Generalized-alpha", 2, 1e-3, 0.01);
+    o.own.set("Spectral Radius", radius);
+    Keep samples;
+    integrate(model, o, samples);
+    for (const auto& q : samples.q)
+      EXPECT_NEAR(800 * (q[0] - q[1]), linear * q[1] + cubic * q[1] * q[1] * q[1], 1e-3) << radius;
+  }
+}
+
+/// A mass on a spring starts pressed 1 mm into a wall, which throws it out within the first steps:
+/// the strain of the wall, k d^2 / 2, becomes that of the spring at the apex.
+TEST(Impacts, ContactThatIsClosedAtTheStartOpens) {
+  const double pressed = 1e-3, spring = 400;
+  for (double k : {1e5, 1e6, 3e6, 1e7, 1e9})
+    for (double radius : {0.2, 0.8, 1.0}) {
+      auto model = oscillator(1.0, 0.0, spring, 0.0, 0.0);
+      model::PointSet set;
+      set.name = "stop";
+      model::StopParameters stop;
+      stop.gap = -pressed;
+      stop.stiffness = k;
+      set.law = model::stops({stop});
+      set.rows.resize(1, 1);
+      set.rows.insert(0, 0) = 1.0;
+      set.offset = Vector::Zero(1);
+      set.entities = {1};
+      model.points.push_back(set);
+      auto o = options("Generalized-alpha", 0.1, 1e-3, 1e-3);
+      o.own.set("Spectral Radius", radius);
+      Keep samples;
+      integrate(model, o, samples);
+      double apex = 0;
+      for (const auto& q : samples.q) apex = std::max(apex, q[0]);
+      EXPECT_NEAR(apex / std::sqrt(k * pressed * pressed / spring), 1.0, 0.02)
+          << k << " " << radius;
+    }
+}
+
 }  // namespace ImpactTest
 }  // namespace tooljoint::transient::testing
