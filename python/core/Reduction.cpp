@@ -12,8 +12,8 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "coupling/StartMisfit.hpp"
 #include "reduction/Reduce.hpp"
-#include "reduction/project/StartMisfit.hpp"
 
 namespace tooljoint::python {
 
@@ -61,7 +61,7 @@ std::shared_ptr<Synthesised> synthesise(const Parts& parts, const List& list,
     out->unreduced = resolve(parts, joining);
     out->outcome = estimate::synthesise(out->unreduced.parts, *list, {}, out->unreduced.options);
     out->model = std::make_shared<model::SecondOrderModel>(out->outcome.synthesis.coupled.model);
-    reduction::warnOfStart(out->outcome.synthesis.parts);
+    coupling::warnOfStart(out->outcome.synthesis);
     return out;
   });
 }

@@ -2,16 +2,52 @@
 #include "parts/RestState.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "model/DofNames.hpp"
+#include "model/laws/StatefulPointLaw.hpp"
 
 namespace tooljoint::parts {
 
 namespace {
+
+/// Step of the differences of forces whose states follow the rest: part of d, and at least [m].
+constexpr double differencePart = 1e-6, leastDifference = 1e-9;
+
+/// df/dd of a law whose states start anew at each d, as they do at rest, less df/dd of held states:
+/// 0 and -k of a spring and a dashpot in series.
+Matrix changeByStates(const model::PointLaw& law, double t, const Vector& d) {
+  const int w = law.width(), size = static_cast<int>(d.size());
+  std::vector<int> all(static_cast<std::size_t>(law.size()));
+  std::iota(all.begin(), all.end(), 0);
+  const Vector still = Vector::Zero(size);
+  Vector f = still, held = Vector::Zero(size * w), rates = held;
+  law.evaluateWithTangent(t, all, d.data(), still.data(), f.data(), held.data(), rates.data());
+  Matrix change(size, w);
+  for (int k = 0; k < w; ++k) {
+    std::array<Vector, 2> forces{f, f}, places{d, d};
+    for (int side = 0; side < 2; ++side) {
+      for (int i = k; i < size; i += w)
+        places[at(side)][i] +=
+            (side == 0 ? 1 : -1) * std::max(leastDifference, differencePart * std::abs(d[i]));
+      law.evaluate(t, all, places[at(side)].data(), still.data(), forces[at(side)].data());
+    }
+    for (int i = 0; i < size; ++i) {
+      const int moved = i / w * w + k;
+      change(i, k) =
+          (forces[0][i] - forces[1][i]) / (places[0][moved] - places[1][moved]) - held[i * w + k];
+    }
+  }
+  return change;
+}
 
 /// r(q) = K q - F - R' f(d, 0)
 class Equilibrium : public model::NonlinearProblem {
@@ -29,6 +65,17 @@ class Equilibrium : public model::NonlinearProblem {
   }
   void jacobian(const Vector& q, Sparse& J) const override {
     J = stiffness_ + model_.pointStiffness(time_, q, still_);
+    for (const auto& set : model_.points) {
+      if (dynamic_cast<const model::StatefulPointLaw*>(set.law.get()) == nullptr) continue;
+      const int w = set.law->width();
+      const Matrix change = changeByStates(*set.law, time_, set.offset + set.rows * q);
+      Triplets entries;
+      for (int i = 0; i < change.rows(); ++i)
+        for (int k = 0; k < w; ++k) entries.emplace_back(i, i / w * w + k, change(i, k));
+      Sparse tangent(change.rows(), change.rows());
+      tangent.setFromTriplets(entries.begin(), entries.end());
+      J -= Sparse(Sparse(set.rows.transpose()) * Sparse(tangent * set.rows));
+    }
   }
   Vector residualScale() const override {
     // forces are measured by the largest load, or, without loads, by the point forces of the start

@@ -420,6 +420,33 @@ def motion_tolerance_of_fast_parts():
         expect(f"{name}: the motion keeps its tolerance", error < 1e-3, f"{error:.1e}")
 
 
+def relaxed_laws_at_rest():
+    """A law whose state is relaxed at rest has no force there, however stiff it is beside the parts: 100 N on 20 springs in a row, 2 mm."""
+    for law, values in (("Maxwell", {"Stiffness": 1e7, "Damping": 40.0}), ("Elastic-Plastic", {"Stiffness": 1e7, "Yield Force": 1e3})):
+        deck = bars("relaxed", {"Initial State": "Equilibrium", "Loads": {"pull": {"Part": "b", "Node": 11, "Component": "u", "Value": 100.0}}},
+                    Coupling={"Point Laws": {"beside": {"First": "b:11", "Component": "u", "Type": law, law: values}}})
+        done = tooljoint("run", deck, "--output", "relaxed")
+        expect(f"an equilibrium beside {law} is found", done.returncode == 0, done.stderr[-300:])
+        with h5py.File("relaxed/results.h5") as results:
+            end = np.abs(results["/transient/displacement"][0]).max()
+        expect(f"the parts rest as without it ({law})", abs(end / 2e-3 - 1) < 1e-9, end)
+
+
+def starts_that_coordinates_lose():
+    """Coordinates that depend on others, and modes of interfaces, lose of a start what the bases have: the warning counts that too."""
+    start = {"Starts": {f"s{i}": {"Part": part, "Node": node, "Component": "u", "Velocity": v} for i, (part, node, v) in enumerate((("a", 5, 1.0), ("b", 4, -2.0), ("b", 9, 0.5)))}}
+    deck = bars("tied", start, Reduction={"Basis": "Enhanced Craig-Bampton", "Mode Selection": {"Modes": 8}})
+    told = {}
+    for name in ("Free", "Tied"):
+        done = tooljoint("run", deck, "--output", f"tied_{name}", "--set", f"Reduction/Enhanced Craig-Bampton/Residual Coordinates={name}")
+        expect(f"a start of Enhanced Craig-Bampton runs ({name})", done.returncode == 0, done.stderr[-300:])
+        with open(f"tied_{name}/summary.json", encoding="utf-8") as file:
+            misfit = json.load(file)["reduction"]["start_misfit"]
+        told[name] = (misfit, "does not represent the initial state" in " ".join(done.stderr.split()))
+    expect("free coordinates have the start", told["Free"][0] < 1e-9 and not told["Free"][1], told["Free"])
+    expect("tied ones lose a part of it, which is told", told["Tied"][0] > 0.05 and told["Tied"][1], told["Tied"])
+
+
 if __name__ == "__main__":
     documented_scripts()
     frame()
@@ -437,4 +464,6 @@ if __name__ == "__main__":
     unstable_equilibria()
     turned_out_of_the_plane()
     motion_tolerance_of_fast_parts()
+    relaxed_laws_at_rest()
+    starts_that_coordinates_lose()
     sys.exit(finish())

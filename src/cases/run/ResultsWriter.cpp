@@ -5,8 +5,8 @@
 
 #include "cases/run/Report.hpp"
 #include "common/Text.hpp"
+#include "coupling/StartMisfit.hpp"
 #include "io/Csv.hpp"
-#include "reduction/project/StartMisfit.hpp"
 
 namespace tooljoint::cases {
 
@@ -53,7 +53,6 @@ namespace {
 
 void summariseParts(const std::vector<reduction::ReducedSubstructure>& parts,
                     const std::string& basis, int reducedDofs, double wall, io::Summary& summary) {
-  summary.set("reduction.start_misfit", reduction::startMisfit(parts));
   summary.set("reduction.basis", basis);
   for (const auto& part : parts)
     summary.append("reduction.substructures", io::SummaryRow()
@@ -99,6 +98,7 @@ void summariseEstimate(const estimate::Outcome& outcome,
 
 void summarise(const ReducedCase& reduced, const std::string& basis, double wall,
                io::Summary& summary) {
+  summary.set("reduction.start_misfit", coupling::startMisfit(reduced.outcome.synthesis));
   summariseParts(reduced.parts(), basis, reduced.model().size(), wall, summary);
   summariseCoupling(reduced.coupled(), summary);
   summariseEstimate(reduced.outcome, reduced.unreduced.parts, summary);

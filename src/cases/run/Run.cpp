@@ -18,7 +18,7 @@
 #include "common/Version.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/Stopwatch.hpp"
-#include "reduction/project/StartMisfit.hpp"
+#include "coupling/StartMisfit.hpp"
 
 namespace tooljoint::cases {
 
@@ -80,7 +80,7 @@ class Run {
     for (const auto& remark : reduced_.coupled().remarks) log::warn(remark);
     if (!outcome.frequencies.empty())
       log::info(estimate::frequencyTable(outcome.frequencies, parts));
-    if (case_.moves()) reduction::warnOfStart(reduced_.parts());
+    if (case_.moves()) coupling::warnOfStart(outcome.synthesis);
     auto& summary = files_.summary();
     summarise(reduced_, case_.reduction().get<std::string>("Basis"), wall, summary);
     if (case_.moves()) {

@@ -29,15 +29,14 @@ std::string nameOfReaction(const model::MatrixTerm& term) {
   return term.law == 0 ? "reference state" : "reference state: " + term.name;
 }
 
-/// (v'M v + |x'K x|) / 2 with K at t = 0 [J].
+}  // namespace
+
 double energyOf(const model::SecondOrderModel& model, const Vector& x, const Vector& v) {
   double strain = 0.0, kinetic = 0.0;
   if (!x.isZero(0.0)) strain = x.dot(Vector(model.stiffnessAt(0.0) * x));
   if (!v.isZero(0.0)) kinetic = v.dot(Vector(model.mass * v));
   return 0.5 * (kinetic + std::abs(strain));
 }
-
-}  // namespace
 
 LinearMap::LinearMap(Sparse A) {
   if (static_cast<double>(A.nonZeros()) > 0.1 * static_cast<double>(A.size()))

@@ -15,6 +15,9 @@
 
 namespace tooljoint::reduction {
 
+/// (v'M v + |x'K x|) / 2 with K at t = 0 [J].
+double energyOf(const model::SecondOrderModel& model, const Vector& x, const Vector& v);
+
 /// y = A x for many x; dense where A has few zeros.
 class LinearMap {
  public:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

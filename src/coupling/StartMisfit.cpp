@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reduction/project/StartMisfit.hpp"
+#include "coupling/StartMisfit.hpp"
 
 #include <cmath>
 
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
+#include "reduction/project/ReducedModels.hpp"
 
-namespace tooljoint::reduction {
+namespace tooljoint::coupling {
 namespace {
 
 /// Energy of the start that the bases may lose without a warning.
@@ -14,17 +15,23 @@ constexpr double startLoss = 0.01;
 
 }  // namespace
 
-double startMisfit(const std::vector<ReducedSubstructure>& parts) {
+double startMisfit(const Synthesis& synthesis) {
   double energy = 0.0, misfit = 0.0;
-  for (const auto& part : parts) {
+  const auto& coupled = synthesis.coupled;
+  for (std::size_t p = 0; p < synthesis.parts.size(); ++p) {
+    const auto& part = synthesis.parts[p];
     energy += part.report.startEnergy;
     misfit += part.report.startMisfit;
+    const Vector moved = coupled.maps[p] * coupled.model.initialDisplacement + coupled.offsets[p],
+                 moving = coupled.maps[p] * coupled.model.initialVelocity;
+    misfit += reduction::energyOf(part.model, part.model.initialDisplacement - moved,
+                                  part.model.initialVelocity - moving);
   }
   return energy > 0.0 ? misfit / energy : 0.0;
 }
 
-void warnOfStart(const std::vector<ReducedSubstructure>& parts) {
-  const double loss = startMisfit(parts);
+void warnOfStart(const Synthesis& synthesis) {
+  const double loss = startMisfit(synthesis);
   if (loss > startLoss)
     log::warn("The basis does not represent the initial state: the misfit has " +
               formatNumber(std::round(1e3 * loss) / 10.0) +
@@ -33,4 +40,4 @@ void warnOfStart(const std::vector<ReducedSubstructure>& parts) {
               "modes, or retain the dofs that move.");
 }
 
-}  // namespace tooljoint::reduction
+}  // namespace tooljoint::coupling
