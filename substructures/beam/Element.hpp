@@ -92,10 +92,9 @@ struct ElementChoice {
   std::string name = "Timoshenko";
   Teuchos::ParameterList own;
 
-  /// DeckError for a name that is not registered, and what the element refuses.
-  std::shared_ptr<const Element> make(const Section& section, double length) const {
-    return ElementRegistry::instance().make(name, own, section, length);
-  }
+  /// DeckError for a name that is not registered, and what the element refuses. ModelError where
+  /// its mass or stiffness is not symmetric, or a rigid motion along or about the axis has forces.
+  std::shared_ptr<const Element> make(const Section& section, double length) const;
 };
 
 /// Declares the choice `Element` and the lists of elements with parameters of their own.

@@ -109,7 +109,7 @@ class Forces final : public Load {
     std::vector<PointLoad> out;
     for (const auto& force : forces_) {
       const int node = nodeOf(force.place, depths, "Loads/Forces/" + force.name);
-      out.push_back({"nodal force", node, force.component, force.value, lawOf(force)});
+      out.push_back({nodalForce, node, force.component, force.value, lawOf(force)});
     }
     return out;
   }

@@ -1,14 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/loads/Load.hpp"
 
+#include <string>
 #include <utility>
 
+#include "common/Error.hpp"
 #include "deck/Variants.hpp"
 
 namespace tooljoint::loads {
 namespace {
 
 constexpr const char* listName = "Loads";
+
+/// A load as the lower part of a string sees it.
+class OfLowerPart final : public Load {
+ public:
+  OfLowerPart(std::shared_ptr<const Load> load, double top) : load_(std::move(load)), top_(top) {}
+
+  Vector3 acceleration() const override { return load_->acceleration(); }
+  std::vector<LineLoad> onElement(const LoadedElement& element,
+                                  const RotarySpeed& rotary) const override {
+    return load_->onElement(
+        {element.section, element.frame, element.from + top_, element.to + top_}, rotary);
+  }
+  std::vector<PointLoad> atNodes(const std::vector<double>& depths,
+                                 const RotarySpeed& rotary) const override {
+    std::vector<double> measured = depths;
+    for (double& depth : measured) depth += top_;
+    return load_->atNodes(measured, rotary);
+  }
+  std::vector<LoadRemark> describe(const RotarySpeed& rotary) const override {
+    return load_->describe(rotary);
+  }
+
+ private:
+  std::shared_ptr<const Load> load_;
+  double top_;
+};
+
+void requirePlace(const PointLoad& load, int nodes) {
+  const auto refuse = [&](const std::string& what, int value, const std::string& expected) {
+    throw ModelError("The load \"" + load.name + "\" acts on " + what + " " +
+                     std::to_string(value) + ", expected " + expected + ".");
+  };
+  if (load.node < 1 || load.node > nodes)
+    refuse("node", load.node, "1 to " + std::to_string(nodes));
+  constexpr int components = 6;
+  if (load.component < 0 || load.component >= components)
+    refuse("component", load.component, "0 to " + std::to_string(components - 1));
+}
 
 bool inListItself(const LoadRegistry::Entry& entry) { return entry.parameters.name() == listName; }
 
@@ -47,8 +87,27 @@ std::vector<PointLoad> pointLoads(const Loads& loads, const std::vector<double>&
                                   const RotarySpeed& rotary) {
   std::vector<PointLoad> all;
   for (const auto& load : loads)
-    for (PointLoad& point : load->atNodes(depths, rotary)) all.push_back(std::move(point));
+    for (PointLoad& point : load->atNodes(depths, rotary)) {
+      requirePlace(point, static_cast<int>(depths.size()));
+      all.push_back(std::move(point));
+    }
   return all;
+}
+
+Vector3 steadyBesideWeight(const Loads& loads, const LoadedElement& element,
+                           const RotarySpeed& rotary) {
+  Vector3 sum =
+      -element.section.massPerLength() * (element.frame.transpose() * acceleration(loads));
+  for (const auto& load : loads)
+    for (const auto& line : load->onElement(element, rotary))
+      if (line.law.name == model::ScalarLaw::one().name) sum += line.force;
+  return sum;
+}
+
+Loads below(const Loads& loads, double top) {
+  Loads shifted;
+  for (const auto& load : loads) shifted.push_back(std::make_shared<OfLowerPart>(load, top));
+  return shifted;
 }
 
 }  // namespace tooljoint::loads

@@ -31,6 +31,9 @@ struct PointLoad {
   std::string parameter = {};
 };
 
+/// Name of the loads of `Loads/Forces`.
+constexpr const char* nodalForce = "nodal force";
+
 /// A constant force per length on an element, in element axes, times a scalar law of time.
 struct LineLoad {
   std::string name;
@@ -97,7 +100,15 @@ Loads readLoads(const Teuchos::ParameterList& list);
 
 /// Sum of the accelerations of all loads, global axes [m/s2].
 Vector3 acceleration(const Loads& loads);
-/// All loads at nodes. DeckError as Load::atNodes.
+/// What they put on an element in the static state beside the weight of acceleration(), element
+/// axes [N/m].
+Vector3 steadyBesideWeight(const Loads& loads, const LoadedElement& element,
+                           const RotarySpeed& rotary);
+/// The same loads on the lower part of the string alone, whose first node is at this measured depth
+/// [m] and whose depths count from there.
+Loads below(const Loads& loads, double top);
+/// All loads at nodes. DeckError as Load::atNodes; ModelError for a load that names a node or a
+/// component that is not there.
 std::vector<PointLoad> pointLoads(const Loads& loads, const std::vector<double>& depths,
                                   const RotarySpeed& rotary);
 

@@ -64,6 +64,13 @@ GUIDE = f"""<ParameterList name="Supports">
       <Parameter name="Dofs" type="string" value="u v"/>
     </ParameterList>
   </ParameterList>"""
+WALL = """<ParameterList name="Contact">
+    <Parameter name="Stiffness" type="double" value="1e6"/>
+    <ParameterList name="Friction">
+      <Parameter name="Static" type="double" value="0.3"/>
+      <Parameter name="Dynamic" type="double" value="0.3"/>
+    </ParameterList>
+  </ParameterList>"""
 DRAG = """<ParameterList name="Wall Drag">
       <Parameter name="From" type="double" value="31"/>
       <Parameter name="To" type="double" value="154"/>
@@ -189,6 +196,9 @@ def a_load():
     close(dry - dragged, total, 1e-9, "the drag takes its sum off the axial force at the top")
     shown = call("check", "dragged.xml")
     expect("check names the load and its size", "wall drag" in shown and "6150" in shown)
+    soft = written("dragged_soft", rods=(), supports=WALL, loads=DRAG.format(drag=50.0))
+    said = " ".join(call("torque-drag", soft, "--output", "dragged_soft").split())
+    expect("torque and drag says that it leaves the load out", 'The load "wall drag" has no part in torque and drag' in said)
     wrong = written("wrong", loads=DRAG.format(drag=50.0).replace('value="154"', 'value="3"'))
     expect("a senseless load is refused", "ends (To) before it starts" in call("check", wrong, code=2))
 

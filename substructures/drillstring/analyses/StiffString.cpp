@@ -69,9 +69,8 @@ StiffLoads StiffString::under(const softstring::Operation& operation) const {
                             state.normalForce.data() + state.normalForce.size());
   for (int e = 0; e < scene_.string.elementCount(); ++e) {
     const auto& element = scene_.string.elements[at(e)];
-    const auto& section = element.section();
     const double moment = meanMoment(bending_[at(e)], at(e), state.displacement).norm();
-    loads.stretch += state.axialForce(e) * element.length() / section.axialRigidity();
+    loads.stretch += state.axialForce(e) / element.formulation->stiffness()(w, w);
     loads.tension.push_back(state.axialForce(e));
     loads.torque.push_back(state.torque(e));
     loads.moment.push_back(moment);

@@ -283,11 +283,37 @@ void warnOfCalibration(const Scene& scene, const std::vector<softstring::Operati
   if (!warning.empty()) log::warn(warning);
 }
 
+/// The load of a registered kind acts along the string in the static state.
+bool actsBetween(const loads::Loads& one, const Scene& scene) {
+  const auto depths = scene.string.depths();
+  const auto points = loads::pointLoads(one, depths, scene.rotary);
+  if (std::any_of(points.begin(), points.end(), [&](const auto& load) {
+        return load.law.name == "1" && load.value != 0.0 && load.name != loads::nodalForce &&
+               load.node < static_cast<int>(depths.size());
+      }))
+    return true;
+  for (std::size_t e = 0; e < scene.string.elements.size(); ++e) {
+    const auto& section = scene.string.elements[e].section();
+    const Matrix3 triad = Matrix3::Identity();
+    const loads::LoadedElement element{section, triad, depths[e], depths[e + 1]};
+    if (loads::steadyBesideWeight(one, element, scene.rotary).norm() >
+        1e-9 * section.massPerLength())
+      return true;
+  }
+  return false;
+}
+
 void warnOfForces(const Scene& scene) {
+  const std::string without =
+      "has no part in torque and drag, which knows the weight of the string, the bit and the wall.";
   if (scene.list().isSublist("Loads") && scene.list().sublist("Loads").isSublist("Forces"))
-    log::warn(scene.deck.error("Loads/Forces",
-                               "has no part in torque and drag, which knows the weight of the "
-                               "string, the bit and the wall."));
+    log::warn(scene.deck.error("Loads/Forces", without));
+  for (const auto& load : scene.loads) {
+    if (!actsBetween({load}, scene)) continue;
+    const auto remarks = load->describe(scene.rotary);
+    log::warn("The load \"" + (remarks.empty() ? "of a kind of its own" : remarks.front().load) +
+              "\" " + without);
+  }
 }
 
 }  // namespace

@@ -40,6 +40,38 @@ TEST(Elements, TheResponseAtRestIsTheStiffness) {
   EXPECT_LT((response.tangent - element.stiffness()).norm(), 1e-12 * element.stiffness().norm());
 }
 
+/// What an element outside the library may do wrong, one after the other.
+struct Faulty : Timoshenko {
+  static inline int fault = 0;
+  using Timoshenko::Timoshenko;
+  Matrix12 stiffness() const override {
+    Matrix12 K = Timoshenko::stiffness();
+    if (fault == 1) K(1, 3) *= 1.01;
+    if (fault == 3) K(0, 0) += 1.0, K(6, 6) += 1.0;
+    return K;
+  }
+  Matrix12 mass() const override {
+    Matrix12 M = Timoshenko::mass();
+    if (fault == 2) M(0, 4) += 1e-3;
+    return M;
+  }
+};
+const bool faultyRegistered = addElement<Faulty>("Faulty", "a beam with a fault.");
+
+TEST(Elements, FaultyOnesAreRefused) {
+  ElementChoice choice;
+  choice.name = "Faulty";
+  const char* said[] = {"", "a stiffness that is not symmetric", "a mass that is not symmetric",
+                        "resists a rigid motion in u"};
+  for (Faulty::fault = 0; Faulty::fault < 4; ++Faulty::fault) try {
+      choice.make(pipe, 2.5);
+      EXPECT_EQ(Faulty::fault, 0);
+    } catch (const ModelError& error) {
+      EXPECT_NE(std::string(error.what()).find(said[Faulty::fault]), std::string::npos)
+          << error.what();
+    }
+}
+
 TEST(Elements, NodesHaveTheDofsOfTheElementsTheyJoin) {
   const auto beam = std::make_shared<Timoshenko>(pipe, 1.0);
   const auto shaft = std::make_shared<Shaft>(pipe, 1.0);

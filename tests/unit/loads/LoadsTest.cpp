@@ -324,5 +324,52 @@ TEST(LoadsDeck, Damping) {
   EXPECT_TRUE(readDamping(list).present());
 }
 
+/// A push at a measured depth, and a drag below it; as a load outside the library may give them.
+struct Tractor final : Load {
+  double depth = 5.0;
+  int node = 0;  ///< 0: that at the depth
+  std::vector<PointLoad> atNodes(const std::vector<double>& at, const RotarySpeed&) const override {
+    if (node != 0) return {{"tractor", node, 0, 7.0}};
+    for (std::size_t n = 0; n < at.size(); ++n)
+      if (at[n] >= depth) return {{"tractor", static_cast<int>(n) + 1, 0, 7.0}};
+    return {};
+  }
+  std::vector<LineLoad> onElement(const LoadedElement& element, const RotarySpeed&) const override {
+    return {{"drag", Vector3(0, 0, element.from >= depth ? -3.0 : 0.0)}};
+  }
+  std::vector<LoadRemark> describe(const RotarySpeed&) const override { return {}; }
+};
+
+TEST(LoadsOfALowerPart, AreAskedByMeasuredDepth) {
+  const Loads whole{std::make_shared<Tractor>()};
+  const std::vector<double> local{0.0, 1.8, 3.6};
+  const Loads lower = below(whole, 3.6);
+  const auto points = pointLoads(lower, local, RotarySpeed());
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_EQ(points[0].node, 2) << "5.4 m is 1.8 m below the cut";
+  EXPECT_EQ(pointLoads(whole, local, RotarySpeed()).size(), 0U);
+  const beam::Section section;
+  const Matrix3 triad = Matrix3::Identity();
+  EXPECT_EQ(steadyBesideWeight(lower, {section, triad, 0.0, 1.8}, RotarySpeed()).z(), 0.0);
+  EXPECT_EQ(steadyBesideWeight(lower, {section, triad, 1.8, 3.6}, RotarySpeed()).z(), -3.0);
+}
+
+TEST(LoadsOfALowerPart, WeightIsNothingBesideWeight) {
+  Teuchos::ParameterList list = deckList();
+  list.set("Gravity", 9.81);
+  const beam::Section section = beam::Section::hollow(0.06, 0.05, beam::Material());
+  const Matrix3 triad = Eigen::AngleAxisd(0.7, Vector3::UnitX()).toRotationMatrix();
+  EXPECT_LT(steadyBesideWeight(readLoads(list), {section, triad, 0.0, 1.8}, RotarySpeed()).norm(),
+            1e-9);
+}
+
+TEST(PointLoads, NodesOutsideTheStringAreRefused) {
+  for (const int node : {-3, 6, 100}) {
+    auto load = std::make_shared<Tractor>();
+    load->node = node;
+    EXPECT_THROW(pointLoads({load}, depths, RotarySpeed()), ModelError) << node;
+  }
+}
+
 }  // namespace LoadsTest
 }  // namespace tooljoint::loads

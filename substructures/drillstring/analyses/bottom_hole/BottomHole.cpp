@@ -225,7 +225,7 @@ Scene BottomHole::lowerPart(const BottomHolePoint& point, double length, double 
   part.held = heldDofs(part.supports, part.string);
   for (auto& interval : part.contact->intervals) interval.from -= top, interval.to -= top;
   part.contactPoints = contactPoints(*part.contact, part.string, part.held);
-  part.loads = loadsWith(scene_, point.weight);
+  part.loads = loads::below(loadsWith(scene_, point.weight), top);
   part.mud = mudAtRest(scene_);
   part.rotary = {};
   part.damping = {};

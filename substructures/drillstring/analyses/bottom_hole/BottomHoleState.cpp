@@ -28,10 +28,14 @@ class Findings {
         kinks_(kinks(part.string, stage.path)),
         last_(part.string.elementCount()) {
     const double mud = part.mud ? mud::readProperties(part.list().sublist("Mud")).density : 0.0;
-    for (const auto& element : part.string.elements) {
-      const auto& section = element.section();
-      weight_.push_back((section.massPerLength() - mud * section.area()) *
-                        loads::acceleration(part.loads));
+    for (std::size_t e = 0; e < part.string.elements.size(); ++e) {
+      const auto& section = part.string.elements[e].section();
+      const auto& nodes = part.string.nodes;
+      const Matrix3& triad = stage.path.elementFrame[e];
+      weight_.push_back(
+          (section.massPerLength() - mud * section.area()) * loads::acceleration(part.loads) +
+          triad * loads::steadyBesideWeight(
+                      part.loads, {section, triad, nodes[e].s, nodes[e + 1].s}, part.rotary));
     }
     for (int n = 0; n <= last_; ++n) {
       const Matrix3& frame = stage.path.frame[at(n)];
@@ -217,8 +221,9 @@ class Findings {
   const StaticStage& stage_;
   const Vector& d_;
   std::vector<beam::Vector12> kinks_;
-  int last_;                                        ///< node at the bit, 0-based
-  std::vector<Vector3> weight_;                     ///< buoyed, per length of every element [N/m]
+  int last_;  ///< node at the bit, 0-based
+  /// Buoyed, and other loads, per length of every element, global axes [N/m].
+  std::vector<Vector3> weight_;
   std::vector<Eigen::Matrix<double, 3, 2>> sides_;  ///< high and right side at every node
 };
 
