@@ -70,7 +70,8 @@ WALL = """<ParameterList name="Contact">
       <Parameter name="Static" type="double" value="0.3"/>
       <Parameter name="Dynamic" type="double" value="0.3"/>
     </ParameterList>
-  </ParameterList>"""
+  </ParameterList>
+  <ParameterList name="Torque and Drag"/>"""
 DRAG = """<ParameterList name="Wall Drag">
       <Parameter name="From" type="double" value="31"/>
       <Parameter name="To" type="double" value="154"/>
