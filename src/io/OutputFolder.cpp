@@ -28,6 +28,26 @@ bool isPlain(const std::string& name) {
   return !name.empty() && name.find('/') == std::string::npos;
 }
 
+/// Moves these files into a new folder beside them. \param what  they are, for messages
+std::filesystem::path moved(const std::filesystem::path& here,
+                            const std::vector<std::string>& names, const std::string& folder,
+                            const std::string& what) {
+  namespace fs = std::filesystem;
+  fs::path aside = here / folder;
+  for (int number = 2; fs::exists(aside); ++number)
+    aside = here / (folder + "_" + std::to_string(number));
+  std::error_code error;
+  fs::create_directory(aside, error);
+  for (const auto& name : names)
+    if (!error && isPlain(name) && fs::exists(here / name))
+      fs::rename(here / name, aside / name, error);
+  if (error)
+    throw FileError("The output folder " + here.string() + " holds " + what +
+                    ", which cannot be moved to " + aside.string() + ": " + error.message() +
+                    ". Name another folder with --output.");
+  return aside;
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(const std::string& folder, OldCheckpoint old)
@@ -89,19 +109,7 @@ void OutputFolder::setAside() {
     names.insert(names.end(), {resultsName, summaryName});
     previousFiles_.clear();
   }
-  fs::path aside = here / "interrupted";
-  for (int number = 2; fs::exists(aside); ++number)
-    aside = here / ("interrupted_" + std::to_string(number));
-  std::error_code error;
-  fs::create_directory(aside, error);
-  for (const auto& name : names)
-    if (!error && isPlain(name) && fs::exists(here / name))
-      fs::rename(here / name, aside / name, error);
-  if (error)
-    throw FileError("The output folder " + folder_ +
-                    " holds the checkpoint of an interrupted run, which cannot be moved to " +
-                    aside.string() + ": " + error.message() +
-                    ". Name another folder with --output.");
+  const fs::path aside = moved(here, names, "interrupted", "the checkpoint of an interrupted run");
   log::warn("The output folder " + folder_ +
             " held the checkpoint of an interrupted run. It is now in " + aside.string() +
             "; that run goes on with --restart " + aside.string() + ".");
@@ -148,8 +156,23 @@ void OutputFolder::renameAll() {
   }
 }
 
+void OutputFolder::setEarlierAside() {
+  const bool same =
+      std::any_of(previousFiles_.begin(), previousFiles_.end(), [&](const auto& name) {
+        return name != summaryName && std::find(names_.begin(), names_.end(), name) != names_.end();
+      });
+  if (!finished_ || previousFiles_.empty() || same) return;
+  auto names = previousFiles_;
+  names.emplace_back(summaryName);
+  const auto aside = moved(folder_, names, "earlier", "results of another command");
+  previousFiles_.clear();
+  log::info("The output folder " + folder_ + " held results of another command. They are now in " +
+            aside.string() + ".");
+}
+
 void OutputFolder::publish() {
   if (!active_) return;
+  setEarlierAside();
   renameAll();
   for (const auto& name : previousFiles_) {
     if (isPlain(name) && std::find(names_.begin(), names_.end(), name) == names_.end())

@@ -50,8 +50,9 @@ class OutputFolder {
   /// Names asked for with file(), sorted, without .part: the summary lists them.
   std::vector<std::string> files() const;
 
-  /// The run ended well: give every staged file its name, summary.json last; files of the run
-  /// before that this one did not write are removed.
+  /// The run ended well: give every staged file its name, summary.json last. Files of the run
+  /// before that this one did not write are removed; where it wrote none of them but summary.json,
+  /// they are those of another command and move into a folder of their own, "earlier".
   void publish();
 
   /// The run failed or was interrupted. Without finished results here, the files get their names
@@ -62,6 +63,7 @@ class OutputFolder {
  private:
   void prove() const;
   void setAside();
+  void setEarlierAside();
   void renameAll();
 
   std::string folder_;

@@ -28,7 +28,7 @@ constexpr Complex imaginary{0.0, 1.0};
 /// known to 1e-4 of their distance.
 constexpr int goldenSteps = 20;
 
-constexpr int storeFormat = 2;  ///< raised when the meaning of a kept point changes
+constexpr int storeFormat = 3;  ///< raised when the meaning of a kept point changes
 
 /// Rows of the recovery that the deck names.
 struct Rows {
@@ -194,11 +194,14 @@ class Sweep {
     const auto m = rotating_.at(point.speed, omega);
     linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness, s);
     requireInverse(Q, point);
-    const ComplexMatrix y = Q.solve(loads_.on(rotating_.model(), point.speed));
+    const ComplexMatrix f = loads_.on(rotating_.model(), point.speed), y = Q.solve(f);
     const ComplexMatrix c = loads_.outputs(rotating_.model());
     point.x = c.transpose() * y;
     if (!whole) return point;
     if (lookedAlong()) point.along = along_.of(y.col(0));
+    if (settings_.excitation != Excitation::Transfer)
+      point.departure =
+          departure(rotating_.turned(point.speed), rotating_.time(), omega, y.col(0), f.col(0));
     if (rotating_.estimated()) takeEstimates(point, s, y, Q);
     return point;
   }

@@ -12,6 +12,7 @@
 #include "cases/run/ResumedRows.hpp"
 #include "deck/ListSpec.hpp"
 #include "response/AlongString.hpp"
+#include "response/LinearRange.hpp"
 #include "response/RotatingCase.hpp"
 
 namespace tooljoint::response {
@@ -66,10 +67,11 @@ struct ResponsePoint {
                        ///< transfer function per [N] or [N m]
   Matrix estimate;     ///< of |x - x_full|; empty without an estimate
   StringResponse along;  ///< empty for transfer functions
+  Departure departure;   ///< of the linear range; none for transfer functions
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(speed, frequency, x, estimate, along);
+    archive(speed, frequency, x, estimate, along, departure);
   }
 };
 

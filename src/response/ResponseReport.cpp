@@ -67,6 +67,7 @@ class Report {
           "amplitude of an output. Keep more modes (Reduction/Mode Selection), or leave the list "
           "Reduction out.",
           100.0 * worstError()));
+    warnOfDeparture();
     StringReport(response_, settings_.bySpeed(), rotating_.estimated()).print();
   }
 
@@ -108,6 +109,27 @@ class Report {
   }
 
  private:
+  const ResponsePoint* farthest() const {
+    const ResponsePoint* worst = nullptr;
+    const auto look = [&](const ResponsePoint& point) {
+      if (worst == nullptr || point.departure.part > worst->departure.part) worst = &point;
+    };
+    for (const auto& point : response_.points) look(point);
+    for (const auto& peak : response_.peaks) look(peak.at);
+    return worst;
+  }
+  void warnOfDeparture() const {
+    const auto* worst = farthest();
+    if (worst == nullptr || !(worst->departure.part > farFromLinear)) return;
+    log::warn(fmt::format(
+        "The linear response is not that of the scene: at {:.4g} Hz the forces of \"{}\" leave "
+        "their tangents at rest by {:.2g} of the largest load. Reduce the loads, or run the "
+        "motion.",
+        worst->frequency, worst->departure.set, worst->departure.part));
+  }
+
+  /// Of the largest load: forces of point laws farther from their tangents are worth a warning.
+  static constexpr double farFromLinear = 0.1;
   /// Of the largest amplitude: a larger estimate, or error, is worth a warning.
   static constexpr double tooCoarse = 0.05;
   /// Of the largest amplitude of its unit: an output below moves by coupling of other directions,

@@ -38,6 +38,10 @@ class RotatingCase {
   /// The full model, made when first asked for. Collective.
   const model::SecondOrderModel& full() const;
 
+  /// The model that is solved at a rotary speed [rad/s], with the point laws that are linearised.
+  model::SecondOrderModel turned(double speed) const { return turning(model(), speed); }
+  double time() const { return time_; }  ///< of laws that do not follow the speed [s]
+
   /// Matrices of the model that is solved, of the full model and of the parts, at a rotary speed
   /// [rad/s]. With `omega`, in motions e^{i omega t} that the states of point laws follow; else
   /// these stay as they are.

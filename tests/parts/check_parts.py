@@ -447,6 +447,32 @@ def starts_that_coordinates_lose():
     expect("tied ones lose a part of it, which is told", told["Tied"][0] > 0.05 and told["Tied"][1], told["Tied"])
 
 
+def responses_beyond_the_linear_range():
+    """A linear response that meets a stop, or that negative damping makes none, is warned of; one that stays clear is not."""
+    def warnings(name, force, damping, stop):
+        pathlib.Path("one.json").write_text(json.dumps({"format": "tooljoint part 1", "components": ["u"], "dofs": [[1, "u"]], "mass": [[1.0]], "stiffness": [[4e3]],
+                                                        "damping": [[damping]]}), encoding="utf-8")
+        at = {"Part": "p", "Node": 1, "Component": "u"}
+        lists = {"Parts": {"Imported": {"p": {"File": "one.json"}}},
+                 "Response": {"Excitation": "Harmonic", "Highest Frequency": 20.0, "Points": 41, "Loads": {"l": {**at, "Value": force}}, "Outputs": {"o": at}}}
+        if stop:
+            lists["Coupling"] = {"Stops": {"s": {"First": "p:1", "Component": "u", "Gap": 1e-3, "Stiffness": 1e6}}}
+        pathlib.Path(f"{name}.xml").write_text(parameter_list(name, lists), encoding="utf-8")
+        done = tooljoint("response", f"{name}.xml", "--output", name)
+        expect(f"the response {name} ends with 0", done.returncode == 0, done.stderr[-300:])
+        return " ".join(done.stderr.split())
+
+    far = 'The linear response is not that of the scene: at 10.0'
+    # at resonance the amplitude is F / (c omega): 1 mm for F = c omega 1e-3
+    limit = 5.0 * 4e3**0.5 * 1e-3
+    said = warnings("beyond", 1.5 * limit, 5.0, True)
+    expect("a stop that the response meets is warned of", far in said and 'the forces of "s" leave their tangents' in said, said)
+    said = warnings("within", 0.9 * limit, 5.0, True)
+    expect("one that it does not meet is not", "not that of the scene" not in said, said)
+    said = warnings("growing", limit, -5.0, False)
+    expect("a state that negative damping leaves is warned of", "The state of the parts is unstable: a vibration of 10.0" in said, said)
+
+
 if __name__ == "__main__":
     documented_scripts()
     frame()
@@ -466,4 +492,5 @@ if __name__ == "__main__":
     motion_tolerance_of_fast_parts()
     relaxed_laws_at_rest()
     starts_that_coordinates_lose()
+    responses_beyond_the_linear_range()
     sys.exit(finish())

@@ -75,7 +75,8 @@ class RestingParts : public RestingCase {
   void judge() const override {
     const auto& found = joined_->stability;
     if (!found || found->stable()) return;
-    log::warn("The equilibrium of the parts is " + stabilityText() +
+    log::warn(std::string(lists_->settings.atRest ? "The equilibrium" : "The state") +
+              " of the parts is " + stabilityText() +
               (found->diverges()
                    ? " A small disturbance leaves it: check the signs of the stiffness, reduce the "
                      "loads, or start where the parts come to rest (Parts/Starts)."
@@ -86,8 +87,7 @@ class RestingParts : public RestingCase {
     return joined_->stability ? "stability   " + stabilityText() : "";
   }
   void summarise(io::Summary& summary) const override {
-    if (!lists_->settings.atRest) return;
-    summary.set("static.converged", true);
+    if (lists_->settings.atRest) summary.set("static.converged", true);
     if (!joined_->stability) return;
     stability::summarise(*joined_->stability, summary);
     if (!joined_->stability->stable()) summary.set("static.unstable_node", unstableNode());
@@ -369,9 +369,11 @@ void ImportedCase::verify() const {
 std::shared_ptr<const RestingCase> ImportedCase::solveStatic() const {
   lists_->requireMass(joined_->scene, joined_->whole.model);
   if (!joined_->started) {
-    const Vector rest = lists_->start(joined_->scene);
+    Vector rest = lists_->start(joined_->scene);
     joined_->whole = joinUnreduced(joined_->scene, true);
     joined_->started = true;
+    if (rest.size() == 0 && list().isSublist("Response"))
+      rest = joined_->whole.model.initialDisplacement;
     if (rest.size() > 0 && !linalg::isZero(joined_->whole.model.mass)) {
       auto resting = joined_->whole.model;
       resting.initialDisplacement = rest;

@@ -112,6 +112,49 @@ TEST_F(Io, AFailedRunLeavesFinishedResultsAlone) {
   EXPECT_EQ(io::readPreviousRun(at("run/summary.json")).status, "finished");
 }
 
+/// Text of a file in the scratch folder.
+void put(const std::string& path, const std::string& text) {
+  fs::create_directories(fs::path(path).parent_path());
+  io::writeText(path, text);
+}
+
+TEST_F(Io, ResultsOfAnotherCommandAreSetAside) {
+  for (int i = 0; i < 2; ++i) {
+    put(at("run/summary.json"),
+        R"({"status": "finished", "files": ["results.h5", "motion.csv", "summary.json"]})");
+    for (const char* name : {"results.h5", "motion.csv"})
+      put(at(std::string("run/") + name), std::to_string(i));
+    {
+      io::OutputFolder folder(at("run"));
+      io::stageText(folder.file("response.csv"), "response");
+      io::stageText(folder.file("summary.json"), "{}");
+      folder.publish();
+    }
+    const std::string aside = at(i == 0 ? "run/earlier" : "run/earlier_2");
+    for (const char* name : {"results.h5", "motion.csv"}) {
+      EXPECT_FALSE(fs::exists(at(std::string("run/") + name))) << name;
+      EXPECT_EQ(io::readText(aside + "/" + name), std::to_string(i)) << name;
+    }
+    EXPECT_EQ(io::readPreviousRun(aside + "/summary.json").status, "finished");
+    EXPECT_EQ(io::readText(at("run/response.csv")), "response");
+  }
+}
+
+TEST_F(Io, FilesThatTheSameCommandNoLongerWritesAreRemoved) {
+  put(at("run/summary.json"),
+      R"({"status": "finished", "files": ["results.h5", "motion.csv", "summary.json"]})");
+  for (const char* name : {"results.h5", "motion.csv"}) put(at(std::string("run/") + name), "old");
+  {
+    io::OutputFolder folder(at("run"));
+    io::stageText(folder.file("results.h5"), "new");
+    io::stageText(folder.file("summary.json"), "{}");
+    folder.publish();
+  }
+  EXPECT_EQ(io::readText(at("run/results.h5")), "new");
+  EXPECT_FALSE(fs::exists(at("run/motion.csv")));
+  EXPECT_FALSE(fs::exists(at("run/earlier")));
+}
+
 TEST_F(Io, ResultsLargerThanTheDiskAreRefusedBeforeTheyAreComputed) {
   const io::OutputFolder folder(at("run"));
   EXPECT_NO_THROW(folder.requireSpace(1.0));
@@ -127,12 +170,6 @@ TEST_F(Io, ResultsLargerThanTheDiskAreRefusedBeforeTheyAreComputed) {
           << error.what();
     }
   }
-}
-
-/// Text of a file in the scratch folder.
-void put(const std::string& path, const std::string& text) {
-  fs::create_directories(fs::path(path).parent_path());
-  io::writeText(path, text);
 }
 
 TEST_F(Io, TheCheckpointOfAnotherRunIsSetAsideWithAllThatBelongsToIt) {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// How far a harmonic response leaves the range in which point laws are their tangents.
+#pragma once
+
+#include <string>
+
+#include "common/Types.hpp"
+#include "model/SecondOrderModel.hpp"
+
+namespace tooljoint::response {
+
+/// The point set whose forces leave their tangents farthest.
+struct Departure {
+  double part = 0.0;  ///< of the largest load
+  std::string set;    ///< its name; empty without point sets
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(part, set);
+  }
+};
+
+/// max |R'(f(d, v) - f_0 - df/dd (d - d_0) - df/dv v)| over a period of the motion Re(y e^{i omega
+/// t}) about the state at rest, over max |load|, dofs of the model. Laws with states are left out:
+/// these follow the motion. \param t of the laws [s]
+Departure departure(const model::SecondOrderModel& model, double t, double omega,
+                    const ComplexVector& y, const ComplexVector& load);
+
+}  // namespace tooljoint::response
