@@ -59,24 +59,28 @@ const auto aboveZero = finiteNumber("a number above 0", [](double value) { retur
 const auto zeroOrMore =
     finiteNumber("a number from 0 on", [](double value) { return value >= 0.0; });
 
+/// Prints what has ended the command, once all ranks have ended with it.
+int failed(ExitCode why, const std::string& sentence) {
+  using tooljoint::terminal::Colour;
+  tooljoint::parallel::meetFailing(why, sentence);
+  say(std::cerr, tooljoint::terminal::coloured("tooljoint:", Colour::Red, STDERR_FILENO) + " " +
+                     sentence + "\n");
+  return code(why);
+}
+
 /// Runs the command; every error that leaves it ends here.
 int guarded(const std::function<void()>& command) {
   try {
     command();
     return code(ExitCode::Done);
   } catch (const tooljoint::Error& error) {
-    using tooljoint::terminal::Colour;
-    say(std::cerr, tooljoint::terminal::coloured("tooljoint:", Colour::Red, STDERR_FILENO) + " " +
-                       error.what() + "\n");
-    return code(error.code());
+    return failed(error.code(), error.what());
   } catch (const std::bad_alloc&) {
-    say(std::cerr,
-        "tooljoint: out of memory. Use fewer nodes, fewer modes or a longer sampling interval.\n");
-    return code(ExitCode::Internal);
+    return failed(ExitCode::Internal,
+                  "out of memory. Use fewer nodes, fewer modes or a longer sampling interval.");
   } catch (const std::exception& error) {
-    say(std::cerr,
-        std::string("tooljoint: internal error, please report it: ") + error.what() + "\n");
-    return code(ExitCode::Internal);
+    return failed(ExitCode::Internal,
+                  std::string("internal error, please report it: ") + error.what());
   }
 }
 

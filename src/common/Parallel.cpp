@@ -2,14 +2,22 @@
 #include "common/Parallel.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
+#include <iostream>
 #include <mpi.h>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "common/Communicator.hpp"
 #include "common/Message.hpp"
 
 namespace tooljoint::parallel {
 namespace {
+
+/// For which a failing rank waits for the others: they may still be writing results.
+constexpr std::chrono::seconds patience{8};
 
 /// The ranks that work together.
 MPI_Comm world = MPI_COMM_WORLD;
@@ -29,6 +37,21 @@ double reduce(double value, MPI_Op operation) {
   double result = 0.0;
   MPI_Allreduce(&value, &result, 1, MPI_DOUBLE, operation, world);
   return result;
+}
+
+/// Completes the messages of a rank that fails; where the others do not answer, they are elsewhere,
+/// and all ranks end with this error.
+void awaitOthers(std::vector<MPI_Request>& messages, ExitCode code, const std::string& sentence) {
+  const auto start = std::chrono::steady_clock::now();
+  for (int answered = 0; answered == 0;) {
+    MPI_Testall(static_cast<int>(messages.size()), messages.data(), &answered, MPI_STATUSES_IGNORE);
+    if (answered != 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (std::chrono::steady_clock::now() - start < patience) continue;
+    std::cerr << "tooljoint: rank " << rank() << " alone: " << sentence << "\n"
+              << "tooljoint: The other ranks did not fail with it; all are ended." << std::endl;
+    MPI_Abort(world, static_cast<int>(code));
+  }
 }
 
 }  // namespace
@@ -123,11 +146,31 @@ void agree(const std::function<void()>& work) {
   const int ranks = size();
   const int mine = code != 0 ? rank() : ranks;
   int lowest = ranks;
-  MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, world);
+  std::vector<MPI_Request> request(1);
+  MPI_Iallreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, world, request.data());
+  if (code != 0)
+    awaitOthers(request, static_cast<ExitCode>(code), sentence);
+  else
+    MPI_Wait(request.data(), MPI_STATUS_IGNORE);
   if (lowest == ranks) return;
   broadcast(code, lowest);
   broadcast(sentence, lowest);
   throwError(static_cast<ExitCode>(code), sentence);
+}
+
+void meetFailing(ExitCode code, const std::string& sentence) {
+  if (alone()) return;
+  constexpr int tag = 32001;  // of no other message
+  const int me = rank(), others = size() - 1;
+  std::vector<MPI_Request> requests;
+  for (int r = 0; r <= others; ++r) {
+    if (r == me) continue;
+    requests.emplace_back();
+    MPI_Irecv(nullptr, 0, MPI_BYTE, r, tag, world, &requests.back());
+    requests.emplace_back();
+    MPI_Isend(nullptr, 0, MPI_BYTE, r, tag, world, &requests.back());
+  }
+  awaitOthers(requests, code, sentence);
 }
 
 }  // namespace tooljoint::parallel

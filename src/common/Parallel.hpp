@@ -34,8 +34,13 @@ double maximum(double value);
 /// Run `work` on every rank; when it threw on any of them, every rank throws an Error of the same
 /// kind, with the exit code and sentence of the lowest failing rank (an exception that is no
 /// tooljoint::Error becomes ExitCode::Internal). Collective, and `work` must not hold a collective
-/// call that a failing rank would miss.
+/// call that a failing rank would miss: then, as meetFailing() does, all ranks are ended.
 void agree(const std::function<void()>& work);
+
+/// An error has ended the work of this rank. Returns once it has ended that of all others, too;
+/// where they do not follow within a while, the error is one of this rank alone: it is printed with
+/// the rank, and all ranks end with its code. Called by every rank that fails, and by no other.
+void meetFailing(ExitCode code, const std::string& sentence);
 
 /// Throw the type that belongs to `code` (DeckError for InvalidDeck, ...), so that it can be caught
 /// as such.

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A load outside of the library: one file, compiled by itself, given in decks as Loads/Wall Drag.
+#include <cstdlib>
+#include <string>
+
+#include "common/Error.hpp"
+#include "common/Parallel.hpp"
 #include "substructures/loads/Load.hpp"
 
 using namespace tooljoint;
@@ -16,6 +21,9 @@ struct WallDrag : loads::Load {
 
   std::vector<loads::LineLoad> onElement(const loads::LoadedElement& element,
                                          const loads::RotarySpeed&) const override {
+    if (const char* failing = std::getenv("WALL_DRAG_FAILS_ON"))
+      if (std::to_string(parallel::rank()) == failing)
+        throw ModelError("Loads/Wall Drag fails, as the test wants.");
     const double covered = std::min(to, element.to) - std::max(from, element.from);
     if (covered <= 0.0) return {};
     return {{"wall drag", Vector3(0, 0, -drag * covered / (element.to - element.from))}};

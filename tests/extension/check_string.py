@@ -204,6 +204,17 @@ def a_load():
     expect("a senseless load is refused", "ends (To) before it starts" in call("check", wrong, code=2))
 
 
+def a_load_that_fails_on_one_rank():
+    """The others wait for it in their next message: it ends them, with its sentence and code."""
+    os.environ["WALL_DRAG_FAILS_ON"] = "1"
+    deck = written("fails", loads=DRAG.format(drag=50.0))
+    done = tooljoint("run", deck, "--output", "fails", ranks=2, seconds=60)
+    del os.environ["WALL_DRAG_FAILS_ON"]
+    said = " ".join(done.stderr.split())
+    expect("a rank that fails alone says so and ends all", done.returncode == 3 and "rank 1 alone: Loads/Wall Drag fails, as the test wants." in said,
+           f"{done.returncode} {said[-400:]}")
+
+
 def a_mud_model():
     """Buoyancy with a denser mud outside."""
     _, dry, _ = rest("no_mud")
@@ -224,6 +235,7 @@ def main():
     an_element()
     a_wave()
     a_load()
+    a_load_that_fails_on_one_rank()
     a_mud_model()
     the_manual()
     return finish()

@@ -80,6 +80,7 @@ void AnalysisFiles::stamp(const std::string& status, const std::string& message)
 }
 
 void AnalysisFiles::leave(const Error& error) {
+  parallel::meetFailing(error.code(), error.what());
   stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
   try {
     if (!beside_) summary_.stage(folder_->file(io::summaryName));

@@ -234,6 +234,7 @@ void RunFiles::publish(const std::function<void()>& tables) {
 /// A run that does not converge leaves no checkpoint: from there the same deck would not converge
 /// again.
 void RunFiles::leave(const Error& error) {
+  parallel::meetFailing(error.code(), error.what());
   stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
   try {
     results_->close();

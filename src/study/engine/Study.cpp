@@ -213,6 +213,7 @@ class Study {
 
   /// The study ends early: rows so far stay readable, and the summary says what happened.
   void leave(const Error& error) {
+    parallel::meetFailing(error.code(), error.what());
     stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
     try {
       gather();
