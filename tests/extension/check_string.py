@@ -215,6 +215,21 @@ def a_load_that_fails_on_one_rank():
            f"{done.returncode} {said[-400:]}")
 
 
+def a_changed_library():
+    """Rows that an earlier build of an extension computed are computed again."""
+    deck = written("kept", rods=(), supports=WALL, loads=DRAG.format(drag=50.0))
+    known = "are known from before"
+    command = ("torque-drag", deck, "--output", "kept", "--set", "Torque and Drag/Depths={100, 200}")
+    call(*command)
+    shown = call(*command)
+    expect("rows of the same libraries are kept", known in " ".join(shown.split()), shown)
+    library = pathlib.Path(sys.argv[3]) / "libRod.so"
+    times = library.stat()
+    os.utime(library, ns=(times.st_atime_ns, times.st_mtime_ns + 10**9))
+    expect("rows of a library that was built again are not", known not in " ".join(call(*command).split()))
+    os.utime(library, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+
 def a_mud_model():
     """Buoyancy with a denser mud outside."""
     _, dry, _ = rest("no_mud")
@@ -236,6 +251,7 @@ def main():
     a_wave()
     a_load()
     a_load_that_fails_on_one_rank()
+    a_changed_library()
     a_mud_model()
     the_manual()
     return finish()

@@ -23,10 +23,20 @@ std::string fileStamp(const std::string& path) {
          std::to_string(info.st_mtim.tv_nsec);
 }
 
+/// Loaded libraries of the program, and those that are neither its own nor of the system:
+/// extensions.
+struct Libraries {
+  std::string own, extensions;
+};
+
 int addLibrary(dl_phdr_info* info, std::size_t, void* data) {
   const std::string name = info->dlpi_name == nullptr ? "" : info->dlpi_name;
+  auto& found = *static_cast<Libraries*>(data);
+  const auto stands = [&](const char* folder) { return name.rfind(folder, 0) == 0; };
   if (name.find("libtooljoint") != std::string::npos)
-    *static_cast<std::string*>(data) += " " + fileStamp(name);
+    found.own += " " + fileStamp(name);
+  else if (name.find('/') != std::string::npos && !stands("/lib") && !stands("/usr/lib"))
+    found.extensions += " " + name + " " + fileStamp(name);
   return 0;
 }
 
@@ -47,10 +57,10 @@ std::vector<std::filesystem::path> filesOf(const std::string& folder,
 std::string programStamp() {
   std::string stamp = programVersion() + " " + gitHash();
   const bool committed = gitHash() != "unknown" && gitHash().find("dirty") == std::string::npos;
-  if (committed) return stamp;
-  std::string libraries = " " + fileStamp("/proc/self/exe");
+  Libraries libraries;
   dl_iterate_phdr(addLibrary, &libraries);
-  return stamp + libraries;
+  stamp += libraries.extensions;
+  return committed ? stamp : stamp + " " + fileStamp("/proc/self/exe") + libraries.own;
 }
 
 KeptRows::KeptRows(const std::string& folder, std::string kind)
