@@ -271,7 +271,11 @@ class Builder {
         frame.path = imported()[p].where + "/Rotation Angle";
         frame.frame.part = imported()[p].name;
         frame.frame.axes = imported()[p].axes;
-        plan_.frames.insert(plan_.frames.begin(), frame);  // frames of the list Coupling go on top
+        for (const auto& given : plan_.frames)
+          if (given.frame.part == frame.name && given.frame.node == 0)
+            throw DeckError(imported()[p].where + "/Rotation Angle has no effect: " + given.path +
+                            " gives the axes of the whole part. Leave one out.");
+        plan_.frames.insert(plan_.frames.begin(), frame);  // frames of single nodes go on top
       }
     }
     return parts;

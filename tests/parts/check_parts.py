@@ -392,6 +392,10 @@ def turned_out_of_the_plane():
     exact = 1e-3 * np.cos(200.0 * 1e-3 * np.arange(len(motion)))
     expect("its motion along w is in the results", names == ["u", "v", "w"] and np.abs(motion[:, 1] - np.cos(np.pi / 6) * exact).max() < 1e-6 and
            np.abs(motion[:, 2] - np.sin(np.pi / 6) * exact).max() < 1e-6, f"{names} {motion[-1]}")
+    lists = {"Parts": {"Imported": {"a": turned}}, "Coupling": {"Frames": {"all": {"Part": "a", "Axis 1": [0.0, 1.0, 0.0], "Axis 2": [-1.0, 0.0, 0.0]}}}}
+    deck.write_text(parameter_list("plane", lists), encoding="utf-8")
+    done = tooljoint("check", str(deck))
+    expect("a rotation beside a frame of the whole part is refused", done.returncode == 2 and "Rotation Angle has no effect" in " ".join(done.stderr.split()), done.stderr[-300:])
 
 
 def motion_tolerance_of_fast_parts():

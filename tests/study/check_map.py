@@ -217,6 +217,11 @@ def unsettled():
     expect("the map counts that point", found == 1, found)
     said = " ".join(done.stderr.split())
     expect("and names it", "has not settled at 1 of 4 points (Speed 60 rpm, Weight On Bit 45 klb)" in said, said)
+    before = summary("unsettled")["warnings"]
+    expect("points warn", len(before) > 1, before)
+    again = tooljoint("map", deck, "--output", "unsettled")
+    expect("points known from before warn as they did", known(again) == 4 and sorted(summary("unsettled")["warnings"]) == sorted(before),
+           f"{known(again)} {before} {summary('unsettled')['warnings']}")
 
 
 def main():

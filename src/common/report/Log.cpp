@@ -26,6 +26,7 @@ std::vector<std::string>& collected() {
 /// Warnings that were not printed: their kind (withoutNumbers), and how many. Empty without a
 /// WarnOnce.
 std::optional<std::map<std::string, int>> likewise_;
+std::vector<std::string>* hearing_ = nullptr;  ///< of a Hearing
 
 void print(const std::string& warning) {
   if (parallel::rank() == 0)
@@ -74,8 +75,13 @@ void info(const std::string& line) {
   std::cout << join(lines, "\n") << std::endl;
 }
 
+Hearing::Hearing() { hearing_ = &lines_; }
+Hearing::~Hearing() { hearing_ = nullptr; }
+
 void warn(const std::string& line) {
   auto& lines = collected();
+  if (hearing_ != nullptr && std::find(hearing_->begin(), hearing_->end(), line) == hearing_->end())
+    hearing_->push_back(line);
   if (std::find(lines.begin(), lines.end(), line) != lines.end()) return;
   const auto kind = withoutNumbers(line);
   if (likewise_ && std::any_of(lines.begin(), lines.end(), [&](const std::string& known) {

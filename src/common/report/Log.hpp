@@ -24,4 +24,17 @@ void warn(const std::string& line);
 const std::vector<std::string>& warnings();
 void clearWarnings();
 
+/// While it lives, hears every warning, also those that are not printed again. Not nested.
+class Hearing {
+ public:
+  Hearing();
+  ~Hearing();
+  Hearing(const Hearing&) = delete;
+  Hearing& operator=(const Hearing&) = delete;
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
 }  // namespace tooljoint::log

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "cases/run/AnalysisFiles.hpp"
@@ -45,11 +46,12 @@ class Map {
     announce();
     files_.complete(
         [&] {
-          if (computes) {
+          {
             const log::WarnOnce once;  // of points that differ in numbers
-            computeAll();
+            if (computes) computeAll();
+            rows_.emplace(plan_, folder());
+            repeatWarnings();
           }
-          rows_.emplace(plan_, folder());
           report();
         },
         [&](io::ResultsFile& file) {
@@ -98,6 +100,7 @@ class Map {
     for (int n = groups_.next(); n >= 0 && n < static_cast<int>(jobs.size()); n = groups_.next()) {
       const auto i = jobs[static_cast<std::size_t>(n)];
       rows_->compute(i);
+      mine_.insert(i);
       const auto& row = rows_->rows()[i];
       spent += row.wall;
       computed += 1.0;
@@ -125,6 +128,14 @@ class Map {
 
   void stageTable() {
     parallel::agree([&] { stageMapTable(plan_, rows_->rows(), files_.folder()); });
+  }
+
+  /// Of points that were known from before, or that other groups computed. Rank 0 knows the rows.
+  void repeatWarnings() {
+    if (parallel::rank() != 0) return;
+    for (std::size_t i = 0; i < rows_->rows().size(); ++i)
+      if (mine_.count(i) == 0)
+        for (const auto& warning : rows_->rows()[i].warnings) log::warn(warning);
   }
 
   /// Rank 0 knows the rows.
@@ -162,6 +173,7 @@ class Map {
   parallel::RankGroups groups_;
   cases::AnalysisFiles files_;
   std::optional<MapRows> rows_;
+  std::set<std::size_t> mine_;  ///< points that the group of this rank has computed
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
 #include "common/report/Stopwatch.hpp"
 #include "io/summary/Summary.hpp"
 #include "study/engine/StudyPlan.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kStoreFormat = 1;  ///< raised when the meaning of a stored row changes
+constexpr int kStoreFormat = 2;  ///< raised when the meaning of a stored row changes
 
 /// What decides a point: the deck but Output, and the window of the figures.
 std::string identity(const cases::Case& scene) {
@@ -47,8 +48,9 @@ std::optional<double> MapRow::number(const std::string& key) const {
 }
 
 std::string MapRow::toJson() const {
-  const Json json{{"status", status}, {"reason", reason},         {"cpu", cpu},
-                  {"wall", wall},     {"given_up", givenUpAfter}, {"numbers", numbers}};
+  const Json json{{"status", status},  {"reason", reason},     {"cpu", cpu},
+                  {"wall", wall},      {"warnings", warnings}, {"given_up", givenUpAfter},
+                  {"numbers", numbers}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -59,6 +61,7 @@ void MapRow::fromJson(const std::string& text) {
     reason = json.at("reason").get<std::string>();
     cpu = json.at("cpu").get<double>();
     wall = json.at("wall").get<double>();
+    warnings = json.at("warnings").get<std::vector<std::string>>();
     givenUpAfter = json.at("given_up").get<double>();
     numbers = json.at("numbers").get<std::map<std::string, double>>();
   } catch (const Json::exception& error) {
@@ -118,6 +121,7 @@ std::size_t MapRows::completed() const {
 
 void MapRows::compute(std::size_t i) {
   const Stopwatch watch;
+  const log::Hearing heard;
   MapRow row;
   const auto fail = [&](const Error& error) {
     row.status = "failed";
@@ -136,6 +140,7 @@ void MapRows::compute(std::size_t i) {
       throw;
     fail(error);
   }
+  row.warnings = heard.lines();
   row.cpu = parallel::sum(watch.cpu());
   row.wall = parallel::maximum(watch.wall());
   rows_[i] = row;

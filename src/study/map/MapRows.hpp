@@ -18,6 +18,7 @@ namespace tooljoint::study {
 struct MapRow {
   std::string status = "pending";  ///< "done", "failed", "pending"
   std::string reason;              ///< of a failure
+  std::vector<std::string> warnings;
   double cpu = 0.0, wall = 0.0;    ///< of the whole point, CPU summed over the ranks [s]
   double givenUpAfter = 0.0;       ///< CPU time limit that ended it [s]; 0: it was not the time
   std::map<std::string, double> numbers;  ///< of its summary, by keys joined by dots
