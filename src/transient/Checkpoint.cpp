@@ -44,7 +44,7 @@ constexpr char magic[] = "Tooljoint checkpoint";
 constexpr std::size_t magicLength = sizeof magic - 1;
 /// Counts up whenever the body or anything that an integrator, a point batch or a ledger saves
 /// changes.
-constexpr std::uint32_t layout = 18;
+constexpr std::uint32_t layout = 19;
 constexpr std::size_t digestLength = 64;  ///< hexadecimal digits
 constexpr std::size_t headerLength =
     magicLength + sizeof layout + sizeof(std::uint64_t) + digestLength;
@@ -68,9 +68,10 @@ Number fromLittleEndian(const std::string& bytes, std::size_t at) {
 
 template <class Archive, class Point>
 void transfer(Archive& archive, Point& point) {
-  archive(point.run, point.program, point.integrator, point.model, point.state, point.counters,
-          point.contactEvaluations, point.samples, point.runawaySamples, point.memory,
-          point.carried, point.shares, point.recorder, point.rows);
+  archive(point.run, point.program, point.integrator, point.model, point.ranks, point.figures,
+          point.state, point.counters, point.contactEvaluations, point.samples,
+          point.runawaySamples, point.memory, point.carried, point.shares, point.recorder,
+          point.rows);
 }
 
 [[noreturn]] void refuseLayout(const std::string& file, const std::string& found) {

@@ -21,9 +21,11 @@ struct Checkpoint {
   std::string run;      ///< what the run computes, a line "PATH = VALUE" per input; empty when the
                         ///< caller says nothing
   std::string program;  ///< version and commit of the program that wrote it
-  std::string integrator;  ///< its name in the deck
-  std::string model;       ///< modelIdentity() of the model and the options
-  State state;             ///< in dofs of the model
+  std::string integrator;       ///< its name in the deck
+  std::string model;            ///< modelIdentity() of the model and the options
+  int ranks = 1;                ///< of the run that wrote it
+  std::vector<double> figures;  ///< modelFigures(): the model that other ranks find
+  State state;                  ///< in dofs of the model
   Counters counters;
   long contactEvaluations = 0;
   long samples = 0;            ///< samples handed out so far

@@ -24,7 +24,10 @@ constexpr double probeDepth = 1e-3, probeSpeed = 0.1;
 /// bytes.
 class Bytes {
  public:
-  void add(double x) { append(&x, 1); }
+  void add(double x) {
+    append(&x, 1);
+    note(&x, 1);
+  }
   void add(std::int64_t x) { append(&x, 1); }
   void add(const std::string& text) {
     add(static_cast<std::int64_t>(text.size()));
@@ -33,29 +36,45 @@ class Bytes {
   void add(const Vector& x) {
     add(static_cast<std::int64_t>(x.size()));
     append(x.data(), static_cast<std::size_t>(x.size()));
-  }
-  void add(const std::vector<double>& x) {
-    add(static_cast<std::int64_t>(x.size()));
-    append(x.data(), x.size());
+    note(x.data(), static_cast<std::size_t>(x.size()));
   }
   void add(const Sparse& matrix) {
     add(static_cast<std::int64_t>(matrix.rows()));
     add(static_cast<std::int64_t>(matrix.cols()));
+    std::vector<double> values;
     for (int i = 0; i < matrix.outerSize(); ++i)
       for (Sparse::InnerIterator it(matrix, i); it; ++it) {
         add(static_cast<std::int64_t>(it.row()));
         add(static_cast<std::int64_t>(it.col()));
-        add(it.value());
+        append(&it.value(), 1);
+        values.push_back(it.value());
       }
+    note(values.data(), values.size());
   }
   std::string digest() const { return sha256(bytes_); }
+  const std::vector<double>& figures() const { return figures_; }
 
  private:
+  /// sum |x_i| and sum w_i x_i with weights between -1/2 and 1/2 that no two entries share; what is
+  /// infinite is left out.
+  void note(const double* x, std::size_t count) {
+    constexpr double golden = 0.6180339887498949;
+    double size = 0, weighted = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!std::isfinite(x[i])) continue;
+      const double turns = golden * static_cast<double>(i + 1);
+      size += std::abs(x[i]);
+      weighted += (turns - std::floor(turns) - 0.5) * x[i];
+    }
+    figures_.insert(figures_.end(), {size, weighted});
+  }
+
   template <class Value>
   void append(const Value* values, std::size_t count) {
     bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(Value));
   }
   std::string bytes_;
+  std::vector<double> figures_;
 };
 
 void addDofs(const model::SecondOrderModel& model, Bytes& bytes) {
@@ -158,9 +177,8 @@ void addOptions(const TransientOptions& options, Bytes& bytes) {
   addList(withDefaults(options.own, registry.find(options.integrator).parameters), bytes);
 }
 
-}  // namespace
-
-std::string modelIdentity(const model::SecondOrderModel& model, const TransientOptions& options) {
+/// All a motion depends on.
+Bytes bytesOf(const model::SecondOrderModel& model, const TransientOptions& options) {
   Bytes bytes;
   addDofs(model, bytes);
   addLaws(model, options, bytes);
@@ -180,7 +198,31 @@ std::string modelIdentity(const model::SecondOrderModel& model, const TransientO
   bytes.add(model.initialDisplacement);
   bytes.add(model.initialVelocity);
   addOptions(options, bytes);
-  return bytes.digest();
+  return bytes;
+}
+
+/// Part of the size of an array that rounding may change.
+constexpr double rounding = 1e-7;
+
+}  // namespace
+
+std::string modelIdentity(const model::SecondOrderModel& model, const TransientOptions& options) {
+  return bytesOf(model, options).digest();
+}
+
+std::vector<double> modelFigures(const model::SecondOrderModel& model,
+                                 const TransientOptions& options) {
+  return bytesOf(model, options).figures();
+}
+
+bool agree(const std::vector<double>& figures, const std::vector<double>& others) {
+  if (figures.size() != others.size()) return false;
+  for (std::size_t i = 0; i < figures.size(); i += 2) {
+    const double allowed = rounding * std::max(figures[i], others[i]);
+    if (std::abs(figures[i] - others[i]) > allowed) return false;
+    if (std::abs(figures[i + 1] - others[i + 1]) > allowed) return false;
+  }
+  return true;
 }
 
 }  // namespace tooljoint::transient

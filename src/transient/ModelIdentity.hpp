@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/SecondOrderModel.hpp"
 #include "transient/TransientParameters.hpp"
@@ -15,5 +16,12 @@ namespace tooljoint::transient {
 /// direction), initial state, and the options but for progress and, where the integrator can go on
 /// from anywhere, the checkpoint interval. 64 hexadecimal digits.
 std::string modelIdentity(const model::SecondOrderModel& model, const TransientOptions& options);
+
+/// The same in numbers: of each matrix, vector and law sum |a_i| and a weighted sum. A static state
+/// that another number of ranks has found changes them in the last digits.
+std::vector<double> modelFigures(const model::SecondOrderModel& model,
+                                 const TransientOptions& options);
+/// Whether two such lists are of one model but for rounding.
+bool agree(const std::vector<double>& figures, const std::vector<double>& others);
 
 }  // namespace tooljoint::transient

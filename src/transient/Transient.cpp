@@ -190,10 +190,17 @@ class Run {
                       "\", the deck asks for \"" + options_.integrator +
                       "\". Restart with the same deck.");
     if (point.state.q.size() != model_.wholeSize() || point.state.x.size() != model_.stateSize() ||
-        point.model != identity())
+        !isOfThisModel(point))
       throw DeckError(
           "The model or the steps of the checkpoint differ from those of this deck. Restart with "
           "the same deck.");
+  }
+
+  /// Bit by bit; of other ranks but for rounding, since they find the static state in sums of other
+  /// order.
+  bool isOfThisModel(const Checkpoint& point) {
+    return point.model == identity() || (point.ranks != parallel::size() &&
+                                         agree(point.figures, modelFigures(whole_, options_)));
   }
 
   /// Ranks with a memory of their own.
@@ -305,6 +312,8 @@ class Run {
     point.program = programVersion() + " " + gitHash();
     point.integrator = options_.integrator;
     point.model = identity();
+    point.ranks = parallel::size();
+    point.figures = modelFigures(whole_, options_);
     point.state = stateInDofs();
     point.counters = integrator_->counters();
     point.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);

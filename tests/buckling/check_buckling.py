@@ -184,6 +184,25 @@ def followed():
         abs(a[key] - b[key]) <= 1e-9 * max(abs(a[key]), 1e-3) for a, b in zip(one, two) for key in ("weight_on_bit", "bit_advance", "total_contact_force")))
 
 
+def documented():
+    """The table of docs/drilling.md about xml/buckling_100m.xml is what the program says."""
+    root = pathlib.Path(__file__).resolve().parents[2]
+    text = (root / "docs/drilling.md").read_text(encoding="utf-8")
+    section = text[text.index("`xml/buckling_100m.xml` is a 5 in drill pipe"):]
+    section = section[:section.index("It jumps to helices")]
+    table = [line.split("|")[1:-1] for line in section.splitlines() if line.startswith("| ") and line[2].isdigit()]
+    states, _ = run(str(root / "xml/buckling_100m.xml"), folder="documented")
+    expect("the document has six states", len(table) == 6, table)
+    expect("and says how many there are", f"Of its {len(states)} states:" in " ".join(section.split()), len(states))
+    columns = (("weight_on_bit", 1e-3), ("bit_advance", 1e3), ("half_waves", 1), ("contact_force", 1), ("helical_contact_force", 1), ("strain", 1e6), ("helical_strain", 1e6))
+    for cells in table:
+        shown = [cell.split(",")[0].strip() for cell in cells]
+        state = min(states, key=lambda one, weight=float(shown[0]): abs(1e-3 * one["weight_on_bit"] - weight))
+        for (key, scale), text in zip(columns, shown):
+            bound = 1.5 * 10**-len(text.partition(".")[2])
+            expect(f"docs/drilling.md, {shown[0]} kN: {key} {text}", abs(scale * (state[key] or 0.0) - float(text)) <= bound, state[key])
+
+
 def refused(what, sentence, code, *arguments):
     done = tooljoint("buckling", *arguments)
     expect(f"{what} has the exit code {code}", done.returncode == code, done.returncode)
@@ -214,5 +233,6 @@ horizontal()
 curved()
 transition()
 followed()
+documented()
 refusals()
 sys.exit(finish())

@@ -113,8 +113,8 @@ def whole_run(deck, options):
     return folder
 
 
-def interrupted_twice(title, deck, options, ranks=(1, 1, 1), tolerance=0.0):
-    """Stopped by SIGTERM, gone on with and killed, gone on with: the numbers of a run that was not."""
+def interrupted_twice(title, deck, options, ranks=(1, 1, 1), tolerance=0.0, but=None):
+    """Stopped by SIGTERM, gone on with and killed, gone on with: the numbers of a run that was not. `but`: beginning of names of what is rounding."""
     whole = whole_run(deck, tuple(options))
     for _ in range(5):  # a machine that is busy elsewhere may let a run end before its signal
         fresh("halted")
@@ -126,7 +126,7 @@ def interrupted_twice(title, deck, options, ranks=(1, 1, 1), tolerance=0.0):
     done = run("run", deck, "--restart", "halted", *options, ranks=ranks[2])
     if done.returncode != 0:
         return expect(f"{title}: stopped {codes}, goes on", False, done.stderr[-400:])
-    wrong = differences(whole, "halted", tolerance)
+    wrong = [one for one in differences(whole, "halted", tolerance) if but is None or not one.startswith(but)]
     expect(f"{title}: stopped {codes}, the same numbers", len(codes) == 2 and 0 not in codes and not wrong, "; ".join(wrong[:6]))
     return expect(f"{title}: nothing of the checkpoint is left", left("halted") == [], str(left("halted")))
 
@@ -243,6 +243,9 @@ def other_ranks():
     for title, deck in (("string", STRING), ("frame", FRAME)):
         interrupted_twice(f"{title} on 1, 2 and 1 ranks", deck, LONG, ranks=(1, 2, 1))
         interrupted_twice(f"{title} on 2, 1 and 2 ranks", deck, LONG, ranks=(2, 1, 2))
+    # two ranks find its static state to other last digits than one
+    options = ["--set", "Transient/End Time=60", "--set", "Transient/Checkpoint Interval=4", "--set", "Transient/Progress=false"]
+    interrupted_twice("string with a law of the bit on 2, 1 and 2 ranks", str(ROOT / "xml" / "stick_slip_2500m.xml"), options, ranks=(2, 1, 2), tolerance=1e-6, but="figures/axial")
 
 
 def two_runs_in_one_folder():

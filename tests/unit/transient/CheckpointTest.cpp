@@ -27,6 +27,8 @@ Checkpoint full() {
   point.program = "1.2.3 abc";
   point.integrator = "RK4";
   point.model = sha256("model");
+  point.ranks = 4;
+  point.figures = {1.5, -0.25};
   point.state.t = 0.1;
   point.state.q = Vector::LinSpaced(3, 0.1, 0.3);
   point.state.v = Vector::LinSpaced(4, 1.1, 1.4);
@@ -50,6 +52,8 @@ TEST(Checkpoints, comeBackWhole) {
   EXPECT_EQ(after.program, before.program);
   EXPECT_EQ(after.integrator, before.integrator);
   EXPECT_EQ(after.model, before.model);
+  EXPECT_EQ(after.ranks, before.ranks);
+  EXPECT_EQ(after.figures, before.figures);
   EXPECT_EQ(after.state.t, before.state.t);
   EXPECT_EQ(after.state.q, before.state.q);
   EXPECT_EQ(after.state.v, before.state.v);
@@ -99,7 +103,7 @@ TEST(Checkpoints, sayWhatIsWrongWithAFile) {
   EXPECT_TRUE(says(said(""), "is not a checkpoint"));
   EXPECT_TRUE(says(said(std::string("\x16\0\0\0\0\0\0\0", 8) + "Tooljoint checkpoint 5" +
                         std::string(200, '\0')),
-                   "has the layout 5 of another version of the program; this one reads layout 18"));
+                   "has the layout 5 of another version of the program; this one reads layout 19"));
   auto changed = bytes;
   changed[20] = 99;  // the layout follows the magic
   EXPECT_TRUE(says(said(changed), "has the layout 99 of another version")) << said(changed);
@@ -139,6 +143,26 @@ TEST(Checkpoints, comeAtMultiplesOfTheirInterval) {
   o.checkpointInterval = 0;
   integrate(model, o, samples, hooks);
   EXPECT_TRUE(points.empty());
+}
+
+/// On other ranks rounding of the static state is let pass, a change that matters is not.
+TEST(Identity, inFiguresLetsRoundingPass) {
+  const auto o = wayToStep("Generalized-alpha", 0.3);
+  const auto same = modelFigures(eventful(), o);
+  auto rounded = eventful();
+  rounded.stiffness.own()[0].matrix.coeffRef(0, 0) *= 1 + 1e-11;
+  rounded.initialDisplacement[0] *= 1 + 1e-11;
+  EXPECT_TRUE(agree(same, modelFigures(rounded, o)));
+  auto changed = eventful();
+  changed.stiffness.own()[0].matrix.coeffRef(0, 0) *= 1 + 1e-5;
+  EXPECT_FALSE(agree(same, modelFigures(changed, o)));
+  changed = eventful();
+  std::swap(changed.initialVelocity[0], changed.initialVelocity[1]);
+  changed.initialVelocity[1] += 0.1;
+  EXPECT_FALSE(agree(same, modelFigures(changed, o)));
+  auto longer = o;
+  longer.end *= 1.001;
+  EXPECT_FALSE(agree(same, modelFigures(eventful(), longer)));
 }
 
 /// What a checkpoint is compared with: everything that changes the motion changes it.
