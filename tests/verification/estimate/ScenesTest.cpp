@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <map>
 #include <string>
@@ -33,14 +34,18 @@ std::string folder() { return testing_::sourceFolder() + "/xml/"; }
 
 /// Free dofs of the longest strings taken: twenty modes of a string of 5 km take minutes.
 constexpr int mostDofs = 20000;
+/// And without TOOLJOINT_THOROUGH in the environment (target `thorough`): those of a kilometre take
+/// half a minute.
+constexpr int mostDofsInShort = 3000;
 
 /// Every deck of the project in xml/ that is a string with a Reduction list, but for strings of
 /// several kilometres.
 std::vector<std::string> scenes() {
+  const int most = std::getenv("TOOLJOINT_THOROUGH") != nullptr ? mostDofs : mostDofsInShort;
   std::vector<std::string> files;
   for (const auto& name : testing_::trackedDecks(folder())) {
     const auto one = cases::readCase(folder() + name, {});
-    if (one->reduces() && one->freeDofs() < mostDofs &&
+    if (one->reduces() && one->freeDofs() < most &&
         dynamic_cast<const drillstring::DrillstringCase*>(one.get()) != nullptr)
       files.push_back(name);
   }
