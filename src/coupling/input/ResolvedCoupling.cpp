@@ -54,10 +54,10 @@ class Planner {
     for (const auto& one : plan_.links) {
       const PartNode from = translated(one.from, one.path), to = translated(one.to, one.path);
       loops.add(place(from), place(to), one.arm, one.path);
-      for (const auto& constraint : rigidLink(from, to, one.arm, names())) add(constraint);
+      for (const auto& constraint : rigidLink(from, to, one.arm, names()))
+        add(named(constraint, "rigid link", one.name));
     }
-    for (const auto& one : plan_.hinges)
-      addHinge(translated(one.first, one.path), translated(one.second, one.path), one.axis);
+    for (const auto& one : plan_.hinges) addHinge(one);
     for (const auto& one : plan_.points) addPoint(one);
     // What a released dof carries is taken once all of them are known.
     if (plan_.keepStaticForces) keepStaticForces();
@@ -184,7 +184,16 @@ class Planner {
     out_.options.connections.released.push_back({one.node.part, one.node.node, one.component});
   }
 
-  void addHinge(const PartNode& first, const PartNode& second, const Vector3& axis) {
+  /// By the name that the deck gives: its nodes have other numbers here.
+  static Constraint named(Constraint constraint, const std::string& kind, const std::string& name) {
+    constraint.name =
+        kind + " \"" + name + "\"" + constraint.name.substr(constraint.name.rfind(", "));
+    return constraint;
+  }
+
+  void addHinge(const HingeInput& one) {
+    const PartNode first = translated(one.first, one.path),
+                   second = translated(one.second, one.path);
     if (first.node == second.node)
       for (const auto& component : names()) {
         bool joined = false;
@@ -193,7 +202,8 @@ class Planner {
         });
         if (joined) release({second, component});
       }
-    for (const auto& constraint : hinge(first, second, axis, names())) add(constraint);
+    for (const auto& constraint : hinge(first, second, one.axis, names()))
+      add(named(constraint, "hinge", one.name));
   }
 
   /// Separation along a direction, or of a component; the displacement of `first` where there is no

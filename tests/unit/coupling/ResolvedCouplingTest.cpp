@@ -252,7 +252,11 @@ TEST(ResolvedCoupling, LinksThatDoNotLeadBackAreRefused) {
     return "accepted";
   };
   const auto there = link("there", "left:2", "right:3", "0.5, 0, 0");
-  EXPECT_EQ(said(there + link("back", "right:3", "left:2", "-0.5, 0, 0")), "accepted");
+  const auto back = there + link("back", "right:3", "left:2", "-0.5, 0, 0");
+  EXPECT_EQ(said(back), "accepted");
+  const auto remarks = joined(parts, read(list("Rigid Links", back))).remarks;
+  ASSERT_FALSE(remarks.empty());
+  EXPECT_NE(remarks.front().find("rigid link \"back\", u"), std::string::npos) << remarks.front();
   EXPECT_EQ(said(there + link("out of the plane", "right:3", "left:2", "-0.5, 0, 1")), "accepted");
   const auto other = said(there + link("back", "right:3", "left:2", "-0.4, 0, 0"));
   EXPECT_NE(other.find("back leads along (-0.4, 0, 0) m, but the other links between its nodes "
