@@ -19,8 +19,8 @@ struct MapRow {
   std::string status = "pending";  ///< "done", "failed", "pending"
   std::string reason;              ///< of a failure
   std::vector<std::string> warnings;
-  double cpu = 0.0, wall = 0.0;    ///< of the whole point, CPU summed over the ranks [s]
-  double givenUpAfter = 0.0;       ///< CPU time limit that ended it [s]; 0: it was not the time
+  double cpu = 0.0, wall = 0.0;  ///< of the whole point, CPU summed over the ranks [s]
+  double givenUpAfter = 0.0;     ///< CPU time limit that ended it [s]; 0: it was not the time
   std::map<std::string, double> numbers;  ///< of its summary, by keys joined by dots
 
   /// The number of a key of the summary; null where it is none, or nothing is known.
