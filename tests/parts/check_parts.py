@@ -240,13 +240,18 @@ def released():
            f"({response.returncode}) {response.stderr[-400:]}")
 
 
-def bars(name, parts=None, **lists):
-    """Two bars of 10 springs of 1e6 N/m in a row, held on the left; the second one's free end is retained."""
-    count, stiffness = 11, 1e6
+def springs_in_a_row(count, stiffness):
+    """Mass [kg] and stiffness [N/m] of so many nodes with springs between them."""
     K = np.zeros((count, count))
     for i in range(count - 1):
         K[i:i + 2, i:i + 2] += stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    M = np.diag([0.5, *[1.0] * (count - 2), 0.5])
+    return np.diag([0.5, *[1.0] * (count - 2), 0.5]), K
+
+
+def bars(name, parts=None, **lists):
+    """Two bars of 10 springs of 1e6 N/m in a row, held on the left; the second one's free end is retained."""
+    count = 11
+    M, K = springs_in_a_row(count, 1e6)
     pathlib.Path("bar10.json").write_text(json.dumps({"format": "tooljoint part 1", "components": ["u"], "dofs": [[i + 1, "u"] for i in range(count)], "mass": M.tolist(),
                                                       "stiffness": K.tolist(), "interfaces": {"left": [[1, "u"]], "right": [[count, "u"]]}}), encoding="utf-8")
     imported = {"a": {"File": "bar10.json", "Fixed": ["left"]}, "b": {"File": "bar10.json", "Retained": ["right"]}}
@@ -400,11 +405,8 @@ def turned_out_of_the_plane():
 
 def motion_tolerance_of_fast_parts():
     """Modes chosen by the motion keep their tolerance where the samples of the results are far apart: here 5 ms, for vibrations of up to 1 kHz."""
-    count, stiffness = 31, 1e7
-    K = np.zeros((count, count))
-    for i in range(count - 1):
-        K[i:i + 2, i:i + 2] += stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    M = np.diag([0.5, *[1.0] * (count - 2), 0.5])
+    count = 31
+    M, K = springs_in_a_row(count, 1e7)
     pathlib.Path("fast.json").write_text(json.dumps({"format": "tooljoint part 1", "components": ["u"], "dofs": [[i + 1, "u"] for i in range(count)], "mass": M.tolist(),
                                                      "damping": (2e-6 * K + 2 * M).tolist(), "stiffness": K.tolist(),
                                                      "interfaces": {"left": [[1, "u"]], "right": [[count, "u"]]}}), encoding="utf-8")
