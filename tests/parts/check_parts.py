@@ -22,6 +22,7 @@ from scipy.linalg import eigh
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "stability/hard_cases"))
+from bars import bars, springs_in_a_row  # noqa: E402
 from program import parameter_list  # noqa: E402
 
 PROGRAM, MPIEXEC = sys.argv[1:3]
@@ -238,26 +239,6 @@ def released():
     response = tooljoint("response", "released.xml", "--output", "released_response")
     expect("an output that is released is refused", response.returncode == 2 and "which is released: results have it for part \"a\" only" in response.stderr,
            f"({response.returncode}) {response.stderr[-400:]}")
-
-
-def springs_in_a_row(count, stiffness):
-    """Mass [kg] and stiffness [N/m] of so many nodes with springs between them."""
-    K = np.zeros((count, count))
-    for i in range(count - 1):
-        K[i:i + 2, i:i + 2] += stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    return np.diag([0.5, *[1.0] * (count - 2), 0.5]), K
-
-
-def bars(name, parts=None, **lists):
-    """Two bars of 10 springs of 1e6 N/m in a row, held on the left; the second one's free end is retained."""
-    count = 11
-    M, K = springs_in_a_row(count, 1e6)
-    pathlib.Path("bar10.json").write_text(json.dumps({"format": "tooljoint part 1", "components": ["u"], "dofs": [[i + 1, "u"] for i in range(count)], "mass": M.tolist(),
-                                                      "stiffness": K.tolist(), "interfaces": {"left": [[1, "u"]], "right": [[count, "u"]]}}), encoding="utf-8")
-    imported = {"a": {"File": "bar10.json", "Fixed": ["left"]}, "b": {"File": "bar10.json", "Retained": ["right"]}}
-    whole = {"Parts": {"Imported": imported, "Joints": ["a:right = b:left"], **(parts or {})}, "Transient": {"End Time": 0.02, "Step": 1e-4, "Sampling Interval": 1e-3}, **lists}
-    pathlib.Path(f"{name}.xml").write_text(parameter_list(name, whole), encoding="utf-8")
-    return f"{name}.xml"
 
 
 def laws_on_joints():
