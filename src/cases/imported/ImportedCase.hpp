@@ -21,7 +21,8 @@ struct JoinedParts {
   parts::PartsScene scene;
   coupling::Coupling whole;                            ///< unreduced, always primal
   bool started = false;                                ///< the parts hold the state they start from
-  std::optional<stability::StateStability> stability;  ///< of the equilibrium they start from
+  std::optional<stability::StateStability> stability;  ///< of their rest, or of the state that a
+                                                       ///< response is linearised about
 };
 
 class ImportedCase : public Case, public NodeChoice {

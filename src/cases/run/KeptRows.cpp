@@ -33,7 +33,9 @@ int addLibrary(dl_phdr_info* info, std::size_t, void* data) {
   const std::string name = info->dlpi_name == nullptr ? "" : info->dlpi_name;
   auto& found = *static_cast<Libraries*>(data);
   const auto stands = [&](const char* folder) { return name.rfind(folder, 0) == 0; };
-  if (name.find("libtooljoint") != std::string::npos)
+  const bool ours = name.find("libtooljoint") != std::string::npos ||
+                    name.find("tooljoint/_core") != std::string::npos;  // the Python package
+  if (ours)
     found.own += " " + fileStamp(name);
   else if (name.find('/') != std::string::npos && !stands("/lib") && !stands("/usr/lib"))
     found.extensions += " " + name + " " + fileStamp(name);
