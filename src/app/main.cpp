@@ -81,6 +81,8 @@ int guarded(const std::function<void()>& command) {
   } catch (const std::exception& error) {
     return failed(ExitCode::Internal,
                   std::string("internal error, please report it: ") + error.what());
+  } catch (...) {  // thrown by an extension
+    return failed(ExitCode::Internal, "internal error: what was thrown is no std::exception.");
   }
 }
 
@@ -462,7 +464,6 @@ int run(int argc, char** argv) {
   options.overrides.insert(options.overrides.begin(), edits.begin(), edits.end());
   tooljoint::log::setQuiet(options.quiet);
   tooljoint::log::setVerbose(options.verbose);
-  tooljoint::installInterruptHandlers();
   return guarded([&] {
     namespace deck = tooljoint::deck;
     deck::printIn(deck::printedSystemOf(options.units));
@@ -484,6 +485,7 @@ int afterOutput(int exit) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tooljoint::installInterruptHandlers();
   tooljoint::linalg::shareLargePages();
   // Neither MPI nor Kokkos takes arguments from the command line: Kokkos would answer --help with
   // its own.

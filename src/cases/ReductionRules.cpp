@@ -123,11 +123,13 @@ class Rules {
         add(std::string("Reduction/Mode Selection/") + criterion,
             "selects fixed-interface modes one by one, but the basis " + name +
                 " has none to select. Give \"Modes\", or choose \"Craig-Bampton\".");
-    if (!traits.interfaceForces || !several_) return;
-    if (choice("Interface Reduction") != "None")
+    if (!traits.ownMass && several_ && choice("Interface Reduction") != "None")
       add("Reduction/Interface Reduction",
-          "needs joined dofs, but the basis " + name +
-              " joins parts by interface forces. Choose another basis, or \"None\".");
+          "needs joined dofs with a mass, but the basis " + name +
+              (traits.interfaceForces ? " joins parts by interface forces."
+                                      : " leaves them none.") +
+              " Choose another basis, or \"None\".");
+    if (!traits.interfaceForces || !several_) return;
     if (deck_.isSublist("Output") &&
         deck_.sublist("Output").get<std::string>("Export Parts") != "None")
       add("Output/Export Parts", "cannot export parts of the basis " + name +

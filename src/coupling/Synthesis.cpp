@@ -43,8 +43,10 @@ Synthesis synthesise(const std::vector<model::Substructure>& parts,
                           basis.dependentCoordinates(result.coupled.model, result.coupled.maps,
                                                      cache.views, bases));
       });
+      std::vector<int> rows;
+      for (const auto& part : result.parts) rows.push_back(part.interface);
       if (options.interface)
-        parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface); });
+        parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface, rows); });
       return result;
     }
     parallel::agree([&] {

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
@@ -22,7 +22,7 @@
 namespace tooljoint::io {
 namespace {
 
-std::string megabytes(double bytes) { return formatNumber(std::ceil(bytes / 1048576.0)) + " MB"; }
+std::string megabytes(double bytes) { return fmt::format("{:.4g} MB", bytes / 1048576.0); }
 
 bool isPlain(const std::string& name) {
   return !name.empty() && name.find('/') == std::string::npos;

@@ -73,6 +73,7 @@ struct MethodTraits {
   bool dependent =
       false;  ///< it has coordinates that depend on others, by the inverse of the coupled mass
   bool selectable = false;  ///< its modes have a fixed interface and may be left out one by one
+  bool needsModes = true;   ///< a deck has to say how many; otherwise none where it does not
 };
 
 /// Data of a part before its reduction.

@@ -69,13 +69,13 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
   options.checks = list.get<bool>("Basis Checks");
   options.loadVectors = readLoadVectors(list);
   options.loadVectors.keepStatic = options.initialState == InitialState::KeepStatic;
-  options.modes = readModeSelection(list, parts);
   if (list.isParameter("Interface Reduction")) {
     const auto& name = list.get<std::string>("Interface Reduction");
     options.interface = InterfaceRegistry::instance().make(
         name, list.isSublist(name) ? list.sublist(name) : Teuchos::ParameterList(name));
   }
-  makeBasis(options.basis, list);  // finds what is wrong with its own list now
+  const auto method = makeBasis(options.basis, list);  // finds what is wrong with its own list now
+  options.modes = readModeSelection(list, parts, method->traits().needsModes);
   if (list.isSublist("Anasazi")) {
     auto eigen = std::make_shared<linalg::EigenOptions>();
     eigen->anasazi = &list.sublist("Anasazi");

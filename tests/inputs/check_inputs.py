@@ -188,6 +188,7 @@ def check_refuses_what_run_refuses():
         (FRAME, [*dual, *calm, *explicit], "is \"Dual Craig-Bampton\", which has a singular mass matrix"),
         (FRAME, [*macneal, "--set", "Reduction/Error Estimate=Frequencies"], "Error Estimate needs an error estimate, but the basis \"MacNeal\""),
         (FRAME, [*dual, "--set", "Reduction/Interface Reduction=System", "--set", "Reduction/System/Modes=3"], "joins parts by interface forces"),
+        (FRAME, [*macneal, "--set", "Reduction/Interface Reduction=System", "--set", "Reduction/System/Modes=3"], "leaves them none"),
         (FRAME, [*dual, "--set", "Output/Export Parts=HDF5"], "cannot export parts of the basis \"Dual Craig-Bampton\""),
         (FRAME, [*macneal, "--set", "Reduction/Load Vectors=Loads"], "cannot be added to the basis \"MacNeal\""),
         (FRAME, ["--set", "Reduction/Basis=Rubin", *mass], "selects fixed-interface modes one by one, but the basis \"Rubin\" has none"),

@@ -244,7 +244,7 @@ def other_ranks():
         interrupted_twice(f"{title} on 1, 2 and 1 ranks", deck, LONG, ranks=(1, 2, 1))
         interrupted_twice(f"{title} on 2, 1 and 2 ranks", deck, LONG, ranks=(2, 1, 2))
     # two ranks find its static state to other last digits than one
-    options = ["--set", "Transient/End Time=60", "--set", "Transient/Checkpoint Interval=4", "--set", "Transient/Progress=false"]
+    options = ["--set", "Transient/End Time=24", "--set", "Transient/Checkpoint Interval=2", "--set", "Transient/Progress=false"]
     interrupted_twice("string with a law of the bit on 2, 1 and 2 ranks", str(ROOT / "xml" / "stick_slip_2500m.xml"), options, ranks=(2, 1, 2), tolerance=1e-6, but="figures/axial")
 
 
@@ -359,9 +359,10 @@ def other_contents():
 
 
 def results_larger_than_the_disk():
-    """The longest motion that a deck may ask for, all fields recorded: 0.4 to 0.6 TB. The files of a disk with more room than that are not the test's business."""
+    """The longest motion that a deck may ask for, all fields recorded: 0.4 to 0.6 TB. A disk with more room cannot show it."""
     longest = ["--set", "Transient/Sampling Interval=0.005", "--set", "Transient/End Time=4.9e5", "--set", "Output/Fields={displacement, velocity, acceleration, normal_force}"]
-    expect("the disk has less room than the largest results", shutil.disk_usage(".").free < 0.39e12, "")
+    if shutil.disk_usage(".").free > 0.39e12:
+        return print("left out: the disk has more room than the largest results")
     for title, deck in (("string", STRING), ("frame", FRAME)):
         fresh("room")
         for ranks in (1, 2):

@@ -23,8 +23,8 @@ using model::DofLabel;
 
 class Reducer {
  public:
-  Reducer(Coupling& coupling, const reduction::InterfaceBasis& basis)
-      : coupling_(coupling), model_(coupling.model), basis_(basis) {}
+  Reducer(Coupling& coupling, const reduction::InterfaceBasis& basis, const std::vector<int>& rows)
+      : coupling_(coupling), model_(coupling.model), basis_(basis), rows_(rows) {}
 
   void run() {
     if (!coupling_.multipliers.empty())
@@ -73,7 +73,8 @@ class Reducer {
   std::vector<int> groups(int& count) const {
     std::vector<std::vector<int>> partsOf(model_.dofs.size());
     for (std::size_t p = 0; p < coupling_.maps.size(); ++p)
-      forEachEntry(coupling_.maps[p], [&](int, int column, double) {
+      forEachEntry(coupling_.maps[p], [&](int row, int column, double) {
+        if (!rows_.empty() && row >= rows_[p]) return;
         auto& parts = partsOf[at(column)];
         if (parts.empty() || parts.back() != static_cast<int>(p))
           parts.push_back(static_cast<int>(p));
@@ -151,13 +152,15 @@ class Reducer {
   Coupling& coupling_;
   model::SecondOrderModel& model_;
   const reduction::InterfaceBasis& basis_;
+  const std::vector<int>& rows_;
   std::vector<int> reduced_, others_;
 };
 
 }  // namespace
 
-void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis) {
-  Reducer(coupling, basis).run();
+void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis,
+                      const std::vector<int>& rows) {
+  Reducer(coupling, basis, rows).run();
 }
 
 }  // namespace tooljoint::coupling

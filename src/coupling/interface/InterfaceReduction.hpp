@@ -3,6 +3,8 @@
 /// Reduction of the joined dofs of a coupled model.
 #pragma once
 
+#include <vector>
+
 #include "coupling/assembly/Assembler.hpp"
 #include "reduction/methods/InterfaceBasis.hpp"
 
@@ -13,6 +15,11 @@ namespace tooljoint::coupling {
 /// start that is not in their span is fitted in least squares of mass. What was there before stays
 /// as `wholeInterfaces`. A coupled model without joined dofs is not changed. ModelError for a model
 /// with multipliers.
-void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis);
+/// \param rows  how many coordinates of each part, its first ones, may be joined: the dofs that
+/// join
+///              the same parts are an interface. Empty: all of them. Others may depend on every
+///              joined dof (DependentCoordinates).
+void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis,
+                      const std::vector<int>& rows = {});
 
 }  // namespace tooljoint::coupling

@@ -19,6 +19,11 @@ class Guyan : public ReductionMethod {
   explicit Guyan(const Teuchos::ParameterList& list)
       : automatic_(list.get<std::string>("Masters") == "Automatic") {}
 
+  MethodTraits traits() const override {
+    MethodTraits traits;
+    traits.needsModes = false;
+    return traits;
+  }
   Basis build(const PartView& part, const ModeRequest& request) const override {
     Basis basis;
     PartView condensed = part;
@@ -71,7 +76,8 @@ class Guyan : public ReductionMethod {
 deck::ListSpec guyanParameters() {
   deck::ListSpec list(
       "Guyan",
-      "Static condensation has no modes; the mode selection can set the number of master dofs.");
+      "Static condensation has no modes; the mode selection can set the number of master dofs, and "
+      "may be left out.");
   list.choice("Masters", std::string("Automatic"), {"Automatic", "None"},
               "\"Automatic\": the mode selection gives the number of interior dofs that become "
               "masters, found by repeated condensation of the dof with the largest k_ii / m_ii "

@@ -97,7 +97,7 @@ bool selectsModesByTolerance(const Teuchos::ParameterList& reduction) {
          selectsModesBy(reduction, motionTolerance);
 }
 
-ModeRule readModeSelection(const Teuchos::ParameterList& reduction, int parts) {
+ModeRule readModeSelection(const Teuchos::ParameterList& reduction, int parts, bool needed) {
   const deck::ListSpec spec = modeSelection();
   std::vector<std::string> choices;
   for (const auto& parameter : spec.parameters()) choices.push_back(parameter.name);
@@ -105,6 +105,12 @@ ModeRule readModeSelection(const Teuchos::ParameterList& reduction, int parts) {
   const auto& list = reduction.isSublist(listName) ? reduction.sublist(listName) : none;
   auto names = given(list, choices);
   if (names == std::vector<std::string>{frequencyTolerance, motionTolerance}) names.pop_back();
+  if (names.empty() && !needed) {
+    ModeRule noModes;
+    noModes.kind = ModeRule::Kind::PerPart;
+    noModes.counts = {0};
+    return noModes;
+  }
   if (names.empty())
     throw DeckError(
         "Reduction does not select modes. Give the list \"Mode Selection\" exactly one of " +

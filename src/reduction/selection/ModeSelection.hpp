@@ -31,6 +31,7 @@ bool selectsModesByTolerance(const Teuchos::ParameterList& reduction);
 /// The selection of the list "Reduction" (defaults filled in) for `parts` substructures. DeckError
 /// when the list "Mode Selection" does not hold exactly one parameter (the two tolerances may stand
 /// together), or when "Modes by Substructure" does not have `parts` entries.
-ModeRule readModeSelection(const Teuchos::ParameterList& reduction, int parts);
+/// \param needed  otherwise a deck without that list keeps no modes
+ModeRule readModeSelection(const Teuchos::ParameterList& reduction, int parts, bool needed);
 
 }  // namespace tooljoint::reduction

@@ -43,14 +43,16 @@ std::shared_ptr<const reduction::InterfaceBasis> interfaceModes(Level level, int
 
 Synthesis synthesis(const std::vector<model::Substructure>& parts, int modes,
                     std::shared_ptr<const reduction::InterfaceBasis> interface,
-                    const CouplingOptions& coupling = {}) {
+                    const CouplingOptions& coupling = {},
+                    const std::string& basis = "Craig-Bampton") {
   reduction::ReductionOptions options;
   options.modes.kind =
       modes < 0 ? reduction::ModeRule::Kind::All : reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
   options.interface = std::move(interface);
-  return synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()),
-                    options, coupling);
+  auto list = test::defaultsOf(reduction::parameters());
+  list.set("Basis", basis);
+  return synthesise(parts, *reduction::makeBasis(basis, list), options, coupling);
 }
 
 /// The weight of every part along z.
@@ -103,6 +105,20 @@ TEST_P(InterfaceReduction, WithAllModesNothingChanges) {
                b = lowestModes(reduced.model, reduced.model.size()).values;
   for (Eigen::Index i = 0; i < a.size(); ++i)
     EXPECT_LE(std::abs(b[i] - a[i]), 1e-9 * a[i] + 1e-15 * a[a.size() - 1]) << "mode " << i + 1;
+}
+
+TEST_P(InterfaceReduction, DependentCoordinatesLeaveTheInterfacesApart) {
+  // Residual coordinates depend on all joined dofs: the members of each interface stay the same.
+  const std::string basis = "Enhanced Craig-Bampton";
+  const auto plain = synthesis(frame.parts(), 2, nullptr, {}, basis).coupled;
+  const auto reduced =
+      synthesis(frame.parts(), 2, interfaceModes(GetParam(), GetParam() == Level::System ? 18 : 6),
+                {}, basis)
+          .coupled;
+  EXPECT_GT(plain.dependent, 0);
+  EXPECT_EQ(reduced.interfaceModes, 18);
+  const Vector a = lowestModes(plain.model, 8).values, b = lowestModes(reduced.model, 8).values;
+  for (Eigen::Index i = 0; i < a.size(); ++i) EXPECT_NEAR(b[i] / a[i], 1.0, 1e-9) << i + 1;
 }
 
 TEST_P(InterfaceReduction, FrequenciesComeFromAboveAndFallWithEveryMode) {

@@ -90,6 +90,15 @@ TEST(ReductionParameters, ExactlyOneModeSelection) {
       "Reduction/Mode Selection gives \"Modes\", \"Total Modes\" together. Give exactly one.");
 }
 
+TEST(ReductionParameters, StaticCondensationNeedsNoSelection) {
+  auto list = defaults();
+  list.set("Basis", "Guyan");
+  EXPECT_EQ(modesOf(reduceAll(samples::loopFrame(6, false), list)), (std::vector<int>{0, 0, 0, 0}));
+  list.sublist("Mode Selection").set("Modes", 3);
+  const auto masters = reduceAll(samples::loopFrame(6, false), list);
+  EXPECT_EQ(masters[0].retained, 3);
+}
+
 TEST(ReductionParameters, CriteriaAndTolerances) {
   auto list = defaults();
   auto& selection = list.sublist("Mode Selection");
