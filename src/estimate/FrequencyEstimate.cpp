@@ -273,9 +273,9 @@ std::vector<FrequencyEstimate> assessReduced(const std::vector<model::Substructu
   const auto before = coupling::lowestModes(model, std::min(pairs.count() + more, model.size()));
   const auto estimates = assessAll(parts, whole, before);
   const Matrix shapes = synthesis.coupled.interfaceMap * pairs.vectors;
-  const auto matches =
-      matchModes(reduction::symmetricPart(model.mass), before.values.cast<Complex>(),
-                 before.vectors.cast<Complex>(), shapes.cast<Complex>());
+  const auto matches = matchModes(reduction::symmetricPart(model.mass),
+                                  before.values.cast<Complex>(), before.vectors.cast<Complex>(),
+                                  pairs.values.cast<Complex>(), shapes.cast<Complex>());
   const double smallest = smallestEigenvalue(model);
   std::vector<FrequencyEstimate> found(at(pairs.values.size()));
   bool noneMissing = true;

@@ -73,8 +73,9 @@ double ModeComparison::fullHz() const {
 double ModeComparison::coupledHz() const {
   return (coupled.imag() < 0 ? -1.0 : 1.0) * std::abs(coupled) / twoPi;
 }
-double ModeComparison::fullImHz() const { return full.imag() / twoPi; }
-double ModeComparison::coupledImHz() const { return coupled.imag() / twoPi; }
+// -0 + 0 is 0
+double ModeComparison::fullImHz() const { return full.imag() / twoPi + 0.0; }
+double ModeComparison::coupledImHz() const { return coupled.imag() / twoPi + 0.0; }
 
 Linearised linearise(const model::SecondOrderModel& model, double t) {
   return {reduction::symmetricPart(model.mass), model.dampingAt(t) + pointDamping(model, t),
@@ -190,7 +191,8 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full,
   const ComplexMatrix shapes = recover(full, parts, synthesis, pairs.vectors.cast<Complex>(), maps);
   const ComplexVector values = undampedValues(stiffness, mass, exact.values, exact.vectors);
   const ComplexVector coupledValues = undampedValues(stiffness, mass, pairs.values, shapes.real());
-  const auto matches = matchModes(mass, values, exact.vectors.cast<Complex>(), shapes);
+  const auto matches =
+      matchModes(mass, values, exact.vectors.cast<Complex>(), coupledValues, shapes);
   std::vector<ModeComparison> modes(
       static_cast<std::size_t>(std::min<Eigen::Index>(count, values.size())));
   for (std::size_t i = 0; i < modes.size(); ++i) {
@@ -257,7 +259,7 @@ class DampedComparison {
       errors =
           DynamicError(parts_, synthesis_, matrices).ofModes(matrices, small_, coupled, target);
     });
-    const auto matches = matchModes(whole_.mass, exact.values, exact.vectors,
+    const auto matches = matchModes(whole_.mass, exact.values, exact.vectors, coupled.values,
                                     recover(full_, parts_, synthesis_, coupled.vectors, maps_));
     std::vector<ModeComparison> modes(
         static_cast<std::size_t>(std::min<Eigen::Index>(count, exact.values.size())));

@@ -41,6 +41,14 @@ ComplexMatrix orthonormal(const Sparse& M, const ComplexMatrix& shapes) {
   return basis;
 }
 
+/// cos^2 of the angle between (1, a / w) and (1, b / w), w the larger of |a| and |b|.
+double likeness(Complex a, Complex b) {
+  const double w = std::max(std::abs(a), std::abs(b));
+  if (!(w > 0)) return 1.0;
+  return std::norm(1.0 + std::conj(a) * b / (w * w)) /
+         ((1.0 + std::norm(a / w)) * (1.0 + std::norm(b / w)));
+}
+
 struct Cluster {
   std::vector<Eigen::Index> members;
   ComplexMatrix weighted;  ///< M times an orthonormal basis
@@ -91,10 +99,11 @@ Matrix modalAssurance(const Sparse& M, const ComplexMatrix& a, const ComplexMatr
 }
 
 std::vector<ModeMatch> matchModes(const Sparse& M, const ComplexVector& values,
-                                  const ComplexMatrix& shapes, const ComplexMatrix& others) {
+                                  const ComplexMatrix& shapes, const ComplexVector& otherValues,
+                                  const ComplexMatrix& others) {
   auto found = clusters(M, values, shapes);
   struct Pair {
-    double share;  ///< cos^2 of the angle between the candidate and the span of the cluster
+    double share;  ///< cos^2 between the candidate and the span of the cluster, times likeness
     std::size_t cluster;
     int candidate;
   };
@@ -102,10 +111,12 @@ std::vector<ModeMatch> matchModes(const Sparse& M, const ComplexVector& values,
   const ComplexMatrix Mo = times(M, others);
   for (std::size_t g = 0; g < found.size(); ++g) {
     const ComplexMatrix projections = found[g].weighted.adjoint() * others;
-    for (Eigen::Index j = 0; j < others.cols(); ++j)
-      pairs.push_back(
-          {projections.col(j).squaredNorm() / std::max(others.col(j).dot(Mo.col(j)).real(), 1e-300),
-           g, static_cast<int>(j)});
+    const Complex own = values[found[g].members.front()];
+    for (Eigen::Index j = 0; j < others.cols(); ++j) {
+      const double size = std::max(others.col(j).dot(Mo.col(j)).real(), 1e-300);
+      pairs.push_back({projections.col(j).squaredNorm() / size * likeness(own, otherValues[j]), g,
+                       static_cast<int>(j)});
+    }
   }
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const Pair& a, const Pair& b) { return a.share > b.share; });

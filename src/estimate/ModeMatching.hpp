@@ -23,13 +23,17 @@ constexpr double repeatedWithin = 1e-3;
 /// 110-116), rows: columns of a, columns: of b.
 Matrix modalAssurance(const Sparse& M, const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
-/// Partners of the modes (values, shapes) among the columns of `others`, each taken once.
+/// Partners of the modes (values, shapes) among (otherValues, others), each taken once.
 /// Consecutive values within repeatedWithin, and zeros, form a cluster. Every candidate is compared
 /// with the span of every cluster, the best pairs are taken first, and a cluster takes as many as
-/// it has modes, in the order of the candidates. For a cluster of several modes `mac` is the least
+/// it has modes, in the order of the candidates. Pairs are ordered by their cos^2 times that of the
+/// angle between (1, s / w) of both, w the larger |s|: values s tell apart modes of one shape, as
+/// the two of an overdamped motion are. For a cluster of several modes `mac` is the least
 /// squared cosine of the principal angles (A. Bjorck and G. H. Golub, Math. Comp. 27 (1973)
 /// 579-594) between its span and that of its partners; for a single mode it is the MAC.
 std::vector<ModeMatch> matchModes(const Sparse& M, const Eigen::VectorXcd& values,
-                                  const Eigen::MatrixXcd& shapes, const Eigen::MatrixXcd& others);
+                                  const Eigen::MatrixXcd& shapes,
+                                  const Eigen::VectorXcd& otherValues,
+                                  const Eigen::MatrixXcd& others);
 
 }  // namespace tooljoint::estimate

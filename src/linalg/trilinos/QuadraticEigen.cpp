@@ -251,6 +251,27 @@ std::string placeOf(const ScaledPencil& pencil, Complex s, const ComplexVector& 
   return " It moves most at " + nameOf(name, static_cast<int>(largest)) + ".";
 }
 
+/// The two shapes of a real value that stands twice, as that of rigid-body motions damped by mass
+/// does: rounding makes a pair of it, and the real and imaginary parts of the vector of the pair
+/// are shapes, each by itself. None where they are not: the pair is one motion near critical
+/// damping.
+std::optional<Matrix> shapesOfTwofold(const ScaledPencil& pencil, const ShiftedInverse& inverse,
+                                      Complex s, const ComplexVector& phi) {
+  constexpr double torn = 1e-6;  // Im s / |s|: rounding of a twofold value, with a margin
+  if (s.imag() == 0.0 || std::abs(s.imag()) > torn * std::abs(s)) return std::nullopt;
+  Matrix parts(phi.size(), 2);
+  parts << phi.real(), phi.imag();
+  Matrix shapes = singularValues(parts, SingularVectors::Thin).U;
+  for (int j = 0; j < 2; ++j) {
+    const ComplexVector shape = shapes.col(j).cast<Complex>(),
+                        better = inverse.again(s.real(), shape);
+    const double rounding = roundingOfValue(pencil, s.real() - inverse.shift(), better);
+    if (!((better - shape).norm() <= (acceptedError + rounding) * better.norm()))
+      return std::nullopt;
+  }
+  return shapes;
+}
+
 /// The first `wanted` pairs, without those that are infinite and repeated zeros. ConvergenceError
 /// where a finite one is not accurate.
 DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse,
@@ -275,6 +296,13 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
           scientific(s.imag()) + " i) has a relative error of " + scientific(error) + " where " +
           scientific(acceptedError + rounding) + " is allowed." + placeOf(pencil, s, better, name));
     if (refined) s = refined->s, better = refined->shape;
+    if (const auto twofold = shapesOfTwofold(pencil, inverse, s, better)) {
+      for (int k = 0; k < 2; ++k) {
+        out.values.push_back(s.real());
+        out.vectors.push_back(twofold->col(k).cast<Complex>());
+      }
+      continue;
+    }
     const bool zero = isZero(pencil, s, better);
     const auto place = zero ? zeros++ : out.values.size();
     out.values.insert(out.values.begin() + static_cast<std::ptrdiff_t>(place), zero ? 0.0 : s);

@@ -89,6 +89,7 @@ ModeTracker::Partners ModeTracker::match(const VibratingModes& candidates) const
   for (std::size_t k = 0; k < modesLeft.size(); ++k)
     valuesLeft[static_cast<Eigen::Index>(k)] = values[modesLeft[k]];
   const auto rest = estimate::matchModes(mass_, valuesLeft, columns(shapes, modesLeft),
+                                         Eigen::VectorXcd(candidates.values(candidatesLeft)),
                                          columns(candidates.shapes, candidatesLeft));
   for (std::size_t k = 0; k < modesLeft.size(); ++k) {
     if (rest[k].partner < 0) continue;

@@ -38,7 +38,8 @@ Eigen::MatrixXcd rotated(double angle) {
 TEST(ModeMatching, ARepeatedModeIsASubspace) {
   const Eigen::MatrixXcd own = Matrix::Identity(4, 4).cast<std::complex<double>>();
   for (double angle : {0.0, 0.4, constants::pi / 4, 1.3}) {
-    const auto matches = matchModes(identity(4), frequencies({1, 2, 2, 3}), own, rotated(angle));
+    const auto matches = matchModes(identity(4), frequencies({1, 2, 2, 3}), own,
+                                    frequencies({1, 2, 2, 3}), rotated(angle));
     std::set<int> partners;
     for (const auto& match : matches) {
       EXPECT_NEAR(match.mac, 1.0, 1e-12) << angle;
@@ -55,8 +56,8 @@ TEST(ModeMatching, NoCandidateIsTakenTwice) {
   const Eigen::MatrixXcd own = Matrix::Identity(3, 3).cast<std::complex<double>>();
   Matrix others(3, 3);  // the first resembles modes 1 and 2, the second nothing better than mode 2
   others << 0.8, 0.5, 0.0, 0.6, 0.1, 0.0, 0.0, 0.8, 1.0;
-  const auto matches =
-      matchModes(identity(3), frequencies({1, 2, 3}), own, others.cast<std::complex<double>>());
+  const auto matches = matchModes(identity(3), frequencies({1, 2, 3}), own, frequencies({1, 2, 3}),
+                                  others.cast<std::complex<double>>());
   EXPECT_EQ(matches[0].partner, 0);
   EXPECT_EQ(matches[1].partner, 1);
   EXPECT_EQ(matches[2].partner, 2);
@@ -73,7 +74,7 @@ TEST(ModeMatching, TheLeastCosineOfThePrincipalAnglesCounts) {
   others(2, 1) = std::sin(a);
   const auto matches =
       matchModes(identity(4), frequencies({5, 5}), own.cast<std::complex<double>>(),
-                 others.cast<std::complex<double>>());
+                 frequencies({5, 5}), others.cast<std::complex<double>>());
   for (const auto& match : matches) EXPECT_NEAR(match.mac, std::cos(a) * std::cos(a), 1e-12);
 }
 
@@ -82,12 +83,27 @@ TEST(ModeMatching, TheMassMatrixWeighs) {
   M.coeffRef(1, 1) = 9.0;
   const Eigen::MatrixXcd own = (Matrix(2, 1) << 1, 0).finished().cast<std::complex<double>>();
   const Eigen::MatrixXcd other = (Matrix(2, 1) << 1, 1).finished().cast<std::complex<double>>();
-  EXPECT_NEAR(matchModes(M, frequencies({1}), own, other)[0].mac, 0.1, 1e-14);
+  EXPECT_NEAR(matchModes(M, frequencies({1}), own, frequencies({1}), other)[0].mac, 0.1, 1e-14);
+}
+
+// Two motions of one shape: an overdamped one decays at two rates, a free one at 0 and c/m.
+TEST(ModeMatching, ValuesTellModesOfOneShapeApart) {
+  const Eigen::MatrixXcd own =
+      (Matrix(2, 4) << 1, 1, 0, 0, 0, 0, 1, 1).finished().cast<std::complex<double>>();
+  Eigen::VectorXcd values(4), others(4);
+  values << 0.0, -0.5, -1.0, -100.0;
+  others << -100.1, -1.001, -0.5, 0.0;
+  const auto matches = matchModes(identity(2), values, own, others, own.rowwise().reverse());
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(matches[static_cast<std::size_t>(i)].partner, 3 - i);
+    EXPECT_NEAR(matches[static_cast<std::size_t>(i)].mac, 1.0, 1e-14);
+  }
 }
 
 TEST(ModeMatching, SaysWhenNoCandidateIsLeft) {
   const Eigen::MatrixXcd own = Matrix::Identity(3, 3).cast<std::complex<double>>();
-  const auto matches = matchModes(identity(3), frequencies({1, 2, 3}), own, own.leftCols(2));
+  const auto matches =
+      matchModes(identity(3), frequencies({1, 2, 3}), own, frequencies({1, 2}), own.leftCols(2));
   EXPECT_EQ(matches[2].partner, -1);
   EXPECT_EQ(matches[2].mac, 0.0);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Dense>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <random>
 
 #include "Models.hpp"
 #include "common/Error.hpp"
@@ -65,6 +67,38 @@ TEST(QuadraticModes, ProportionalDampingDampsEachModeAsPredicted) {
   const EigenPairs pairs = symmetricModes(K, M);
   for (int j = 0; j < 10; ++j)
     EXPECT_NEAR(modes.values[2 * j].real(), -0.5 * (0.3 + 1e-3 * pairs.values[j]), 1e-9);
+}
+
+// Rigid motions damped by mass decay at one rate: rounding makes pairs of repeated real values, and
+// each has to be listed as often as it is there.
+TEST(QuadraticModes, RepeatedRealValuesAreAllThere) {
+  constexpr int n = 50, rigid = 5;
+  std::mt19937 random(1);
+  std::normal_distribution<double> entry;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Matrix Q = Eigen::HouseholderQR<Matrix>(Matrix::NullaryExpr(n, n, [&] {
+                       return entry(random);
+                     })).householderQ();
+    Vector stiffness = Vector::LinSpaced(n, 1.0, 100.0).array().square();
+    stiffness.head(rigid).setZero();
+    Matrix gyroscopic = Matrix::Zero(n, n);
+    for (int i = rigid; i + 1 < n; i += 2) {
+      gyroscopic(i, i + 1) = 2.0;
+      gyroscopic(i + 1, i) = -2.0;
+    }
+    const auto turned = [&Q](const Matrix& A) {
+      return Sparse((Q * A * Q.transpose()).sparseView());
+    };
+    const auto modes = lowestDampedModes(turned(Matrix::Identity(n, n)),
+                                         turned(0.5 * Matrix::Identity(n, n) + gyroscopic),
+                                         turned(stiffness.asDiagonal()), 2 * rigid + 1);
+    ASSERT_EQ(modes.values.size(), 2 * rigid + 1) << trial;
+    for (int j = 0; j < rigid; ++j) {
+      EXPECT_EQ(modes.values[j], 0.0) << trial;
+      EXPECT_NEAR(std::abs(modes.values[rigid + j] + 0.5), 0.0, 1e-9) << trial;
+    }
+    EXPECT_GT(std::abs(modes.values[2 * rigid]), 1.0) << trial;
+  }
 }
 
 TEST(QuadraticModes, RefusesASingularMassMatrix) {
