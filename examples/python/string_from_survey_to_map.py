@@ -54,6 +54,8 @@ def main():
     speeds, weights = (["80 rpm", "120 rpm"], ["5 klbf", "15 klbf"]) if options.short else (
         [f"{speed} rpm" for speed in range(60, 181, 30)], [f"{weight} klbf" for weight in (5, 10, 15, 20)])
     del deck["Transient"]
+    del deck["Rotary Speed"]  # a string that turns at once, with the friction of its speed at rest
+    deck.add("Rotary Speed", {"Law": "Constant", "Constant": {"Speed": "80 rpm"}})
     deck.add("Map", {
         "Grid": {"speed": {"Parameter": "Rotary Speed/Constant/Speed", "Values": speeds}, "weight": {"Parameter": "Loads/Weight On Bit", "Values": weights}},
         "Values": {"torque": {"Key": "static.top_torque"}, "contacts": {"Key": "static.contact_nodes"}}})

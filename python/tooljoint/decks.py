@@ -82,9 +82,17 @@ class Deck:
             inner = _find(element, "ParameterList", each)
             element = ElementTree.SubElement(element, "ParameterList", name=each) if inner is None else inner
             description = _described(description, each)
+        overrides = list(self.overrides)
+        if f"!{path}" in overrides:  # a list that was deleted is replaced, with what was set in it
+            deleted = overrides.index(f"!{path}")
+            overrides = [one for i, one in enumerate(overrides) if i > deleted or (i < deleted and not one.startswith(f"{path}/"))]
+            old = _find(element, "ParameterList", name)
+            if old is not None:
+                element.remove(old)
         element.append(ElementTree.fromstring(write(name, values, _described(description, name))))
         text = self._whole(root)
-        self._read = _core.read_deck(_core.DeckSource(self.file, text, self.overrides))
+        self._read = _core.read_deck(_core.DeckSource(self.file, text, overrides))
+        self.overrides = overrides
         self._text = text
 
     def _tree(self):

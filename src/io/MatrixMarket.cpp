@@ -61,6 +61,13 @@ bool isNumber(const std::string& text) {
   return result.ec == std::errc() && result.ptr == end && std::isfinite(value);
 }
 
+/// Of a number with an exponent of Fortran.
+std::string hint(const std::string& text) {
+  return text.find_first_of("dD") == std::string::npos
+             ? ""
+             : ". Write exponents with E: the format has no D";
+}
+
 /// One file from its banner to its last line.
 class File {
  public:
@@ -192,7 +199,7 @@ class File {
     } catch (const std::exception&) {
       // what is wrong is said below
     }
-    failAt(row, column, "is " + inQuotes(value) + ", which is no finite number");
+    failAt(row, column, "is " + inQuotes(value) + ", which is no finite number" + hint(value));
   }
 
   /// Columns one after the other; of symmetric matrices their part on and below the diagonal.
@@ -204,7 +211,8 @@ class File {
         if (!next())
           fail("is the last line, but the " + size() + " matrix has no entry for row " +
                std::to_string(i) + ", column " + std::to_string(j));
-        if (!isNumber(text_)) failAt(i, j, "is " + inQuotes(text_) + ", which is no finite number");
+        if (!isNumber(text_))
+          failAt(i, j, "is " + inQuotes(text_) + ", which is no finite number" + hint(text_));
         const double value = std::stod(text_);
         if (value != 0) add(i, j, value);
       }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
@@ -22,7 +23,10 @@
 namespace tooljoint::io {
 namespace {
 
-std::string megabytes(double bytes) { return fmt::format("{:.4g} MB", bytes / 1048576.0); }
+std::string megabytes(double bytes) {
+  const double size = bytes / 1048576.0;
+  return (size < 1e3 ? fmt::format("{:.3g}", size) : formatNumber(std::ceil(size))) + " MB";
+}
 
 bool isPlain(const std::string& name) {
   return !name.empty() && name.find('/') == std::string::npos;

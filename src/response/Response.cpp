@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "cases/ListText.hpp"
@@ -17,6 +18,7 @@
 #include "common/report/Progress.hpp"
 #include "linalg/DynamicStiffness.hpp"
 #include "model/SteadyRotation.hpp"
+#include "response/Resonances.hpp"
 #include "response/SweepParameters.hpp"
 
 namespace tooljoint::response {
@@ -27,6 +29,12 @@ constexpr Complex imaginary{0.0, 1.0};
 /// Points of a golden section between two neighbours of a largest amplitude: the place of a peak is
 /// known to 1e-4 of their distance.
 constexpr int goldenSteps = 20;
+/// Of the distance of points: resonances of a larger half width are seen by them.
+constexpr double seenWidth = 1.0;
+/// Half widths of a resonance within which its largest amplitude is looked for.
+constexpr double narrowSide = 2.0;
+/// Of the distance of points: two peaks nearer than this are one.
+constexpr double onePeak = 1e-3;
 
 constexpr int storeFormat = 3;  ///< raised when the meaning of a kept point changes
 
@@ -102,7 +110,7 @@ class Sweep {
   HarmonicResponse compute() {
     HarmonicResponse out;
     out.loads = caseNames();
-    const auto& sweep = settings_.bySpeed() ? settings_.speeds : settings_.frequencies;
+    const auto& sweep = sweepOf();
     cases::RowKeys keys{"points", whose(), {}};
     for (const double where : sweep) keys.rows.push_back(fmt::format("{}", where));
     out.points = resumed(keys, [&](std::size_t i) { return at(sweep[i]); });
@@ -294,17 +302,69 @@ class Sweep {
     return found;
   }
 
+  const std::vector<double>& sweepOf() const {
+    return settings_.bySpeed() ? settings_.speeds : settings_.frequencies;
+  }
+  /// Of the points of the sweep.
+  double distance() const {
+    const auto& sweep = sweepOf();
+    return (sweep.back() - sweep.front()) / static_cast<double>(sweep.size() - 1);
+  }
+
+  /// Maxima about resonances that are too narrow for the points.
+  std::vector<Bracket> narrowBrackets(const std::vector<Resonance>& resonances) const {
+    const auto& sweep = sweepOf();
+    std::vector<Bracket> found;
+    for (const auto& one : resonances) {
+      if (one.width > seenWidth * distance()) continue;
+      const double from = std::max(sweep.front(), one.where - narrowSide * one.width),
+                   to = std::min(sweep.back(), one.where + narrowSide * one.width);
+      const Matrix before = at(from, false).x.cwiseAbs(), size = at(one.where, false).x.cwiseAbs(),
+                   after = at(to, false).x.cwiseAbs();
+      for (int output = 0; output < size.rows(); ++output)
+        for (int load = 0; load < size.cols(); ++load)
+          if (size(output, load) > std::max(before(output, load), after(output, load)))
+            found.push_back({load, output, from, one.where, to, size(output, load)});
+    }
+    return found;
+  }
+
+  /// The golden section of a bracket of points may find the narrow maximum in it, too: the larger
+  /// of both is kept.
+  void dropTwice(std::vector<ResponsePeak>& peaks) const {
+    const double near = onePeak * distance();
+    std::vector<ResponsePeak> kept;
+    for (auto& peak : peaks) {
+      const bool twice = !kept.empty() && kept.back().load == peak.load &&
+                         kept.back().output == peak.output &&
+                         whereOf(peak.at) - whereOf(kept.back().at) <= near;
+      if (!twice)
+        kept.push_back(std::move(peak));
+      else if (amplitude(peak) > amplitude(kept.back()))
+        kept.back() = std::move(peak);
+    }
+    peaks = std::move(kept);
+  }
+
   void addPeaks(HarmonicResponse& out) const {
-    std::vector<Bracket> all;
+    const auto found = resonances(rotating_, settings_);
+    out.growing = found.growing;
+    std::vector<Bracket> all = narrowBrackets(found.found);
     for (int load = 0; load < static_cast<int>(out.loads.size()); ++load)
       for (int output = 0; output < sizeOf(settings_.outputs); ++output)
         for (const auto& one : brackets(out.points, load, output)) all.push_back(one);
     cases::RowKeys keys{"peaks", whose(), {}};
     for (const auto& one : all)
       keys.rows.push_back(fmt::format("{} {} {} {}", one.load, one.output, one.from, one.to));
-    const auto found = resumed(keys, [&](std::size_t i) { return peak(all[i]); });
+    const auto peaks = resumed(keys, [&](std::size_t i) { return peak(all[i]); });
     for (std::size_t i = 0; i < all.size(); ++i)
-      out.peaks.push_back({all[i].load, all[i].output, found[i]});
+      out.peaks.push_back({all[i].load, all[i].output, peaks[i]});
+    std::stable_sort(out.peaks.begin(), out.peaks.end(),
+                     [this](const ResponsePeak& a, const ResponsePeak& b) {
+                       return std::make_tuple(a.load, a.output, whereOf(a.at)) <
+                              std::make_tuple(b.load, b.output, whereOf(b.at));
+                     });
+    dropTwice(out.peaks);
   }
 
   /// By golden section of the larger side of the largest point, which so is never lost.

@@ -5,6 +5,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,12 @@ struct ResponsePeak {
   ResponsePoint at;
 };
 
+/// A mode that grows: the state is left, and no response about it is reached.
+struct Growing {
+  double speed = 0.0;  ///< [rad/s]
+  std::complex<double> s;
+};
+
 struct HarmonicResponse {
   std::vector<std::string> loads;  ///< names of the load cases
   std::vector<ResponsePoint> points;
@@ -93,6 +100,7 @@ struct HarmonicResponse {
   std::vector<ResponseCheck> checks;     ///< spread points, and the highest peak of every output
   std::vector<AlongString::Node> nodes;  ///< of the margins along the string
   std::vector<cases::BendingPlace> elements;  ///< of the moments
+  std::optional<Growing> growing;             ///< the fastest of the modes looked at
 };
 
 /// DeckError: a node or component that is not there or held, nothing that loads the model.

@@ -16,6 +16,7 @@
 #include "response/Columns.hpp"
 #include "response/Response.hpp"
 #include "response/StringReport.hpp"
+#include "response/campbell/ModeSearch.hpp"
 
 namespace tooljoint::response {
 
@@ -67,6 +68,7 @@ class Report {
           "amplitude of an output. Keep more modes (Reduction/Mode Selection), or leave the list "
           "Reduction out.",
           100.0 * worstError()));
+    warnOfGrowth();
     warnOfDeparture();
     StringReport(response_, settings_.bySpeed(), rotating_.estimated()).print();
   }
@@ -117,6 +119,17 @@ class Report {
     for (const auto& point : response_.points) look(point);
     for (const auto& peak : response_.peaks) look(peak.at);
     return worst;
+  }
+  void warnOfGrowth() const {
+    if (!response_.growing) return;
+    const auto& [speed, s] = *response_.growing;
+    log::warn(fmt::format(
+        "At {:.2f} rpm the state is unstable: {} as exp({:.3g} t), and the responses about it are "
+        "never reached. tooljoint campbell shows from which speed on.",
+        rpm(speed),
+        vibrates(s) ? fmt::format("a vibration of {:.4g} Hz grows", s.imag() / constants::twoPi)
+                    : std::string("it is left without vibration"),
+        s.real()));
   }
   void warnOfDeparture() const {
     const auto* worst = farthest();

@@ -112,7 +112,8 @@ std::vector<estimate::ModeComparison> RotatingCase::compare(
 
 void RotatingCase::announceHeldStates() const {
   const auto held = stability::withoutStates(model::setsWithMovingStates(model(), time_));
-  if (!held.empty()) log::info("states     " + held);
+  if (!held.empty())
+    log::warn(trim(held) + " The responses to harmonic loads (tooljoint response) have it, too.");
 }
 
 void RotatingCase::announceUnknownStates() const {

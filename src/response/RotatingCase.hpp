@@ -65,7 +65,7 @@ class RotatingCase {
 
   /// Logs which laws follow the speed, and warns where no matrix does.
   void announceLaws() const;
-  /// Says which point laws have states that modes leave as they are.
+  /// Warns of point laws with states that modes leave as they are.
   void announceHeldStates() const;
   /// Warns of the point laws whose states do not follow a harmonic motion.
   void announceUnknownStates() const;

@@ -286,8 +286,8 @@ ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape
 std::string withoutStates(const std::vector<std::string>& held) {
   if (held.empty()) return "";
   return " The states of " + quotedList(held) +
-         " are held here, so that growth by them (by the delay of a cutting bit, by the control of "
-         "a drive) is not seen: the motion shows it.";
+         " are held here: stiffness and damping by them are left out, and growth by them (by the "
+         "delay of a cutting bit, by the control of a drive) is not seen. The motion shows it.";
 }
 
 StateStability assess(const model::SecondOrderModel& model, double t) {

@@ -72,8 +72,10 @@ deck::ListSpec frictionSpec(bool base) {
   };
   spec.real("Static", "", value(Required{}), Range::nonNegative(),
             "Peak of the friction coefficient, mu_s; also that of the static state.");
-  spec.real("Dynamic", "", value(Required{}), Range::nonNegative(),
-            "Friction coefficient of fast sliding, mu_d; at most Static.");
+  spec.real(
+      "Dynamic", "", value(Required{}), Range::nonNegative(),
+      "Friction coefficient of sliding much faster than Regularisation Velocity, mu_d; at most "
+      "Static.");
   spec.real("Regularisation Velocity", "m/s", value(0.1), Range::positive(),
             "v_r: the coefficient starts with the slope 1/v_r; smaller is sharper.");
   return spec;

@@ -54,7 +54,7 @@ deck::ListSpec torqueDragParameters() {
             "Weight of block, hook and top drive, which the hook load includes.");
   list.real("Rotary Speed", "rad/s", deck::Optional{}, deck::Range::positive(),
             "Speed of the operations that turn; without it that of the list Rotary Speed after its "
-            "start, else 120 rpm.");
+            "start, else, or where that is 0, 120 rpm.");
   list.real("Reaming Speed", "m/s", 0.05, deck::Range::positive(),
             "Axial speed of Ream and Back-ream, which turn at the same time.");
   list.real("Rate Of Penetration", "m/s", 0.005, deck::Range::positive(),

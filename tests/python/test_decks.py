@@ -67,6 +67,15 @@ class Decks(unittest.TestCase):
                 deck.write(pathlib.Path(folder) / "nowhere" / "deck.xml")
 
     @unittest.skipUnless(PROGRAM, "no program")
+    def test_a_list_that_was_deleted_is_replaced(self):
+        deck = tj.Deck(FRAME)
+        deck["Transient/End Time"] = 0.3
+        del deck["Transient"]
+        deck.add("Transient", {"End Time": 0.1, "Step": 0.002})
+        self.assertEqual((deck["Transient/End Time"], deck["Transient/Step"]), (0.1, 0.002))
+        deck["Transient/Step"] = 0.001
+        self.assertEqual(deck["Transient/Step"], 0.001)
+
     def test_errors_are_those_of_the_program(self):
         cases = [
             ("unknown parameter", FRAME, {"Transient/End Tim": 1}, (), tj.DeckError),

@@ -33,7 +33,8 @@ SampledSignal within(const SampledSignal& signal, double begin, double end) {
 /// Samples of equal distances and that distance.
 struct EvenSignal {
   std::vector<double> value;
-  double interval = 0.0;  ///< [s]
+  double interval = 0.0;          ///< [s]
+  double begin = 0.0, end = 0.0;  ///< [s]
 };
 
 EvenSignal evenly(const SampledSignal& signal) {
@@ -46,14 +47,15 @@ EvenSignal evenly(const SampledSignal& signal) {
   const double interval = *middle;
   if (std::all_of(steps.begin(), steps.end(),
                   [&](double step) { return std::abs(step - interval) <= jitter * interval; }))
-    return {signal.value, (t.back() - t.front()) / static_cast<double>(steps.size())};
+    return {signal.value, (t.back() - t.front()) / static_cast<double>(steps.size()), t.front(),
+            t.back()};
   std::size_t first = 0, best = 0, last = 0;
   for (std::size_t i = 1; i <= t.size(); ++i)
     if (i == t.size() || steps[i - 1] > gap * interval) {
       if (t[i - 1] - t[first] > t[last] - t[best]) best = first, last = i - 1;
       first = i;
     }
-  EvenSignal out{{}, interval};
+  EvenSignal out{{}, interval, t[best], t[last]};
   const double slack = rounding * interval;
   for (long k = 0; t[best] + static_cast<double>(k) * interval <= t[last] + slack; ++k)
     out.value.push_back(
@@ -61,10 +63,12 @@ EvenSignal evenly(const SampledSignal& signal) {
   return out;
 }
 
-ComparedSignal describe(SampledSignal samples, const SpectrumSettings& settings) {
+/// \param samples  whose figures are wanted
+/// \param even     of the same signal, whose spectrum is
+ComparedSignal describe(SampledSignal samples, const EvenSignal& even,
+                        const SpectrumSettings& settings) {
   ComparedSignal out;
   for (const double value : samples.value) out.figures.add(value);
-  const auto even = evenly(samples);
   out.spectrum =
       spectrumOf(even.value, even.interval, longSegments(even.value.size(), settings.segments));
   const auto& figures = out.figures;
@@ -94,13 +98,15 @@ SignalComparison compareSignals(const SampledSignal& computed, const SampledSign
     throw Error(ExitCode::Internal, "Signals without samples cannot be compared.");
   out.begin = std::max({begin, computed.time.front(), measured.time.front()});
   out.end = std::min({end, computed.time.back(), measured.time.back()});
-  auto mine = within(computed, out.begin, out.end), theirs = within(measured, out.begin, out.end);
-  if (mine.time.size() < 2 || theirs.time.size() < 2)
+  auto theirs = within(measured, out.begin, out.end);
+  if (within(computed, out.begin, out.end).time.size() < 2 || theirs.time.size() < 2)
     throw Error(ExitCode::Internal,
                 "A comparison of signals needs at least two samples in its window.");
+  SampledSignal mine{theirs.time, {}};  // like beside like: gaps and long steps are in both
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < theirs.time.size(); ++i) {
-    const double difference = valueAt(computed, theirs.time[i]) - theirs.value[i];
+    mine.value.push_back(valueAt(computed, theirs.time[i]));
+    const double difference = mine.value.back() - theirs.value[i];
     out.difference.push_back(difference);
     sum += difference;
     squares += difference * difference;
@@ -109,8 +115,11 @@ SignalComparison compareSignals(const SampledSignal& computed, const SampledSign
   const auto count = static_cast<double>(theirs.time.size());
   out.mean = sum / count;
   out.rms = std::sqrt(squares / count);
-  out.computed = describe(std::move(mine), settings);
-  out.measured = describe(std::move(theirs), settings);
+  const EvenSignal even = evenly(theirs);
+  const auto stretch = within(computed, even.begin, even.end);
+  const EvenSignal own = evenly(stretch.time.size() < 2 ? mine : stretch);
+  out.computed = describe(std::move(mine), own, settings);
+  out.measured = describe(std::move(theirs), even, settings);
   return out;
 }
 

@@ -19,7 +19,7 @@ struct SampledSignal {
 
 /// One signal of a comparison over the common window.
 struct ComparedSignal {
-  SampledSignal samples;            ///< of the window
+  SampledSignal samples;            ///< at the measured times of the window
   SignalFigures figures;            ///< fluctuationIndex() of a speed is the stick-slip index
   Spectrum spectrum;                ///< empty for fewer than 16 samples a segment
   std::vector<SpectralPeak> peaks;  ///< none of a constant signal
@@ -39,9 +39,10 @@ struct SpectrumSettings {
 };
 
 /// Compares over the part of [begin, end] that both signals cover. The computed signal is linear
-/// between its samples. Spectra are taken of the samples as they are where they have equal
-/// distances, else of the longest stretch without gaps, linear between samples, at the median of
-/// the distances. Error(Internal) for fewer than two samples of either signal in the window.
+/// between its samples; its figures are those at the measured times. Spectra are taken of the
+/// measured samples as they are where they have equal distances, else of the longest stretch
+/// without gaps, linear between samples, at the median of the distances; of the computed ones in
+/// the same stretch. Error(Internal) for fewer than two samples of either signal in the window.
 SignalComparison compareSignals(const SampledSignal& computed, const SampledSignal& measured,
                                 double begin, double end, const SpectrumSettings& settings);
 

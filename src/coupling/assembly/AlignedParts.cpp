@@ -12,6 +12,7 @@
 #include "coupling/assembly/Congruence.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "coupling/input/DofLookup.hpp"
+#include "model/DofNames.hpp"
 #include "reduction/part/Partition.hpp"
 
 namespace tooljoint::coupling {
@@ -227,7 +228,7 @@ class Turning {
     for (const auto& [node, positions] : nodes)
       if (const Matrix3* axes = frames_.of(node))
         for (const auto& vector : {axes_.translation, axes_.rotation})
-          turnVector(node, positions, vector, *axes, entries, turned);
+          turnVector(positions, vector, *axes, entries, turned);
     for (std::size_t i = 0; i < dofs.size(); ++i)
       if (!turned[i]) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
     return sparse(sizeOf(dofs), sizeOf(dofs), entries);
@@ -235,9 +236,8 @@ class Turning {
 
   /// One of the two vectors of a node: the components the names have, among those the dofs the part
   /// has.
-  void turnVector(std::int64_t node, const std::map<int, int>& positions,
-                  const std::array<int, 3>& vector, const Matrix3& axes, Triplets& entries,
-                  std::vector<char>& turned) {
+  void turnVector(const std::map<int, int>& positions, const std::array<int, 3>& vector,
+                  const Matrix3& axes, Triplets& entries, std::vector<char>& turned) {
     std::vector<int> have;  // axes
     for (int a = 0; a < 3; ++a)
       if (vector[at(a)] >= 0 && positions.count(vector[at(a)]) > 0) have.push_back(a);
@@ -245,7 +245,7 @@ class Turning {
     const Matrix R = Matrix(axes(have, have)).transpose();
     const auto position = [&](int i) { return positions.at(vector[at(have[at(i)])]); };
     if ((R * R.transpose() - Matrix::Identity(R.rows(), R.cols())).cwiseAbs().maxCoeff() > 1e-8) {
-      refusePartial(node, positions, vector, have);
+      refusePartial(positions, vector, have);
       for (int i = 0; i < sizeOf(have); ++i)
         alignedPart_.unturned.insert(alignedPart_.model->dofs[at(position(i))]);
       return;
@@ -258,8 +258,8 @@ class Turning {
   }
 
   /// A frame mixes dofs of an interface with ones the part does not have.
-  void refusePartial(std::int64_t node, const std::map<int, int>& positions,
-                     const std::array<int, 3>& vector, const std::vector<int>& have) const {
+  void refusePartial(const std::map<int, int>& positions, const std::array<int, 3>& vector,
+                     const std::vector<int>& have) const {
     const auto& names = alignedPart_.model->componentNames;
     std::vector<std::string> missing;
     for (int a = 0; a < 3; ++a)
@@ -270,8 +270,8 @@ class Turning {
       const int position = positions.at(vector[at(a)]);
       if (!contains(alignedPart_.interface, position)) continue;
       throw ModelError(
-          "The frame of node " + std::to_string(node) + " of part \"" + alignedPart_.name +
-          "\" mixes " + names[at(vector[at(a)])] + " with " + quotedList(missing) +
+          "The frame of part \"" + alignedPart_.name + "\" mixes " +
+          model::dofName(*alignedPart_.model, position) + " with " + quotedList(missing) +
           ", but these are not interface or retained dofs of the part. Make all of them interface "
           "dofs, or give a frame that rotates only the dofs the part has.");
     }

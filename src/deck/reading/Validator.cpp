@@ -161,6 +161,26 @@ class ParameterCheck {
   std::string fault_;
 };
 
+/// The choice of the list `spec` that has `name` among its values: that list holds the parameters
+/// of one of its variants.
+const ParameterSpec* choiceOf(const ListSpec& spec, const std::string& name) {
+  for (const auto& parameter : spec.parameters())
+    if (parameter.kind == Kind::Choice &&
+        std::find(parameter.choices.begin(), parameter.choices.end(), name) !=
+            parameter.choices.end())
+      return &parameter;
+  return nullptr;
+}
+
+/// The first parameter in or below the list that an override has set; null when there is none.
+const RawParameter* overridden(const RawList& list) {
+  for (const auto& parameter : list.parameters())
+    if (parameter.place.overrideNumber > 0) return &parameter;
+  for (const auto& sublist : list.lists())
+    if (const auto* found = overridden(sublist)) return found;
+  return nullptr;
+}
+
 class Validation {
  public:
   Validation(const ListSpec& root, std::vector<Finding>& findings, Places& places)
@@ -191,6 +211,7 @@ class Validation {
         add(sublist.place, unknownList(root_, *spec, path, sublist.name, given));
         continue;
       }
+      if (spec != nullptr) requireSelected(sublist, given, *spec, path);
       const bool described = next != nullptr && !next->passesThrough();
       fill(sublist, described ? next : nullptr, path + "/" + sublist.name, below + sublist.name,
            out.sublist(sublist.name));
@@ -199,6 +220,29 @@ class Validation {
   }
 
  private:
+  /// A deck may hold lists of variants that it does not choose; an override of one would be lost.
+  /// One that a later override of the choice supersedes, as the check of a study does, is not
+  /// meant.
+  void requireSelected(const RawList& variant, const RawList& list, const ListSpec& spec,
+                       const std::string& path) {
+    const ParameterSpec* choice = choiceOf(spec, variant.name);
+    if (choice == nullptr) return;
+    const RawParameter* given = list.findParameter(choice->name);
+    const auto* usual = std::get_if<std::string>(&choice->value);
+    const std::string chosen = given != nullptr   ? given->text
+                               : usual != nullptr ? *usual
+                                                  : std::string();
+    if (chosen.empty() || chosen == variant.name) return;
+    const RawParameter* lost = overridden(variant);
+    if (lost == nullptr ||
+        (given != nullptr && given->place.overrideNumber > lost->place.overrideNumber))
+      return;
+    const std::string below = path.substr(std::min(path.find('/', 1), path.size() - 1) + 1);
+    add(lost->place, path + "/" + variant.name + " has no effect, since " + choice->name + " is " +
+                         inQuotes(chosen) + ". Set " + below + "/" + choice->name + "=" +
+                         variant.name + " too, or a parameter of " + below + "/" + chosen + ".");
+  }
+
   void add(const Place& place, const std::string& text) { findings_.push_back({place, text}); }
 
   /// SI unit of a parameter in the list it stands in.

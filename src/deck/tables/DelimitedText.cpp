@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "common/Error.hpp"
@@ -96,6 +97,11 @@ std::optional<CellNumber> cellNumber(const std::string& cell) {
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number.value))
     return std::nullopt;
   return number;
+}
+
+bool isUsualNull(double number) {
+  constexpr double nulls[] = {-999.25, -9999.0, -9999.25, -99999.0};
+  return std::find(std::begin(nulls), std::end(nulls), number) != std::end(nulls);
 }
 
 std::string DecimalMarks::fault(const CellNumber& number, int line) {

@@ -40,6 +40,9 @@ struct CellNumber {
 /// both, no groups of thousands).
 std::optional<CellNumber> cellNumber(const std::string& cell);
 
+/// Whether a number is what loggers write where nothing was measured: -999.25, -9999 and the like.
+bool isUsualNull(double number);
+
 /// The decimal marks of one file: commas or points, and no commas where they separate cells.
 class DecimalMarks {
  public:

@@ -19,8 +19,6 @@ namespace tooljoint::deck {
 namespace {
 
 constexpr std::uint64_t largestLog = 1U << 26U;  // bytes
-/// What loggers write where nothing was measured; a LAS file names its own.
-constexpr double usualNull = -999.25;
 /// Faults that are told; the others are counted.
 constexpr std::size_t mostFaults = 10;
 /// Headings of the time, where the deck names none.
@@ -95,7 +93,6 @@ class Reader {
     if (table.rows.empty()) throw DeckError("The measured log " + file_ + " is empty.");
     rows_ = std::move(table.rows);
     marks_ = DecimalMarks(table.separator);
-    null_ = usualNull;
     header();
   }
 
@@ -242,7 +239,7 @@ class Reader {
 
   bool isNull(const std::string& cell) const {
     const auto read = cellNumber(cell);
-    return null_ && read && read->value == *null_;
+    return read && (null_ ? read->value == *null_ : !las_ && isUsualNull(read->value));
   }
 
   /// SI; nothing for a gap, and for a fault that has been kept.

@@ -223,22 +223,31 @@ Vector binaryMassScale(const Sparse& K, const Sparse& M) {
 
 namespace {
 
-/// Decimal digits of x, or more than `most` where it has more.
-int decimalDigits(double x, int most) {
+struct Decimal {
+  int digits = 0;       ///< or more than `most` where it has more
+  bool chosen = false;  ///< with a run of zeros or nines inside: a stiff spring and a soft one in
+                        ///< one sum or difference
+};
+
+Decimal decimal(double x, int most) {
   const double size = std::abs(x);
-  if (size == 0.0) return 0;
+  Decimal out;
+  if (size == 0.0) return out;
   const int exponent = static_cast<int>(std::floor(std::log10(size)));
-  int digits = 1;
-  for (; digits <= most; ++digits) {
-    const double shifted = size * std::pow(10.0, digits - 1 - exponent);
-    if (std::abs(shifted - std::round(shifted)) <= 4 * epsilon * shifted) break;
+  for (out.digits = 1; out.digits <= most; ++out.digits) {
+    const double shifted = size * std::pow(10.0, out.digits - 1 - exponent);
+    if (std::abs(shifted - std::round(shifted)) > 4 * epsilon * shifted) continue;
+    // of numbers of ten digits that were cut off, one in a thousand has such a run
+    const std::string text = std::to_string(std::llround(shifted));
+    out.chosen = text.find("0000") != std::string::npos || text.find("9999") != std::string::npos;
+    break;
   }
-  return digits;
+  return out;
 }
 
 /// Half a unit of the last digit of entries that a text file has cut off after 8 to 12 digits; 0
-/// where some have more, and where few have as many: those were chosen, such as a stiff spring and
-/// a soft one in one sum, and are exact. So are whole numbers.
+/// where some have more, and where few have as many: those were chosen and are exact. So are whole
+/// numbers, and those with a run of zeros or nines inside.
 double roundingOfText(const Sparse& K) {
   constexpr int fewest = 8, most = 12;
   constexpr long few = 8;  // entries: a beam element of a file has as many
@@ -246,10 +255,10 @@ double roundingOfText(const Sparse& K) {
   long cut = 0;
   for (int i = 0; i < K.outerSize(); ++i)
     for (Sparse::InnerIterator it(K, i); it; ++it) {
-      const int digits = decimalDigits(it.value(), most);
-      if (digits > most) return 0.0;
-      if (digits < fewest || it.value() == std::round(it.value())) continue;
-      longest = std::max(longest, digits);
+      const Decimal number = decimal(it.value(), most);
+      if (number.digits > most) return 0.0;
+      if (number.digits < fewest || number.chosen || it.value() == std::round(it.value())) continue;
+      longest = std::max(longest, number.digits);
       ++cut;
     }
   return cut < few ? 0.0 : 0.5 * std::pow(10.0, 1 - longest);

@@ -81,6 +81,23 @@ double shiftBelowSpectrum(const Pencil& pencil, const EigenOptions& options) {
   return -size;
 }
 
+/// Minus the end of the widest gap between the eigenvalues above zero, where few lie far below all
+/// others, as those of a stiff body on soft mounts: at zero they would leave the others no digits.
+/// Nothing where there is no such gap.
+std::optional<double> shiftBesideLowest(const Pencil& pencil, int wanted) {
+  constexpr int fewest = 3;  // decades of a gap
+  int before = 0, wide = 0, widest = 0;
+  double end = 0;
+  for (double bound = wellAboveZero * pencil.scale; bound < pencil.scale; bound *= 10.0) {
+    const int count = pencil.below(bound);
+    if (count >= wanted) break;
+    wide = count > 0 && count == before ? wide + 1 : 0;
+    if (wide > widest) widest = wide, end = bound;
+    before = count;
+  }
+  return widest < fewest ? std::nullopt : std::optional<double>(-end);
+}
+
 /// Parameters of one attempt. A restart of BlockKrylovSchur may cut a pair of equal eigenvalues
 /// that rounding made complex in the projected problem and then fails; later attempts have larger
 /// blocks and bases, so large that they need no restart.
@@ -360,7 +377,14 @@ EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& opti
     if (modes.values[0] > wellAboveZero * pencil.scale) return modes;
   }
   const double shift = shiftBelowSpectrum(pencil, options);
-  return modesAbove({pencil, shift, options.name}, pencil, count, options);
+  try {
+    return modesAbove({pencil, shift, options.name}, pencil, count, options);
+  } catch (const ConvergenceError&) {
+    const auto other =
+        shift == 0.0 && !options.shift ? shiftBesideLowest(pencil, count) : std::optional<double>();
+    if (!other) throw;
+    return modesAbove({pencil, *other, options.name}, pencil, count, options);
+  }
 }
 
 EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options) {

@@ -69,6 +69,10 @@ PartContent readPartEverywhere(const std::string& path, const std::string& name)
 /// diagonal) or has a direction of negative mass.
 void checkMass(const PartContent& content);
 
+/// Warns of a stiffness that has entries on one side of its diagonal alone: one triangle of a
+/// symmetric matrix, most probably.
+void checkStiffness(const PartContent& content);
+
 enum class FileKind { Hdf5, MatrixMarket, NastranDmig, ExtPtfm };
 
 /// When loads that vary in time are written, for files that hold them as numbers [s].

@@ -59,6 +59,7 @@ class Reader {
     if (source_->has("omitted")) content_.omitted = source_->texts("omitted");
     recoverNodes();
     checkMass(content_);
+    checkStiffness(content_);
     return std::move(content_);
   }
 

@@ -36,8 +36,7 @@ class MtxFile {
   explicit MtxFile(const std::string& path) : path_(path), in_(path) {}
 
   LabelledMatrix matrix(Quantity quantity, const std::string& name) {
-    std::map<std::pair<PointDof, PointDof>, double> given;
-    bool symmetric = true;
+    Entries given;
     while (next()) {
       if (text_[0] == '*') {
         const auto words = upper(text_);
@@ -60,17 +59,17 @@ class MtxFile {
       if (!given.emplace(place, value(fields, 4)).second)
         fail("gives the entry of " + describe(place.first) + " and " + describe(place.second) +
              " twice");
-      if (!(place.first == place.second) && given.count({place.second, place.first}) > 0)
-        symmetric = false;  // both triangles are there
     }
     if (given.empty())
       throw DeckError(
           path_ + " has no entry of a matrix. Expected lines \"node, dof, node, dof, value\"" +
           (quantity == Quantity::Damping ? "; remove the file where there is no damping." : "."));
+    const bool symmetric = isOneTriangle(given);
     LabelledMatrix out{quantity, name, path_, {}};
     for (const auto& [place, number] : given) {
       out.entries.push_back({place.first, place.second, number});
-      if (symmetric && !(place.first == place.second))
+      if (symmetric && !(place.first == place.second) &&
+          given.count({place.second, place.first}) == 0)
         out.entries.push_back({place.second, place.first, number});
     }
     return out;
@@ -94,6 +93,31 @@ class MtxFile {
   }
 
  private:
+  using Entries = std::map<std::pair<PointDof, PointDof>, double>;
+
+  /// Whether the file holds one triangle of a symmetric matrix: entries without their transpose,
+  /// and no others but zeros. DeckError where equal pairs stand beside such entries.
+  bool isOneTriangle(const Entries& given) const {
+    const Entries::value_type *alone = nullptr, *paired = nullptr;
+    bool unequal = false;
+    for (const auto& entry : given) {
+      if (entry.first.first == entry.first.second) continue;
+      const auto transposed = given.find({entry.first.second, entry.first.first});
+      if (transposed == given.end()) {
+        if (entry.second != 0.0) alone = &entry;
+      } else if (entry.second != 0.0) {
+        paired = &entry;
+        unequal = unequal || entry.second != transposed->second;
+      }
+    }
+    if (alone != nullptr && paired != nullptr && !unequal)
+      throw DeckError(path_ + " gives the entry of " + describe(paired->first.first) + " and " +
+                      describe(paired->first.second) + " in both triangles, but that of " +
+                      describe(alone->first.first) + " and " + describe(alone->first.second) +
+                      " in one. Expected one triangle of a symmetric matrix, or both.");
+    return paired == nullptr;
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     throw DeckError(path_ + ":" + std::to_string(line_) + " " + what + ".");
   }

@@ -17,8 +17,8 @@ namespace tooljoint::parts {
 namespace {
 
 /// Largest relative difference of two values that are given for one entry of a symmetric matrix:
-/// the digits of a large field of 16 columns, and of a small one of 8.
-constexpr double sameInDouble = 1e-9, sameInSingle = 1e-3;
+/// the digits of double and of single precision.
+constexpr double sameInDouble = 1e-9, sameInSingle = 1e-6;
 
 using namespace dmig;
 

@@ -76,7 +76,7 @@ class EnhancedCraigBampton : public ReductionMethod {
       if (!follows[at(i)]) others.push_back(i);
     // Rows of L_C M^-1 K, from M x = L_C' and K x.
     const Sparse M = symmetricPart(block(coupled.mass, others, others)),
-                 K = symmetricPart(block(constantStiffness(coupled), others, others));
+                 K = symmetricPart(block(stiffnessAtStart(coupled), others, others));
     const Eigen::LLT<Matrix> factor{Matrix(M)};
     if (factor.info() != Eigen::Success)
       throw ModelError(
@@ -97,6 +97,13 @@ class EnhancedCraigBampton : public ReductionMethod {
   }
 
  private:
+  /// With the terms that have a law of time, and the tangents of springs and other point laws: they
+  /// hold back the boundary dofs as much as the rest does.
+  static Sparse stiffnessAtStart(const model::SecondOrderModel& model) {
+    return model.stiffnessAt(0.0) +
+           model.pointStiffness(0.0, model.initialDisplacement, model.initialVelocity);
+  }
+
   /// F L = K_II^-1 L - Phi_D Lambda^-1 Phi_D' L with the symmetric part of K; blocks that touch no
   /// boundary dof have no L.
   static Matrix residualVectors(const PartView& part, const Basis& basis) {

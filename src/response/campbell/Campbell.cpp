@@ -32,7 +32,7 @@ constexpr double repeated = 1e-6;
 constexpr double noLateral = 1e-9;
 /// A refined mode is that of the diagram when their MAC is not below this.
 constexpr double sameMode = 0.5;
-constexpr int storeFormat = 1;     ///< raised when the meaning of a kept diagram changes
+constexpr int storeFormat = 2;     ///< raised when the meaning of a kept diagram changes
 constexpr double keptEvery = 0.2;  ///< [s]
 /// Of the frequency: |Im s - excitation| at a crossing, about one state and about states that are
 /// each found to a tolerance of their own, and iterations allowed.
@@ -113,6 +113,7 @@ class Diagram {
       if (i == drawn) addShapes();
       if (contains(checked, i)) addChecks();
       if (i > 0) addCrossings(settings_.speeds[i - 1], before);
+      if (i > 0) addLimits(settings_.speeds[i - 1], before);
       progress.update(static_cast<double>(i + 1));
     }
     progress.finish();
@@ -185,6 +186,10 @@ class Diagram {
     if (states_.ofEachSpeed())
       out_.states.push_back({speed, states_.about(speed)->rest().figures()});
     const auto& latest = search_.latest();
+    Divergence diverges{speed, 0.0};
+    for (const Complex s : latest.values)
+      if (!vibrates(s)) diverges.growth = std::max(diverges.growth, s.real());
+    if (diverges.growth > 0.0) out_.divergences.push_back(diverges);
     for (const auto& mode : now) {
       if (!search_.shown(mode.s)) continue;
       CampbellRow row{speed, mode.track, mode.s, mode.mac, shapes_.whirl(mode.shape), 0.0};
@@ -226,17 +231,43 @@ class Diagram {
     crossingShapes_.push_back({found.at, static_cast<int>(line), shapes_.scaled(mode.shape)});
   }
 
-  /// Im s(Omega) = excitation(Omega) by false position (Illinois), each value a refined mode.
-  /// \param guess  the mode there
   Crossing crossing(std::size_t line, double from, const TrackedMode& early,
                     const TrackedMode& late, linalg::DampedMode& guess) {
     const auto& excitation = settings_.lines[line];
+    const auto found =
+        root([&](double speed, Complex s) { return s.imag() - excitation.at(speed); }, from, early,
+             late, guess);
+    return {line, found.at, found.refined};
+  }
+
+  /// Where modes that grow at one of two speeds do not at the other.
+  void addLimits(double from, const std::vector<TrackedMode>& before) {
+    for (const auto& late : tracker_.now())
+      for (const auto& early : before) {
+        if (early.track != late.track || (grows(early.s) == grows(late.s))) continue;
+        linalg::DampedMode mode;
+        const auto found =
+            root([](double, Complex s) { return s.real(); }, from, early, late, mode);
+        if (search_.shown(found.at.s))
+          out_.limits.push_back({found.at, grows(late.s), found.refined});
+      }
+  }
+
+  struct Root {
+    CampbellRow at;
+    bool refined = true;
+  };
+
+  /// g(Omega, s(Omega)) = 0 between two speeds by false position (Illinois), each value a refined
+  /// mode. \param guess  the mode there
+  template <class Function>
+  Root root(const Function& g, double from, const TrackedMode& early, const TrackedMode& late,
+            linalg::DampedMode& guess) {
     const double to = tracker_.speed();
     const double close = states_.ofEachSpeed() ? crossedStates : crossed;
-    double a = from, b = to, ga = early.s.imag() - excitation.at(a),
-           gb = late.s.imag() - excitation.at(b);
+    double a = from, b = to, ga = g(a, early.s), gb = g(b, late.s);
     const double linear = a - ga * (b - a) / (gb - ga);
-    Crossing found{line, nearestRow(late.track)};
+    Root found{nearestRow(late.track)};
     const double share = (linear - from) / (to - from);
     guess = {early.s + share * (late.s - early.s), share < 0.5 ? early.shape : late.shape};
     const Complex interpolated = guess.s;
@@ -248,12 +279,12 @@ class Diagram {
       guess = *mode;
       found.at.speed = speed;
       found.at.s = mode->s;
-      const double g = mode->s.imag() - excitation.at(speed);
-      if (std::abs(g) <= close * std::abs(mode->s) || b - a <= close * b) return found;
-      if ((g > 0.0) == (ga > 0.0)) {
-        a = speed, ga = g, gb *= side < 0 ? 0.5 : 1.0, side = -1;
+      const double value = g(speed, mode->s);
+      if (std::abs(value) <= close * std::abs(mode->s) || b - a <= close * b) return found;
+      if ((value > 0.0) == (ga > 0.0)) {
+        a = speed, ga = value, gb *= side < 0 ? 0.5 : 1.0, side = -1;
       } else {
-        b = speed, gb = g, ga *= side > 0 ? 0.5 : 1.0, side = 1;
+        b = speed, gb = value, ga *= side > 0 ? 0.5 : 1.0, side = 1;
       }
     }
     found.at.speed = linear;
@@ -314,8 +345,13 @@ class Diagram {
 
 }  // namespace
 
+bool grows(Complex s) {
+  constexpr double rounding = 1e-8;  // of |s|
+  return s.real() > rounding * std::abs(s);
+}
+
 double CampbellRow::frequency() const { return s.imag() / constants::twoPi; }
-double CampbellRow::damping() const { return -s.real() / std::abs(s); }
+double CampbellRow::damping() const { return 0.0 - s.real() / std::abs(s); }
 
 CampbellDiagram campbell(const RotatingStates& states, const CampbellSettings& settings,
                          const cases::RowFolder& store) {

@@ -80,6 +80,30 @@ struct Crossing {
   }
 };
 
+/// A speed at which a mode begins to grow, or ends: Re s = 0.
+struct StabilityLimit {
+  CampbellRow at;      ///< the mode there; whirl, mac and error of the nearest speed of the diagram
+  bool begins = true;  ///< to grow as the speed rises
+  bool refined = true;  ///< false: by linear interpolation between two speeds
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(at, begins, refined);
+  }
+};
+
+/// A speed of the diagram at which the state is left without vibration: s > 0 of the modes looked
+/// at there.
+struct Divergence {
+  double speed = 0.0;   ///< [rad/s]
+  double growth = 0.0;  ///< the largest s [1/s]
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(speed, growth);
+  }
+};
+
 /// The motion of a mode: Re(shape exp(s t)).
 struct ModeShape {
   CampbellRow at;
@@ -119,16 +143,21 @@ struct StateRow {
   }
 };
 
+/// Whether a mode grows, beyond rounding.
+bool grows(std::complex<double> s);
+
 struct CampbellDiagram {
-  std::vector<CampbellRow> rows;    ///< speed by speed, by |s|
-  std::vector<Crossing> crossings;  ///< by line, then speed
+  std::vector<CampbellRow> rows;        ///< speed by speed, by |s|
+  std::vector<Crossing> crossings;      ///< by line, then speed
+  std::vector<StabilityLimit> limits;   ///< by speed
+  std::vector<Divergence> divergences;  ///< speed by speed
   std::vector<SpotCheck> checks;
   std::vector<ModeShape> shapes;  ///< of one speed, then of the crossings
   std::vector<StateRow> states;   ///< speed by speed; none of one state
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(rows, crossings, checks, shapes, states);
+    archive(rows, crossings, limits, divergences, checks, shapes, states);
   }
 };
 

@@ -165,21 +165,36 @@ void warnOfCoarseness(const CampbellDiagram& diagram) {
         100.0 * checked->error));
 }
 
-/// Damped modes whose damping ratio is below this grow, beyond rounding.
-constexpr double growing = -1e-8;
-
 void warnOfGrowth(const CampbellDiagram& diagram) {
   const auto worst =
       std::min_element(diagram.rows.begin(), diagram.rows.end(),
                        [](const auto& a, const auto& b) { return a.damping() < b.damping(); });
-  if (worst == diagram.rows.end() || worst->damping() >= growing) return;
-  const auto first = std::find_if(diagram.rows.begin(), diagram.rows.end(),
-                                  [](const auto& row) { return row.damping() < growing; });
+  if (worst != diagram.rows.end() && grows(worst->s)) {
+    const auto first = std::find_if(diagram.rows.begin(), diagram.rows.end(),
+                                    [](const auto& row) { return grows(row.s); });
+    std::string from =
+        fmt::format("at {:.2f} rpm (mode {})", first->speed * rpmPerRadianPerSecond, first->mode);
+    const auto limit = std::find_if(diagram.limits.begin(), diagram.limits.end(),
+                                    [](const auto& one) { return one.begins; });
+    if (limit != diagram.limits.end() && limit->at.speed <= first->speed)
+      from = fmt::format("from {:.2f} rpm on (mode {}, {:.4g} Hz{})",
+                         limit->at.speed * rpmPerRadianPerSecond, limit->at.mode,
+                         limit->at.frequency(), limit->refined ? "" : ", interpolated");
+    log::warn(
+        fmt::format("Modes are unstable {}. The lowest damping ratio is {:.2e}: mode {} at "
+                    "{:.2f} rpm.",
+                    from, worst->damping(), worst->mode, worst->speed * rpmPerRadianPerSecond));
+  }
+  const auto& left = diagram.divergences;
+  if (left.empty()) return;
+  const auto fastest = std::max_element(
+      left.begin(), left.end(), [](const auto& a, const auto& b) { return a.growth < b.growth; });
   log::warn(
-      fmt::format("Modes are unstable from {:.2f} rpm on (mode {}). The lowest damping ratio is "
-                  "{:.2e}: mode {} at {:.2f} rpm.",
-                  first->speed * rpmPerRadianPerSecond, first->mode, worst->damping(), worst->mode,
-                  worst->speed * rpmPerRadianPerSecond));
+      fmt::format("The state is left without vibration at {} of the speeds, at {:.2f} rpm "
+                  "first; the fastest as exp({:.3g} t), at {:.2f} rpm. Modes that do not "
+                  "vibrate are not in the diagram.",
+                  left.size(), left.front().speed * rpmPerRadianPerSecond, fastest->growth,
+                  fastest->speed * rpmPerRadianPerSecond));
 }
 
 void writeLines(const CampbellSettings& settings, io::ResultsFile& file) {
@@ -246,6 +261,19 @@ void summarise(const RotatingCase& rotating, const CampbellDiagram& diagram,
   if (rotating.estimated()) summary.set("campbell.largest_estimate", estimate);
   for (const auto& check : diagram.checks) error = std::max(error, check.error);
   if (!diagram.checks.empty()) summary.set("campbell.largest_error", error);
+  if (!diagram.divergences.empty()) {
+    double fastest = 0.0;
+    for (const auto& one : diagram.divergences) fastest = std::max(fastest, one.growth);
+    summary.set("campbell.fastest_divergence", fastest);
+  }
+  for (const auto& one : diagram.limits) {
+    io::SummaryRow row;
+    row.set("mode", one.at.mode)
+        .set("speed_rpm", one.at.speed * rpmPerRadianPerSecond)
+        .set("hz", one.at.frequency())
+        .set("begins", one.begins);
+    summary.append("campbell.stability_limits", row);
+  }
   for (const auto& one : diagram.crossings) {
     io::SummaryRow row;
     row.set("excitation", settings.lines[one.line].name)

@@ -189,7 +189,8 @@ class MapReader {
 ListSpec axisParameters() {
   return ListSpec("Axis", "An axis of the grid, named as you like: the name of its column.")
       .text("Parameter", deck::Required{},
-            "Path of a parameter of the deck: Loads/Weight On Bit, Rotary Speed/Constant/Speed ...")
+            "Path of a parameter of the deck: Loads/Weight On Bit, Rotary Speed/Exponential/Final "
+            "Speed ...")
       .textArray("Values", deck::Optional{}, {},
                  "Its points, each written as behind --set PATH=; or From, To and Count.")
       .text("From", deck::Optional{}, "First point, with its unit: \"60 rpm\".")

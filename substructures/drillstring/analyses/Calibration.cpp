@@ -35,12 +35,11 @@ class Model {
         const std::vector<Measurement>& measured)
       : scene_(scene), settings_(settings), measured_(measured) {
     const auto& contact = *scene.contact;
-    unknowns_.push_back({"friction", "Contact/Friction/Dynamic", contact.values.muDynamic,
-                         contact.values.muStatic});
+    unknowns_.push_back({"friction", "Contact/Friction/Dynamic", contact.values.muDynamic});
     for (const auto& interval : contact.intervals)
       unknowns_.push_back({"friction in " + interval.name,
                            "Contact/Intervals/" + interval.name + "/Friction/Dynamic",
-                           interval.values.muDynamic, interval.values.muStatic});
+                           interval.values.muDynamic});
     unknowns_.push_back({"block weight", "Torque and Drag/Block Weight", settings.blockWeight});
     for (const auto& one : measured) {
       auto named = settings;
@@ -221,22 +220,30 @@ Calibration calibrate(const Scene& scene, const softstring::TorqueDragSettings& 
     throw ConvergenceError(file + ": the fit of friction to the measurements did not converge.");
 
   const auto p = search.at(x);
-  const Matrix J = model.jacobian(p, which);
-  requireDetermined(model, which, J, file);
-  const Vector r = model.residual(p);
-  const Matrix covariance = linalg::inverseOf(J.transpose() * J) * r.squaredNorm() / freedom;
-  const double t = boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
-
+  requireDetermined(model, which, model.jacobian(p, which), file);
   Calibration done;
-  for (std::size_t j = 0; j < which.size(); ++j) {
-    Fitted one = model.unknowns()[which[j]];
-    one.value = p[which[j]];
-    one.uncertainty =
-        t * std::sqrt(covariance(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j)));
-    one.atBound = model.isWeight(which[j]) ? one.value < nearBound * scale
-                                           : one.value < nearBound || one.value > 1.0 - nearBound;
+  std::vector<std::size_t> inside;
+  for (const auto i : which) {
+    Fitted one = model.unknowns()[i];
+    one.value = p[i];
+    one.uncertainty = std::nan("");
+    one.atBound = model.isWeight(i) ? one.value < nearBound * scale
+                                    : one.value < nearBound || one.value > 1.0 - nearBound;
+    if (!one.atBound) inside.push_back(i);
     done.fitted.push_back(one);
   }
+  const Vector r = model.residual(p);
+  if (!inside.empty()) {
+    const Matrix J = model.jacobian(p, inside);
+    const int left = model.values() - sizeOf(inside);
+    const Vector variances =
+        linalg::inverseOf(J.transpose() * J).diagonal() * r.squaredNorm() / left;
+    const double t = boost::math::quantile(boost::math::students_t(left), 0.5 + 0.5 * confidence);
+    Eigen::Index next = 0;
+    for (Fitted& one : done.fitted)
+      if (!one.atBound) one.uncertainty = t * std::sqrt(variances[next++]);
+  }
+  done.scatter = std::sqrt(r.squaredNorm() / freedom);
   done.measured = measured;
   done.computed = model.compute(p);
   std::vector<double> hook, torque;

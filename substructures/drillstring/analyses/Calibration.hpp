@@ -22,22 +22,22 @@ struct Fitted {
   std::string name;          ///< "friction", "friction in casing", "block weight"
   std::string parameter;     ///< its path in the deck
   double deck = 0.0;         ///< value of the deck
-  double deckStatic = 0.0;   ///< of friction: the static coefficient of the deck
   double value = 0.0;        ///< [1] or [N]
-  double uncertainty = 0.0;  ///< half the width of the 95 % confidence interval
-  bool atBound = false;      ///< the interval then says nothing
+  double uncertainty = 0.0;  ///< half the width of the 95 % confidence interval; NaN at a bound
+  bool atBound = false;
 };
 
 struct Calibration {
   std::vector<Fitted> fitted;
   std::vector<Measurement> measured, computed;      ///< line by line; gaps as measured
   double hookLoadMisfit = 0.0, torqueMisfit = 0.0;  ///< root mean square [N], [N m]
+  double scatter = 0.0;  ///< misfit in uncertainties of the measurements: about 1 is expected
 };
 
 /// Levenberg-Marquardt from the values of the deck; confidence intervals of the linearised problem
-/// by Student's t with the scatter of the residuals. Coefficients of stretches that no measurement
-/// sees keep their values. DeckError: fewer measured values than unknowns, or values that do not
-/// tell the unknowns apart. ConvergenceError.
+/// by Student's t with the scatter of the residuals, quantities at a bound held there. Coefficients
+/// of stretches that no measurement sees keep their values. DeckError: fewer measured values than
+/// unknowns, or values that do not tell the unknowns apart. ConvergenceError.
 Calibration calibrate(const Scene& scene, const softstring::TorqueDragSettings& settings,
                       const std::vector<Measurement>& measured);
 

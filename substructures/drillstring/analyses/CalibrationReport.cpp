@@ -25,7 +25,7 @@ std::string staticOf(const std::string& dynamic) {
 void print(const Calibration& fit) {
   log::info(fmt::format("calibration to {} lines of measurements; intervals of 95 % confidence",
                         fit.measured.size()));
-  std::vector<std::string> settings;
+  std::vector<std::string> settings, bounds;
   for (const Fitted& one : fit.fitted) {
     const bool force = one.name == "block weight";
     const deck::PrintedUnit unit(force ? "kN" : "");
@@ -33,11 +33,12 @@ void print(const Calibration& fit) {
     const auto text = [&](double value) {
       return fmt::format("{:.{}f}", unit(value), force ? 1 : 3);
     };
-    log::info(fmt::format("{:<28}{:>9} {} {}{}   (deck: {})", one.name, text(one.value),
-                          one.atBound ? "at its bound," : "+-", text(one.uncertainty), suffix,
+    log::info(fmt::format("{:<28}{:>9} {}{}   (deck: {})", one.name, text(one.value),
+                          one.atBound ? "at its bound" : "+- " + text(one.uncertainty), suffix,
                           text(one.deck)));
-    if (!force &&
-        one.value > one.deckStatic)  // the dynamic coefficient is not above the static one
+    if (one.atBound) bounds.push_back(one.name);
+    // measurements do not tell the static coefficient from the dynamic one
+    if (!force)
       settings.push_back(fmt::format("--set \"{}={}\"", staticOf(one.parameter), text(one.value)));
     settings.push_back(fmt::format("--set \"{}={}{}\"", one.parameter, text(one.value), suffix));
   }
@@ -45,7 +46,18 @@ void print(const Calibration& fit) {
   log::info(fmt::format(
       "misfit      {:.1f} {} of hook load, {:.2f} {} of torque (root mean square)",
       force(fit.hookLoadMisfit), force.name(), torque(fit.torqueMisfit), torque.name()));
-  log::info("in a deck");
+  constexpr double tooLarge = 2.0;  // misfit in stated uncertainties
+  if (!bounds.empty())
+    log::warn("The fit ends at a bound of " + join(bounds, " and ") +
+              ": the measurements contradict the model of the deck. Look at their units, "
+              "operations and signs, and at weights and sections of the deck.");
+  else if (fit.scatter > tooLarge)
+    log::warn(
+        fmt::format("The measurements scatter {:.2g} times as much about the fit as their "
+                    "uncertainties in the deck say: values may be wrong, or the model lacks "
+                    "something.",
+                    fit.scatter));
+  log::info("in a deck, where measurements do not tell static from dynamic friction");
   for (const auto& setting : settings) log::info("  " + setting);
 }
 

@@ -112,7 +112,7 @@ class Reader {
                : row.cells[static_cast<std::size_t>(i)];
   }
 
-  /// Empty where the cell is.
+  /// Empty where the cell is, or holds the null of loggers.
   std::optional<double> number(const deck::DelimitedRow& row, Kind k) {
     const std::string text = cell(row, k);
     if (text.empty()) return std::nullopt;
@@ -125,6 +125,7 @@ class Reader {
     }
     if (const std::string wrong = marks_.fault(*read, row.line); !wrong.empty())
       fault(row.line, "the " + std::string(measuredColumns[k].name) + " " + inQuotes(text) + wrong);
+    if (deck::isUsualNull(read->value)) return std::nullopt;
     return read->value * factor_[k];
   }
 

@@ -177,17 +177,29 @@ double withinReach(const Scene& scene, double bit, const std::string& where) {
 
 SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene)}; }
 
+namespace {
+
+/// Of the deck's list Rotary Speed after its start, with sign; 0 where it is missing or stops.
+double deckSpeed(const Scene& scene) {
+  return scene.rotary.present() ? scene.rotary.speed(started) : 0.0;
+}
+
+}  // namespace
+
+double turningSpeed(const Scene& scene, const softstring::TorqueDragSettings& settings) {
+  const double own = std::abs(deckSpeed(scene));
+  return settings.rotarySpeed.value_or(own > 0.0 ? own : usualSpeed);
+}
+
 std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings) {
-  const double deckSpeed = scene.rotary.present() ? scene.rotary.speed(started) : 0.0;
   const auto& loads = scene.list().sublist("Loads");
   // operations turn in the positive sense: the torque of a deck that turns backward changes its
   // sign
-  const double sense = deckSpeed < 0.0 ? -1.0 : 1.0;
+  const double sense = deckSpeed(scene) < 0.0 ? -1.0 : 1.0;
   drilling::BitLoad bit{loads.get<double>("Weight On Bit"),
                         sense * loads.get<double>("Torque On Bit")};
-  const double speed =
-      settings.rotarySpeed.value_or(deckSpeed != 0.0 ? std::abs(deckSpeed) : usualSpeed);
+  const double speed = turningSpeed(scene, settings);
   if (scene.bit) {
     const Scene drilled = turningAt(scene, speed);
     const auto steady = drilling::steadyLoad(

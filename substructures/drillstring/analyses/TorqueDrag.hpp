@@ -59,6 +59,10 @@ struct SoftModel {
 /// a pipe). The scene must outlive the model. DeckError: the deck has no friction or no weight.
 SoftModel softModel(const Scene& scene);
 
+/// Rotary speed of the operations that turn [rad/s]: of the settings, else of the deck after its
+/// start, else a usual one.
+double turningSpeed(const Scene& scene, const softstring::TorqueDragSettings& settings);
+
 /// The operations of the settings, with weight and torque on bit of the deck's list `Loads`.
 std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings);

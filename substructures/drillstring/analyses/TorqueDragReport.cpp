@@ -102,6 +102,8 @@ void print(const Scene& scene, const std::vector<TorqueDragProfile>& profiles,
   log::info(
       fmt::format("torque and drag, soft string, bit at {}; margins are allowed over present load",
                   text(deepest, "m", 1)));
+  log::info(fmt::format("operations that turn do so at {:.4g} rpm",
+                        turningSpeed(scene, settings) / constants::rpm));
   log::info(fmt::format("{:<18}{:>13}{:>15}{:>9}{:>14}{:>8}{:>8}{:>8}", "operation", "hook load",
                         "surface torque", "turns", "side force", "yield", "sinus.", "helix"));
   for (const auto& profile : profiles)
@@ -138,6 +140,8 @@ void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, boo
         stageTables(profiles, settings, files.folder());
         writeDatasets(profiles, settings, file);
         summarise(profiles, settings, files.summary());
+        files.summary().set("torque_drag.rotary_speed_rpm",
+                            turningSpeed(scene, settings) / constants::rpm);
         stage(calibration, files.folder());
         summarise(calibration, files.summary());
       });

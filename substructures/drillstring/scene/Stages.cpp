@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fmt/format.h>
 #include <limits>
 #include <set>
 #include <unordered_map>
@@ -30,6 +31,20 @@ namespace tooljoint::drillstring {
 
 namespace nodal = beam::nodal;
 
+namespace {
+
+/// ", 0.25 to 0.28": of the coefficients of points with friction.
+std::string range(const std::vector<double>& coefficients) {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const double one : coefficients)
+    if (one > 0.0) least = std::min(least, one), most = std::max(most, one);
+  if (!(most > 0.0)) return "";
+  const auto from = fmt::format(", {:.3g}", least), to = fmt::format("{:.3g}", most);
+  return from == ", " + to ? from : from + " to " + to;
+}
+
+}  // namespace
+
 StaticFriction staticFriction(const Scene& scene) {
   constexpr double atRest = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude
   using equilibrium::FrictionRule;
@@ -47,7 +62,9 @@ StaticFriction staticFriction(const Scene& scene) {
   if (direction == 0.0) return {0.0, 0.0, "the string never turns"};
   if (scene.statics.friction == FrictionRule::Peak) return {direction, 0.0, "peak coefficient"};
   if (!turns) return {direction, 0.0, "peak coefficient: the string starts from rest"};
-  return {direction, std::abs(speed), "coefficient at the sliding speed Omega R_c"};
+  return {direction, std::abs(speed),
+          "coefficient at the sliding speed Omega R_c" +
+              range(scene.contactPoints.slidingAt(speed).muStatic)};
 }
 
 namespace {

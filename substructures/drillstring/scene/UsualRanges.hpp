@@ -14,6 +14,7 @@ namespace tooljoint::drillstring {
 struct UsualRange {
   std::string path;  ///< of a number, or of an array of them, of sceneSpec()
   double low, high;  ///< of its size, in its SI unit; 0 is usual everywhere
+  double bare = 0;   ///< `high` of a number without a unit; 0: the same
 };
 
 /// From the laboratory to the largest rigs.

@@ -47,7 +47,7 @@ TEST(LogTable, UnitsStandInTheHeaderOrBelowIt) {
 }
 
 TEST(LogTable, TheUsualNullOfLoggersIsAGap) {
-  const auto found = read("Time [s],x [N]\n0,60\n1,-999.25\n2,-999\n", {{"x", "N", ""}});
+  const auto found = read("Time [s],x [N]\n0,60\n1,-999.25\n2,-999\n3,-9999\n", {{"x", "N", ""}});
   EXPECT_EQ(found[0].time, (std::vector<double>{0, 2}));
   EXPECT_EQ(found[0].value, (std::vector<double>{60, -999}));
 }

@@ -99,6 +99,39 @@ TEST(Override, EntersListsWithNamesOfOnesOwnThatAreThere) {
             "\"upper part\" there. Did you mean \"upper part\"?");
 }
 
+/// A list with parameters of variants: of the one that is chosen, and of another.
+ListSpec motor() {
+  ListSpec spec("motor", "A motor.");
+  spec.choice("Law", "Constant", {"Constant", "Ramp"}, "The form of the speed.")
+      .list(ListSpec("Constant", "One speed.").real("Speed", "rad/s", 1.0, Range::any(), "It."))
+      .list(ListSpec("Ramp", "A ramp.").real("Rate", "rad/s2", 1.0, Range::any(), "Its rate."));
+  ListSpec scene("scene", "A scene.");
+  scene.list(spec);
+  return scene;
+}
+
+TEST(Override, OfAVariantThatIsNotChosenIsRefused) {
+  const std::string text =
+      "<ParameterList name=\"x\"><ParameterList name=\"motor\"><ParameterList name=\"Ramp\">" +
+      parameter("Rate", "double", "2") + "</ParameterList></ParameterList></ParameterList>";
+  const auto fault = [&](const std::vector<std::string>& overrides) -> std::string {
+    try {
+      Deck::parse(text, "deck.xml", motor(), overrides);
+    } catch (const DeckError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(fault({}), "") << "a deck may hold what it does not choose";
+  EXPECT_EQ(fault({"motor/Constant/Speed=3"}), "");
+  EXPECT_EQ(fault({"motor/Ramp/Rate=3"}),
+            "--set motor/Ramp/Rate=3: /x/motor/Ramp has no effect, since Law is \"Constant\". Set "
+            "motor/Law=Ramp too, or a parameter of motor/Constant.");
+  EXPECT_EQ(fault({"motor/Ramp/Rate=3", "motor/Law=Ramp"}), "");
+  EXPECT_EQ(fault({"motor/Law=Ramp", "motor/Ramp/Rate=3", "motor/Law=Constant"}), "")
+      << "superseded";
+}
+
 TEST(Override, KeepsTheTypeInPassThroughListsOrGuessesIt) {
   const auto nox =
       listWith({"Transient/NOX/Tolerance=2", "Transient/NOX/Max Iterations=5",

@@ -2,6 +2,7 @@
 // Values that are seldom meant, and what is said of them.
 #include "substructures/drillstring/scene/UsualRanges.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <regex>
 #include <sstream>
@@ -58,10 +59,18 @@ TEST(UsualRanges, KnowSpeedsAnglesAndFriction) {
       "--set Contact/Friction/Static=30: /first_run/Contact/Friction/Static is 30, outside what is "
       "usual in drilling (up to 1.5).",
       "--set Campbell/Highest Speed=300: /first_run/Campbell/Highest Speed is 300 rad/s, outside "
-      "what is usual in drilling (up to 250 rad/s). Is \"300 rpm\" or \"300 deg/s\" meant?"};
-  EXPECT_EQ(said("first_run.xml", {"Drillstring/Tool Face=45", "Contact/Friction/Static=30",
-                                   "Campbell/Highest Speed=300"}),
-            expected);
+      "what is usual in drilling (up to 250 rad/s). Is \"300 rpm\" or \"300 deg/s\" meant?",
+      "--set Torque and Drag/Rotary Speed=60: /first_run/Torque and Drag/Rotary Speed is 60 rad/s, "
+      "outside what is usual in drilling (up to 31.5 rad/s). Is \"60 rpm\" or \"60 deg/s\" meant?"};
+  auto found =
+      said("first_run.xml", {"Drillstring/Tool Face=45", "Contact/Friction/Static=30",
+                             "Campbell/Highest Speed=300", "Torque and Drag/Rotary Speed=60"});
+  std::sort(found.begin(), found.end());
+  auto sorted = expected;
+  std::sort(sorted.begin(), sorted.end());
+  EXPECT_EQ(found, sorted);
+  EXPECT_TRUE(said("first_run.xml", {"Torque and Drag/Rotary Speed=400 rpm"}).empty())
+      << "with a unit";
 }
 
 TEST(UsualRanges, KnowDiameters) {

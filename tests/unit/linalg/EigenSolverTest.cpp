@@ -4,6 +4,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <tuple>
 
 #include "Models.hpp"
 #include "common/Constants.hpp"
@@ -159,6 +160,34 @@ TEST(EigenSolver, RigidBodyModesOfFreeBodies) {
   expectModes(chain, modes, 30);
   EXPECT_NEAR(modes.values[0] / freeChain(500, 1), 0.0, 1e-9);
   for (int j = 1; j < 30; ++j) EXPECT_NEAR(modes.values[j] / freeChain(500, j), 1.0, 1e-9);
+}
+
+/// A stiff block of masses in a lattice on four soft mounts at the corners of its floor: the lowest
+/// value lies nine orders below the next one.
+TEST(EigenSolver, OneModeFarBelowTheOthers) {
+  constexpr int side = 6, n = side * side * side;
+  const double link = 1e9, mass = 0.008;
+  for (const double mount : {10.0, 60.0, 130.0, 300.0, 1e3}) {
+    Triplets K, M;
+    for (int i = 0; i < n; ++i) {
+      M.emplace_back(i, i, mass);
+      const int place[3] = {i % side, i / side % side, i / side / side};
+      for (int axis = 0, step = 1; axis < 3; ++axis, step *= side)
+        if (place[axis] + 1 < side)
+          for (const auto& [row, column, sign] :
+               {std::tuple{i, i, 1}, {i + step, i + step, 1}, {i, i + step, -1}, {i + step, i, -1}})
+            K.emplace_back(row, column, sign * link);
+    }
+    for (const int corner : {0, side - 1, side * (side - 1), side * side - 1})
+      K.emplace_back(corner, corner, mount);
+    const Pencil block{testing::assembled(n, K), testing::assembled(n, M)};
+    const EigenPairs modes = lowestModes(block.K, block.M, 6);
+    expectModes(block, modes, 6);
+    EXPECT_NEAR(modes.values[0] / (4 * mount / (n * mass)), 1.0, 1e-5) << mount;
+    EXPECT_NEAR(modes.values[1] * mass / (4 * link * std::pow(std::sin(constants::pi / 12), 2)),
+                1.0, 1e-6)
+        << mount;
+  }
 }
 
 TEST(EigenSolver, NegativeEigenvaluesOfABuckledBeamComeFirst) {

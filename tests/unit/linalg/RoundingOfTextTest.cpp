@@ -52,12 +52,23 @@ TEST(RoundingOfText, LeavesRigidMotionsAtZero) {
 
 /// Chosen numbers are exact whatever their digits: soft springs to the ground beside stiff links.
 TEST(RoundingOfText, IsNotThatOfChosenNumbers) {
-  for (const auto& [link, ground] : {std::pair{1e11, 20.0}, std::pair{1e8, 0.25}})
-    for (const int n : {2, 3, 12}) {
+  for (const auto& [link, ground] :
+       {std::pair{1e11, 20.0}, std::pair{1e8, 0.25}, std::pair{1e6, 0.1}})
+    for (const int n : {2, 3, 12, 200}) {
       const auto found = lowest(row(n, link, ground), 1).values;
       EXPECT_NEAR(std::abs(found[0]), std::sqrt(ground), 1e-2 * std::sqrt(ground))
           << link << ", " << n << " masses";
     }
+}
+
+/// A ground that drives: 999999.9 and 1999999.9 are chosen, too.
+TEST(RoundingOfText, IsNotThatOfADifference) {
+  const int n = 200;
+  Matrix K = -0.1 * Matrix::Identity(n, n);
+  for (int i = 0; i + 1 < n; ++i)
+    K.block(i, i, 2, 2) += 1e6 * (Matrix(2, 2) << 1, -1, -1, 1).finished();
+  const auto found = lowest(K, 2).values;
+  EXPECT_NEAR(found.real().maxCoeff(), std::sqrt(0.1), 1e-3);
 }
 
 /// Whole numbers, few digits and all digits.

@@ -125,6 +125,19 @@ TEST(AbaqusMatrices, OneTriangleOrBoth) {
   EXPECT_EQ(Matrix(part.mass), (Matrix(2, 2) << 2, 0, 0, 0).finished());  // singular, and taken so
 }
 
+/// Zeros may stand in both triangles beside one triangle; other pairs beside lone entries may not.
+TEST(AbaqusMatrices, ZerosInBothTrianglesAreNoFullMatrix) {
+  const std::string triangle = "3,1,3,1,5.\n8,1,3,1,-3.\n8,1,8,1,4.\n9,1,8,1,-1.\n9,1,9,1,2.\n";
+  const Matrix expected = AbaqusJob(triangle).stiffnessMatrix();
+  EXPECT_EQ(expected, expected.transpose());
+  EXPECT_EQ(AbaqusJob(triangle + "9,1,3,1,0.\n3,1,9,1,0.\n").stiffnessMatrix(), expected);
+  AbaqusJob(triangle + "3,1,8,1,-3.\n")
+      .refuses("in both triangles, but that of component 1 of point 9 and component 1 of point 8");
+  const Matrix full = AbaqusJob(triangle + "3,1,8,1,-2.\n").stiffnessMatrix();
+  EXPECT_EQ(full(0, 1), -2.0);
+  EXPECT_EQ(full(1, 2), 0.0) << "a matrix with unequal pairs is given whole";
+}
+
 TEST(AbaqusMatrices, HeldDofsAreLeftOut) {
   const AbaqusJob job("3,1,3,1,5.\n8,2,8,2,1.0E+36\n9,1,9,1,4.\n");
   EXPECT_EQ(job.read("a_STIF1.mtx").part.model.dofs,

@@ -4,6 +4,7 @@
 /// forms, and Craig-Bampton with as many coordinates.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
+#include <functional>
 #include <gtest/gtest.h>
 
 #include "common/Constants.hpp"
@@ -73,6 +74,27 @@ double error(const std::vector<model::Substructure>& parts, const std::string& b
                small =
                    checks::eigenvalues(checks::synthesise(parts, basis, modes, set).coupled.model);
   return (small.head(count).array() / full.head(count).array() - 1).maxCoeff();
+}
+
+// A spring at the joint, as a constant term and under a law of time: M^-1 K has it.
+TEST(EnhancedCraigBampton, ASpringAtTheJointCountsHoweverItIsGiven) {
+  const double stiffness = 50.0;
+  const auto errorsOf = [&](const std::function<void(model::Substructure&)>& add) {
+    auto parts = humarBar();
+    add(parts[1]);
+    return error(parts, "Enhanced Craig-Bampton", 2, 3);
+  };
+  const auto spring = [&](model::Substructure& part, int law) {
+    Sparse K(part.model.size(), part.model.size());
+    K.insert(0, 0) = stiffness;
+    part.model.stiffness.push_back({"spring", K, law});
+  };
+  const double constant = errorsOf([&](auto& part) { spring(part, 0); });
+  EXPECT_LT(constant, 1e-3);
+  EXPECT_NEAR(errorsOf([&](auto& part) {
+                spring(part, part.model.lawIndex({"spring", [](double) { return 1.0; }}));
+              }),
+              constant, 1e-9);
 }
 
 TEST(EnhancedCraigBampton, BeatsCraigBamptonOnAFrameWithALoop) {

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "response/Resonances.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/Constants.hpp"
+#include "linalg/DynamicStiffness.hpp"
+#include "response/SweepParameters.hpp"
+
+namespace tooljoint::response {
+
+namespace {
+
+/// Of |s|: a mode with less Im s does not vibrate, one with less damping has no finite peak, and
+/// one that grows more slowly grows by rounding.
+constexpr double noVibration = 1e-6, noDamping = 1e-9, noGrowth = 1e-8;
+/// Modes asked for at first, and at most.
+constexpr int fewModes = 32, mostModes = 256;
+/// Speeds of a sweep whose modes are looked at.
+constexpr int lookedSpeeds = 5;
+/// Iterations to a place of the sweep, and its relative accuracy.
+constexpr int mostIterations = 30;
+constexpr double close = 1e-9;
+
+class Search {
+ public:
+  Search(const RotatingCase& rotating, const ResponseSettings& settings)
+      : rotating_(rotating),
+        settings_(settings),
+        sweep_(settings.bySpeed() ? settings.speeds : settings.frequencies),
+        perUnit_(settings.bySpeed() ? settings.order : constants::twoPi) {}
+
+  Resonances run() {
+    if (!settings_.bySpeed()) {
+      look(settings_.rotarySpeed);
+    } else {
+      for (const auto i : spread(sweep_.size(), lookedSpeeds)) look(sweep_[i]);
+    }
+    auto& found = out_.found;
+    std::sort(found.begin(), found.end(),
+              [](const auto& a, const auto& b) { return a.where < b.where; });
+    found.erase(std::unique(found.begin(), found.end(),
+                            [](const auto& a, const auto& b) {
+                              return b.where - a.where < 0.5 * std::min(a.width, b.width);
+                            }),
+                found.end());
+    return std::move(out_);
+  }
+
+ private:
+  /// The modes up to the highest frequency of the sweep.
+  linalg::QuadraticModes modes(const estimate::Linearised& m) const {
+    const double top = perUnit_ * sweep_.back();
+    for (int count = fewModes;; count *= 2) {
+      auto modes = rotating_.modes(m, count);
+      const auto n = modes.values.size();
+      if (n < count || count >= mostModes || std::abs(modes.values[n - 1]) > top) return modes;
+    }
+  }
+
+  void look(double speed) {
+    const auto found = modes(rotating_.at(speed));
+    for (Eigen::Index j = 0; j < found.values.size(); ++j) {
+      const Complex s = found.values[j];
+      if (s.real() > noGrowth * std::abs(s) && (!out_.growing || s.real() > out_.growing->s.real()))
+        out_.growing = Growing{speed, s};
+      if (s.imag() < noVibration * std::abs(s)) continue;
+      if (settings_.bySpeed())
+        follow({s, found.vectors.col(j)});
+      else
+        add(s.imag() / perUnit_, s);
+    }
+  }
+
+  void add(double where, Complex s) {
+    if (where > sweep_.front() && where < sweep_.back() && -s.real() > noDamping * std::abs(s))
+      out_.found.push_back({where, -s.real() / perUnit_});
+  }
+
+  /// Omega <- Im s(Omega) / order.
+  void follow(linalg::DampedMode mode) {
+    double speed = mode.s.imag() / perUnit_;
+    for (int i = 0; i < mostIterations; ++i) {
+      if (!(speed > sweep_.front() && speed < sweep_.back())) return;
+      const auto m = rotating_.at(speed);
+      const auto there = linalg::refine(m.mass, m.damping, m.stiffness, mode);
+      if (!there || !(there->s.imag() > noVibration * std::abs(there->s))) return;
+      mode = *there;
+      const double next = mode.s.imag() / perUnit_;
+      if (std::abs(next - speed) <= close * next) return add(next, mode.s);
+      speed = next;
+    }
+  }
+
+  const RotatingCase& rotating_;
+  const ResponseSettings& settings_;
+  const std::vector<double>& sweep_;
+  double perUnit_;  ///< excitation frequency [rad/s] over the place in the sweep
+  Resonances out_;
+};
+
+}  // namespace
+
+Resonances resonances(const RotatingCase& rotating, const ResponseSettings& settings) {
+  return Search(rotating, settings).run();
+}
+
+}  // namespace tooljoint::response
