@@ -38,6 +38,8 @@ class BitLaw {
   virtual std::shared_ptr<const model::PointLaw> make(double weightOnBit) const = 0;
   /// Turned backward, the bit advances into uncut rock.
   virtual bool cutsForwardOnly() const { return false; }
+  /// The torque falls with the speed, at some speeds at least.
+  virtual bool weakensWithSpeed() const { return false; }
   /// Beyond it the program warns.
   virtual WeightRange calibration() const { return {}; }
   /// What `tooljoint check` says of it.

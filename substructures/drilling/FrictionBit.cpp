@@ -36,6 +36,7 @@ class Stribeck final : public BitLaw {
         .set("Slip Velocity", sticking_);
     return model::PointLawRegistry::instance().make("Stribeck", own, {1, 1});
   }
+  bool weakensWithSpeed() const override { return dynamic_ < static_; }
   std::string describe() const override {
     return "torque by friction that weakens with speed, coefficient " + formatNumber(static_) +
            " to " + formatNumber(dynamic_);

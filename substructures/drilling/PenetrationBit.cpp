@@ -65,6 +65,7 @@ class TuckerWang final : public BitLaw {
   std::shared_ptr<const model::PointLaw> make(double) const override {
     return std::make_shared<model::FormulaLaw<Penetration>>(law_, 1);
   }
+  bool weakensWithSpeed() const override { return true; }
   WeightRange calibration() const override {
     return ofSource_ ? WeightRange{100e3, 250e3} : WeightRange{};
   }

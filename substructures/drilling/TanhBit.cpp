@@ -47,6 +47,7 @@ class Tanh final : public BitLaw {
     curve.force = weightOnBit * lever_;
     return std::make_shared<model::FormulaLaw<TanhTorque>>(curve, 1);
   }
+  bool weakensWithSpeed() const override { return curve_.b2 > 0.0; }
   std::string describe() const override {
     return "torque by a smooth curve of the speed, " + formatNumber(lever_) +
            " m times the weight on bit at high speed";

@@ -33,7 +33,11 @@ def bit_speed(program, name, settings, without):
 
 def late(program, name):
     """Lowest and highest speed [rpm] and share stuck over the last 30 of 60 s."""
-    t, rpm = bit_speed(program, name, *DRIVES[name])
+    return late_of(program, name, *DRIVES[name])
+
+
+def late_of(program, name, settings, without):
+    t, rpm = bit_speed(program, name, settings, without)
     rpm = rpm[t >= 30.0]
     return rpm.min(), rpm.max(), np.mean(np.abs(rpm) < STUCK * 30 / math.pi)
 
@@ -52,14 +56,14 @@ def stick_slip_2500m(program):
     print()
     scene, full = found["stiff"], found["stiff, full model"]
     expect("a stiff drive sticks and slips", min(scene[2], full[2]) > 0.1 and scene[1] > 160, f"{scene}, {full}")
-    expect("the reduced model sticks as long as the full one", abs(scene[2] - full[2]) < 0.02, f"{scene[2]:.3f}, {full[2]:.3f}")
-    expect("and slips about as fast", abs(scene[1] / full[1] - 1) < 0.1, f"{scene[1]:.0f}, {full[1]:.0f} rpm")
-    expect("the ratio 1 at 0.2 Hz still sticks", found["matched, ratio 1 at 0.2 Hz"][2] > 0.05, str(found["matched, ratio 1 at 0.2 Hz"]))
-    expect("the ratio 2 just touches a standstill", found["matched, ratio 2"][0] < 5 and found["matched, ratio 2"][2] < 0.01,
-           str(found["matched, ratio 2"]))
+    expect("the reduced model sticks as long as the full one", abs(scene[2] - full[2]) < 0.005, f"{scene[2]:.3f}, {full[2]:.3f}")
+    expect("and slips as fast", abs(scene[1] / full[1] - 1) < 0.01, f"{scene[1]:.1f}, {full[1]:.1f} rpm")
+    for name in ("matched, ratio 1 at 0.2 Hz", "matched, ratio 2"):
+        expect(f"{name}: still sticks", found[name][2] > 0.05, str(found[name]))
     expect("the ratio 4 stops it", found["matched, ratio 4"][0] > 40 and found["matched, ratio 4"][2] == 0, str(found["matched, ratio 4"]))
     truth = peaks["full model"]
-    for name in ("scene", "reduced collars, 200 Hz"):
-        expect(f"{name}: the peak of the full model within 0.5 %", abs(peaks[name] / truth - 1) < 5e-3, f"{peaks[name]:.2f}, {truth:.2f}")
-    expect("reduced collars with modes up to 30 Hz are 50 % off at least", peaks["reduced collars, 30 Hz"] > 1.5 * truth,
-           f"{peaks['reduced collars, 30 Hz']:.1f}")
+    for name, error in (("scene", 1e-3), ("reduced collars, 200 Hz", 1e-3), ("reduced collars, 30 Hz", 1e-2)):
+        expect(f"{name}: the peak of the full model within {error:.1%}", abs(peaks[name] / truth - 1) < error, f"{peaks[name]:.2f}, {truth:.2f}")
+    # damping that rises with the frequency leaves nothing to the step
+    shares = [late_of(program, f"steps of {step}", {"Transient/Step": step}, ())[2] for step in ("2 ms", "1 ms", "0.5 ms")]
+    expect("the share stuck does not depend on the step", max(shares) - min(shares) < 0.005, str(shares))

@@ -415,6 +415,18 @@ std::string prestressRemark(const Scene& scene) {
   return "";
 }
 
+std::string bitFrictionRemark(const Scene& scene) {
+  const auto& list = scene.list();
+  if (!scene.bit || !scene.bit->law->weakensWithSpeed() || !list.isSublist("Transient")) return "";
+  if (list.isSublist("Damping") &&
+      loads::readDamping(list.sublist("Damping")).stiffnessCoefficient > 0.0)
+    return "";
+  return "The torque of the bit falls with its speed, and no damping of the string rises with the "
+         "frequency: every torsional vibration grows at the bit, up to the shortest waves of the "
+         "mesh, and bit speeds depend on step and mesh. Give Damping/Stiffness Coefficient, for "
+         "example 5e-4 s (3 % of critical damping at 20 Hz).";
+}
+
 model::SecondOrderModel fullModel(const StaticStage& stage) { return assemble(stage.equations); }
 
 namespace {
