@@ -84,9 +84,15 @@ Sparse toSparse(const py::object& matrix, const std::string& what) {
                                   outer.data(), inner.data(), values.data());
 }
 
+void requireReal(const py::object& values, const std::string& who) {
+  if (py::module_::import("numpy").attr("iscomplexobj")(values).cast<bool>())
+    throw ModelError(who + " returned complex numbers. Give real ones.");
+}
+
 void copyInto(const py::object& array, py::ssize_t rows, py::ssize_t columns, double* to,
               const std::string& who) {
   using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  requireReal(array, who);
   const auto values = Values::ensure(array);
   if (!values) {
     PyErr_Clear();

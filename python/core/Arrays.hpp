@@ -55,6 +55,9 @@ py::array toNumpy(std::vector<T> values) {
   return toNumpy(std::move(values), {size});
 }
 
+/// ModelError when a function that `who` names returned complex numbers.
+void requireReal(const py::object& values, const std::string& who);
+
 /// Takes the values of `array` as rows x columns. ModelError, naming `who`, when it has another
 /// shape.
 void copyInto(const py::object& array, py::ssize_t rows, py::ssize_t columns, double* to,

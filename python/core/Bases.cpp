@@ -84,6 +84,7 @@ class PythonBasis final : public reduction::ReductionMethod {
         ~Withdraw() { part.view = nullptr; }
       } const withdraw{*lent};
       const py::object made = (*one.build)(lent, count, **keywords(list_, one.names));
+      requireReal(made, who);
       const py::object matrix = py::module_::import("numpy").attr("asarray")(made, "float64");
       if (py::len(matrix.attr("shape")) != 2)
         throw ModelError(who +

@@ -100,6 +100,9 @@ void fromPython(const std::string& who, const std::function<void()>& work) {
         py::isinstance(exception, py::module_::import("tooljoint.errors").attr("Error"));
     parallel::throwError(
         code, own ? text : who + " raised " + type + (text.empty() ? "" : ": " + text) + ".");
+  } catch (const py::cast_error&) {
+    parallel::throwError(ExitCode::ModelNotBuilt,
+                         who + " returned something else than the real numbers that are expected.");
   }
 }
 

@@ -343,6 +343,7 @@ class Run {
     if (options_.progress)
       bar = std::make_unique<Progress>(hooks_.title, options_.end, options_.start);
     long intervals = checkpointIntervals(state_.t);
+    LawWatch laws(model_.source(), *integrator_);
     while (state_.t < options_.end) {
       throwFailures();
       if (isStopped()) {
@@ -358,6 +359,7 @@ class Run {
       const long before = sampler_.count();
       sampler_.step(state_, next_);
       if (watcher_) watcher_->step(state_, next_);
+      laws.look(state_.t, next_.t);
       const bool sampled = sampler_.count() > before;
       if (sampled && cutOffEnergy_) cutOffEnergy_->look(next_);
       const bool refused = options_.ledger && sampled && ledger_.isDue() &&
@@ -377,6 +379,7 @@ class Run {
       energy_.judge(ledger_.account(model_, state_), state_.t, integrator_->advice());
     judgeSteps();
     judgeLaws(model_.source(), *integrator_, {options_.start, state_.t, options_.stepErrorLimit});
+    laws.judge(*integrator_, options_.stepErrorLimit);
     return false;
   }
 

@@ -259,6 +259,13 @@ class Motions(unittest.TestCase):
         def late(value):
             return lambda t, d, v: value * d if t > 0.05 else -d
 
+        with self.assertRaisesRegex(tj.ModelError, '^The point law "Complex" returned complex numbers'):
+            motion("Complex", late(1j))
+        for value in (None, 1j, np.ones(3), "text"):
+            mass = tj.part("mass", [[1.0]], [[1.0]])
+            mass.model.add_load([1.0], "load", lambda t, value=value: value)
+            with self.assertRaisesRegex(tj.ModelError, 'The law of time "load" returned something else than the real numbers'):
+                tj.integrate(mass, 0.1, step="1 ms")
         with self.assertRaisesRegex(tj.ModelError, r'^The point law "None" returned None at t = 0\.05\S* s; expected are \d+ forces'):
             motion("None", lambda t, d, v: None if t > 0.05 else -d)
         for integrator in ("Generalized-alpha", "RK4"):

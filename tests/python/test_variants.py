@@ -55,6 +55,7 @@ class Bases(unittest.TestCase):
             ("Raises", lambda part, count: 1 / 0, 'The basis "Raises" raised ZeroDivisionError'),
             ("Short", lambda part, count: np.zeros((3, 2)), 'The basis "Short" returned 3 rows for part "left"; expected are its 22'),
             ("Flat", lambda part, count: np.zeros(22), "not two dimensions"),
+            ("Complex", lambda part, count: 1j * np.eye(22), 'The basis "Complex" returned complex numbers'),
             ("Infinite", lambda part, count: np.full((22, 2), np.nan), "not finite"),
             ("Keeps", lambda part, count: kept.append(part) or np.eye(22), None),
         ):
@@ -65,6 +66,10 @@ class Bases(unittest.TestCase):
                         tj.reduce(left, name, modes=2)
                 else:
                     tj.reduce(left, name, modes=2)
+        tj.basis("One Shape")(lambda part, count: np.ones((22, 5)))
+        reduced = tj.reduce(left, "One Shape", modes=2)
+        self.assertEqual(reduced.modes, 1)
+        self.assertIn("wanted 2 modes, but the 5 vectors given span 1", " ".join(reduced.remarks))
         with self.assertRaisesRegex(tj.UsageError, "for the time of its call"):
             kept[0].interior_mass
         with self.assertRaisesRegex(tj.UsageError, "already"):

@@ -28,7 +28,13 @@ Basis subspaceBasis(const PartView& part, const Matrix& X, int count, const std:
   vectors.groups = {part.partition().interior};
   addRitzVectors(part.symmetricInteriorStiffness(), M, set.basis(), 0, kind, vectors);
   vectors.kept = std::min(count, sizeOf(vectors.vectors));
-  return fixedInterfaceBasis(part, vectors);
+  Basis basis = fixedInterfaceBasis(part, vectors);
+  const int wanted = std::min(count, sizeOf(part.partition().interior));
+  if (basis.modes() < wanted)
+    basis.remarks.push_back("wanted " + std::to_string(wanted) + " modes, but the " +
+                            std::to_string(X.cols()) + " vectors given span " +
+                            std::to_string(basis.modes()));
+  return basis;
 }
 
 void setVectors(const Partition& partition, const Sparse& psi, const InteriorVectors& vectors,

@@ -18,8 +18,57 @@ namespace {
 constexpr double unresolved = 0.01;
 /// And without a refusal: as much as an error of the motion that none passes.
 constexpr double lostLaw = 0.5;
+/// Pieces of a step that LawWatch looks at.
+constexpr int pieces = 16;
+
+void say(const model::ScalarLaw& law, double missed, const std::string& steps,
+         const Integrator& run, double stepErrorLimit) {
+  if (missed <= unresolved) return;
+  const std::string text = steps + " too large for the law \"" + law.name +
+                           "\". The steps do not resolve " +
+                           formatNumber(std::round(1e3 * missed) / 10.0) +
+                           " % of its integral over time. " + run.advice() + ".";
+  if (missed > lostLaw && stepErrorLimit < 1) throw ConvergenceError(text);
+  log::warn(text);
+}
+
+/// Simpson's rule on the pieces.
+double integralOf(const model::ScalarLaw& law, double begin, double end) {
+  const double h = (end - begin) / pieces;
+  double sum = law.value(begin) + law.value(end);
+  for (int k = 1; k < pieces; ++k) sum += (k % 2 == 1 ? 4 : 2) * law.value(begin + k * h);
+  return sum * h / 3;
+}
 
 }  // namespace
+
+LawWatch::LawWatch(const model::SecondOrderModel& model, const Integrator& run) {
+  if (run.equalStep() > 0) return;
+  for (std::size_t i = 1; i < model.laws.size(); ++i) laws_.push_back({&model.laws[i]});
+}
+
+void LawWatch::look(double begin, double end) {
+  for (auto& one : laws_) {
+    if (hasCorner(*one.law, begin, end)) {  // steps end there
+      one.sum += std::abs(momentsOf(*one.law, begin, end).mean) * (end - begin);
+      continue;
+    }
+    const double seen = momentsOf(*one.law, begin, end).mean * (end - begin),
+                 ends = 0.5 * (one.law->value(begin) + one.law->value(end)) * (end - begin),
+                 fine = integralOf(*one.law, begin, end);
+    one.missed += std::abs(fine - seen);
+    one.lost += std::abs(fine - ends);
+    one.sum += std::abs(fine);
+  }
+}
+
+void LawWatch::judge(const Integrator& run, double stepErrorLimit) const {
+  for (const auto& one : laws_)
+    if (one.sum > 0)
+      say(*one.law, (one.lost > lostLaw * one.sum ? one.lost : one.missed) / one.sum,
+          "The steps of " + formatNumber(run.counters().maxStep) + " s at most are", run,
+          stepErrorLimit);
+}
 
 void judgeLaws(const model::SecondOrderModel& model, const Integrator& run,
                const JudgedSpan& span) {
@@ -35,13 +84,7 @@ void judgeLaws(const model::SecondOrderModel& model, const Integrator& run,
                           std::any_of(model.stiffness.begin(), model.stiffness.end(), follows);
     const double missed =
         missedPart(law, span.start, span.end, h, run.followsCorners() && !ofMatrix);
-    if (missed <= unresolved) continue;
-    const std::string text =
-        "The time step (" + formatNumber(h) + " s) is too large for the law \"" + law.name +
-        "\". The steps do not resolve " + formatNumber(std::round(1e3 * missed) / 10.0) +
-        " % of its integral over time. " + run.advice() + ".";
-    if (missed > lostLaw && span.stepErrorLimit < 1) throw ConvergenceError(text);
-    log::warn(text);
+    say(law, missed, "The time step (" + formatNumber(h) + " s) is", run, span.stepErrorLimit);
   }
 }
 

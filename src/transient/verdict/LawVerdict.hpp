@@ -3,6 +3,8 @@
 /// What is said of laws of time that change faster than the steps of a run follow.
 #pragma once
 
+#include <vector>
+
 #include "model/SecondOrderModel.hpp"
 #include "transient/Integrator.hpp"
 
@@ -14,8 +16,29 @@ struct JudgedSpan {
 };
 
 /// Of steps of one length that miss more than 1 % of the integral of a law over time it warns
-/// (missedPart()); more than half is refused. Of steps that follow their error it says nothing.
-/// Throws ConvergenceError.
+/// (missedPart()); more than half is refused. Throws ConvergenceError.
 void judgeLaws(const model::SecondOrderModel& model, const Integrator& run, const JudgedSpan& span);
+
+/// The same of steps that choose their length by their error, which does not see what a law does
+/// between the times at which a step looks at it: each step is looked at while the run goes.
+class LawWatch {
+ public:
+  /// \param run  of one with equal steps nothing is watched
+  LawWatch(const model::SecondOrderModel& model, const Integrator& run);
+  /// A step, or a part of one. What is shorter than a sixteenth of it may be missed.
+  void look(double begin, double end);
+  /// As judgeLaws().
+  void judge(const Integrator& run, double stepErrorLimit) const;
+
+ private:
+  struct Watched {
+    const model::ScalarLaw* law;
+    double sum = 0;     ///< integral of its size
+    double missed = 0;  ///< by Gauss's rule with three points in each step, about what methods with
+                        ///< stages see
+    double lost = 0;    ///< by the ends of the steps, which is all that others see
+  };
+  std::vector<Watched> laws_;
+};
 
 }  // namespace tooljoint::transient

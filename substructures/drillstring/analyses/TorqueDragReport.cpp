@@ -12,6 +12,7 @@
 #include "substructures/drillstring/analyses/Calibration.hpp"
 #include "substructures/drillstring/analyses/TorqueDrag.hpp"
 #include "substructures/drillstring/analyses/TorqueDragTables.hpp"
+#include "substructures/drillstring/scene/Remarks.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {

@@ -20,6 +20,7 @@
 #include "substructures/drillstring/case/StringRecord.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
+#include "substructures/drillstring/scene/Remarks.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
 #include "substructures/drillstring/scene/UsualRanges.hpp"
 

@@ -404,29 +404,6 @@ StaticStage solveStatic(const Scene& scene) {
   return stage;
 }
 
-std::string prestressRemark(const Scene& scene) {
-  if (scene.path.prestress != path::Prestress::AxialAndTorque) return "";
-  for (const double s : scene.string.depths())
-    if (scene.well.trajectory().at(s).curvature.norm() > 0.0)
-      return "Path/Pre-stress is \"Axial and torque\" in a well that bends: the string then "
-             "resists a "
-             "spin about its own curved axis, and torques are wrong. Take \"Full tangent\" (the "
-             "default) unless the published model of Nguyen et al. 2020 is wanted.";
-  return "";
-}
-
-std::string bitFrictionRemark(const Scene& scene) {
-  const auto& list = scene.list();
-  if (!scene.bit || !scene.bit->law->weakensWithSpeed() || !list.isSublist("Transient")) return "";
-  if (list.isSublist("Damping") &&
-      loads::readDamping(list.sublist("Damping")).stiffnessCoefficient > 0.0)
-    return "";
-  return "The torque of the bit falls with its speed, and no damping of the string rises with the "
-         "frequency: every torsional vibration grows at the bit, up to the shortest waves of the "
-         "mesh, and bit speeds depend on step and mesh. Give Damping/Stiffness Coefficient, for "
-         "example 5e-4 s (3 % of critical damping at 20 Hz).";
-}
-
 model::SecondOrderModel fullModel(const StaticStage& stage) { return assemble(stage.equations); }
 
 namespace {

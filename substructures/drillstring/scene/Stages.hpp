@@ -57,13 +57,6 @@ void judgeStatic(const Scene& scene, const StaticStage& stage);
 /// findEquilibrium(), judged.
 StaticStage solveStatic(const Scene& scene);
 
-/// A sentence when the deck takes the pre-stress "Axial and torque" in a well that bends; else "".
-std::string prestressRemark(const Scene& scene);
-
-/// A sentence when the friction of the bit falls with its speed in a string whose damping does not
-/// rise with the frequency; else "".
-std::string bitFrictionRemark(const Scene& scene);
-
 /// The full model of the string alone, in total displacements.
 model::SecondOrderModel fullModel(const StaticStage& stage);
 /// The full model with what the list Coupling adds, always in primal assembly.

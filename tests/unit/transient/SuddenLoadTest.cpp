@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "StatefulModels.hpp"
+#include "common/Error.hpp"
 #include "common/report/Log.hpp"
 
 namespace tooljoint::transient::testing {
@@ -181,6 +182,36 @@ TEST(SuddenLoad, aDampedDofWithoutMassKeepsItsStart) {
   integrate(model, o, samples);
   for (std::size_t i = 0; i < samples.time.size(); ++i)
     EXPECT_NEAR(samples.q[i][1], q1 * std::exp(-k / c * samples.time[i]), 2e-3 * q1);
+}
+
+/// A law that does not tell its corners, as one of a user: pulses are followed, warned of or
+/// refused by steps that choose their length, and never lost without a word. J/(m omega) exp().
+TEST(SuddenLoad, aPulseWithoutCornersIsNotLost) {
+  for (const double length : {2e-4, 1e-3, 3e-3, 0.02}) {
+    auto model = oscillator(mass, 0.0, stiffness, 0.0, 0.0);
+    const double from = 0.4013;
+    const int law = model.lawIndex(
+        {"pulse", [=](double t) { return t >= from && t <= from + length ? 1.0 : 0.0; }});
+    model.loads.push_back({"push", Vector::Constant(1, force / length), law});
+    const double exact = force / std::sqrt(mass * stiffness);
+    for (const char* integrator : {"RK4 adaptive", "SUNDIALS ARKODE", "SUNDIALS CVODE"}) {
+      auto o = options(integrator, 2.0, 0, 5e-3);
+      o.ledger = false;  // which sees some of it, too
+      Keep samples;
+      const auto before = log::warnings().size();
+      try {
+        integrate(model, o, samples);
+      } catch (const Error&) {
+        continue;  // refused, or built without SUNDIALS
+      }
+      double largest = 0;
+      for (const auto& q : samples.q) largest = std::max(largest, std::abs(q[0]));
+      if (log::warnings().size() == before)
+        EXPECT_NEAR(largest / exact, 1.0, 0.05) << integrator << ", " << length;
+      else
+        EXPECT_GT(largest, 0.5 * exact) << integrator << ", " << length;
+    }
+  }
 }
 
 }  // namespace SuddenLoadTest
