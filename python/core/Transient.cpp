@@ -44,6 +44,11 @@ py::dict energiesOf(const transient::EnergyAccount& energy) {
   row["drive"] = energy.drive;
   row["friction"] = energy.friction;
   row["contact_damping"] = energy.contactDamping;
+  row["circulatory"] = energy.circulatory;
+  py::dict damping;  // of each group of damping terms
+  for (std::size_t i = 0; i < energy.damping.size(); ++i)
+    damping[py::str(energy.dampingNames[i])] = energy.damping[i];
+  row["damping"] = damping;
   row["residual"] = energy.residual();
   return row;
 }
@@ -59,7 +64,7 @@ py::dict reportOf(const transient::TransientReport& report) {
   row["wall_s"] = report.wall;
   row["cpu_s"] = report.cpu;
   row["real_time_factor"] = report.realTimeFactor;
-  row["step_error"] = report.stepError;
+  row["step_error"] = report.stepError > 0 ? py::object(py::float_(report.stepError)) : py::none();
   if (report.hasEnergy) row["energy"] = energiesOf(report.energy);
   return row;
 }

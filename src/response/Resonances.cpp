@@ -7,6 +7,8 @@
 
 #include "common/Constants.hpp"
 #include "linalg/DynamicStiffness.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "reduction/part/Partition.hpp"
 #include "response/SweepParameters.hpp"
 
 namespace tooljoint::response {
@@ -16,8 +18,8 @@ namespace {
 /// Of |s|: a mode with less Im s does not vibrate, one with less damping has no finite peak, and
 /// one that grows more slowly grows by rounding.
 constexpr double noVibration = 1e-6, noDamping = 1e-9, noGrowth = 1e-8;
-/// Modes asked for at first, and at most.
-constexpr int fewModes = 32, mostModes = 256;
+/// Modes asked for beyond the undamped ones up to the highest frequency, and at most.
+constexpr int moreModes = 8, mostModes = 256;
 /// Speeds of a sweep whose modes are looked at.
 constexpr int lookedSpeeds = 5;
 /// Iterations to a place of the sweep, and its relative accuracy.
@@ -53,7 +55,9 @@ class Search {
   /// The modes up to the highest frequency of the sweep.
   linalg::QuadraticModes modes(const estimate::Linearised& m) const {
     const double top = perUnit_ * sweep_.back();
-    for (int count = fewModes;; count *= 2) {
+    const int below = linalg::eigenvaluesBelow(reduction::symmetricPart(m.stiffness),
+                                               reduction::symmetricPart(m.mass), top * top);
+    for (int count = std::min(mostModes, below + moreModes);; count *= 2) {
       auto modes = rotating_.modes(m, count);
       const auto n = modes.values.size();
       if (n < count || count >= mostModes || std::abs(modes.values[n - 1]) > top) return modes;

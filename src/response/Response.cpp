@@ -29,6 +29,8 @@ constexpr Complex imaginary{0.0, 1.0};
 /// Points of a golden section between two neighbours of a largest amplitude: the place of a peak is
 /// known to 1e-4 of their distance.
 constexpr int goldenSteps = 20;
+/// And within the half widths about a resonance: 0.3 % of one, 1e-5 of the amplitude.
+constexpr int narrowSteps = 13;
 /// Of the distance of points: resonances of a larger half width are seen by them.
 constexpr double seenWidth = 1.0;
 /// Half widths of a resonance within which its largest amplitude is looked for.
@@ -289,6 +291,7 @@ class Sweep {
     int load = 0, output = 0;
     double from = 0.0, middle = 0.0, to = 0.0;
     double size = 0.0;  ///< at the point
+    int steps = goldenSteps;
   };
 
   std::vector<Bracket> brackets(const std::vector<ResponsePoint>& points, int load,
@@ -324,7 +327,7 @@ class Sweep {
       for (int output = 0; output < size.rows(); ++output)
         for (int load = 0; load < size.cols(); ++load)
           if (size(output, load) > std::max(before(output, load), after(output, load)))
-            found.push_back({load, output, from, one.where, to, size(output, load)});
+            found.push_back({load, output, from, one.where, to, size(output, load), narrowSteps});
     }
     return found;
   }
@@ -371,7 +374,7 @@ class Sweep {
   ResponsePoint peak(const Bracket& bracket) const {
     const double section = 0.5 * (3.0 - std::sqrt(5.0));
     double a = bracket.from, best = bracket.middle, b = bracket.to, most = bracket.size;
-    for (int k = 0; k < goldenSteps; ++k) {
+    for (int k = 0; k < bracket.steps; ++k) {
       const bool above = b - best > best - a;
       const double probe = best + section * (above ? b - best : a - best);
       const double size = std::abs(at(probe, false).x(bracket.output, bracket.load));

@@ -113,6 +113,10 @@ class Integrator {
   virtual bool judgesSteps() const { return false; }
   /// Length of equal steps that a second object can take again [s], known after prepare(); 0: none.
   virtual double equalStep() const { return 0; }
+  /// Whether the phase of vibration is right to a higher order than the second in the step, of a
+  /// model with gyroscopic terms that matter or of one without; false: errors are looked for in
+  /// longer windows.
+  virtual bool followsPhase(bool /*gyroscopic*/) const { return false; }
   /// Append what the motion of the next steps depends on beyond State: no factors.
   virtual void saveHistory(std::vector<double>& /*history*/) const {}
   /// prepare() of a second object with half the step; `run` is an object of the same class made

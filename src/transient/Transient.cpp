@@ -156,6 +156,8 @@ class Run {
     if (!hooks_.cutOffs.empty()) cutOffEnergy_.emplace(model_, hooks_.cutOffs);
     if (integrator_->equalStep() > 0)
       stepError_.emplace(model_, *integrator_, make(), window, state_);
+    else
+      laws_.emplace(model_.source());
     if (point != nullptr && !anew) return resume(*point);
     checkFinite(model_, *integrator_, state_, state_);
     if (options_.ledger) ledger_.start(model_, state_, integrator_->ledgerStride());
@@ -343,7 +345,6 @@ class Run {
     if (options_.progress)
       bar = std::make_unique<Progress>(hooks_.title, options_.end, options_.start);
     long intervals = checkpointIntervals(state_.t);
-    LawWatch laws(model_.source(), *integrator_);
     while (state_.t < options_.end) {
       throwFailures();
       if (isStopped()) {
@@ -359,7 +360,7 @@ class Run {
       const long before = sampler_.count();
       sampler_.step(state_, next_);
       if (watcher_) watcher_->step(state_, next_);
-      laws.look(state_.t, next_.t);
+      if (laws_) laws_->look(state_.t, next_.t);
       const bool sampled = sampler_.count() > before;
       if (sampled && cutOffEnergy_) cutOffEnergy_->look(next_);
       const bool refused = options_.ledger && sampled && ledger_.isDue() &&
@@ -379,7 +380,7 @@ class Run {
       energy_.judge(ledger_.account(model_, state_), state_.t, integrator_->advice());
     judgeSteps();
     judgeLaws(model_.source(), *integrator_, {options_.start, state_.t, options_.stepErrorLimit});
-    laws.judge(*integrator_, options_.stepErrorLimit);
+    if (laws_) laws_->judge(*integrator_, options_.stepErrorLimit);
     return false;
   }
 
@@ -437,6 +438,7 @@ class Run {
   EnergyLedger ledger_;
   EnergyVerdict energy_;
   std::optional<StepError> stepError_;  ///< of equal steps
+  std::optional<LawWatch> laws_;        ///< of others
   std::optional<CutOffEnergy> cutOffEnergy_;
   std::optional<double> judged_;  ///< what it comes to at the end
   State state_, next_;

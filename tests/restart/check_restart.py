@@ -176,7 +176,7 @@ def analyses():
     text = (ROOT / "xml/helical_170m.xml").read_text(encoding="utf-8").replace('value="components/', f'value="{ROOT}/xml/components/')
     place = '<Parameter name="Node" type="int" value="60"/><Parameter name="Component" type="string" value="u"/>'
     response.write_text(text[:text.rindex("</ParameterList>")] + f"""<ParameterList name="Response"><Parameter name="Excitation" type="string" value="Harmonic"/>
-        <Parameter name="Highest Frequency" type="double" value="20"/><Parameter name="Points" type="int" value="21"/><ParameterList name="Loads"><ParameterList name="push">{place}<Parameter name="Value" type="double" value="100"/>
+        <Parameter name="Highest Frequency" type="double" value="4"/><Parameter name="Points" type="int" value="41"/><ParameterList name="Loads"><ParameterList name="push">{place}<Parameter name="Value" type="double" value="100"/>
         </ParameterList></ParameterList><ParameterList name="Outputs"><ParameterList name="there">{place}</ParameterList></ParameterList></ParameterList></ParameterList>""", encoding="utf-8")
     for name, plural, least, deck, options, tables in (
             ("bha", "states", 2, assembly, bha, ("bha", "bha_contacts", "bha_profile")),
@@ -318,8 +318,8 @@ def other_decks():
         "Reduction was list and is not given": ["--without", "Reduction"],
         "Output/Fields was": ["--set", "Output/Fields={displacement}"],
     }
-    for ranks in (1, 2):
-        for sentence, change in changes.items():
+    for ranks, refused in ((1, list(changes.items())), (2, list(changes.items())[:1])):
+        for sentence, change in refused:
             done = run("run", "deck/frame.xml", "--restart", "kept", *LONG, *change, ranks=ranks)
             expect(f"refused on {ranks} rank(s): {sentence}", done.returncode == 2 and done.stderr.count(sentence) == 1, f"{done.returncode} {done.stderr[-400:]}")
     matrix = next(pathlib.Path("deck/frame/beam").glob("*.mtx"))
@@ -333,7 +333,7 @@ def other_decks():
     middle = len(whole) // 2
     for what, damaged in (("a bit", whole[:middle] + bytes([whole[middle] ^ 16]) + whole[middle + 1:]), ("a byte more", whole + b"\0"), ("a byte less", whole[:-1])):
         (pathlib.Path("kept") / "checkpoint.bin").write_bytes(damaged)
-        for ranks in (1, 2):
+        for ranks in (1, 2) if what == "a bit" else (1,):
             done = run("run", "deck/frame.xml", "--restart", "kept", *LONG, ranks=ranks)
             expect(f"refused on {ranks} rank(s): {what} of the checkpoint", done.returncode == 5 and done.stderr.count("is damaged") == 1, f"{done.returncode} {done.stderr[-400:]}")
     (pathlib.Path("kept") / "checkpoint.bin").write_bytes(whole)

@@ -33,7 +33,7 @@ def run(deck, folder, *settings, ranks=1):
 
 
 def fitted(folder):
-    return {row["parameter"]: {key: float(row[key]) for key in ("fitted", "lower", "upper", "at_bound", "deck")} for row in rows(folder, "torque_drag_calibration.csv")}
+    return {row["parameter"]: {key: float(row[key] or "nan") for key in ("fitted", "lower", "upper", "at_bound", "deck")} for row in rows(folder, "torque_drag_calibration.csv")}
 
 
 def straight():
@@ -81,6 +81,10 @@ def straight():
     expect("the static coefficient is raised with the dynamic one", any(one.startswith("Contact/Friction/Static=0.3") for one in said), lower.stdout[-800:])
     again = run(STRAIGHT, "calibrated_again", "Well/Trajectory=Survey", f"Well/Survey/File={survey}", *said)
     expect("what is said can be run", again.returncode == 0, again.stderr)
+    nulls = pathlib.Path("measured_nulls.csv").resolve()
+    nulls.write_text("\n".join(re.sub(r"; $", "; -9999", line.replace("; ; ", "; -999.25; ")) for line in lines) + "\n", encoding="utf-8")
+    done = run(STRAIGHT, "calibrated_nulls", "Well/Trajectory=Survey", f"Well/Survey/File={survey}", f"Torque and Drag/Measured={nulls}")
+    expect("the nulls of loggers are gaps", done.returncode == 0 and "-999.25" in nulls.read_text(encoding="utf-8") and fitted("calibrated_nulls") == found, done.stderr)
     lines = rows("calibrated", "torque_drag_measured.csv")
     expect("gaps stay gaps", any(row["hook_load"] == "" and row["computed_hook_load"] == "" for row in lines), lines[:3])
     two = run(STRAIGHT, "calibrated_2", "Well/Trajectory=Survey", f"Well/Survey/File={survey}", f"Torque and Drag/Measured={measured}", ranks=2)
@@ -109,6 +113,25 @@ def intervals():
     expect("rotating off bottom has no drag", abs(broom["Rotate off bottom", 0.1] - broom["Rotate off bottom", 0.3]) < 1e-6 * broom["Rotate off bottom", 0.1], broom)
 
 
+def bounds():
+    """Drag as of a coefficient of 1.2, beyond what is taken for one: it ends at 1, without an interval, and that is said."""
+    table = pathlib.Path("measured_bound.csv").resolve()
+    done = run(STRAIGHT, "bound_truth", "Contact/Friction/Static=0.4", "Contact/Friction/Dynamic=0.4", "Torque and Drag/Depths={400, 800}", "Torque and Drag/Operations={Trip out, Trip in, Rotate off bottom}")
+    expect("the straight hole is computed", done.returncode == 0, done.stderr)
+    loads = {(row["bit_depth"], row["operation"]): float(row["hook_load"]) for row in rows("bound_truth", "torque_drag.csv")}
+    text = "bit depth [m],operation,hook load [N]\n"
+    for (depth, operation), load in loads.items():
+        free = loads[depth, "Rotate off bottom"]
+        text += f"{depth},{operation},{100e3 + free + 3 * (load - free)}\n"
+    table.write_text(text, encoding="utf-8")
+    done = run(STRAIGHT, "bound", f"Torque and Drag/Measured={table}")
+    found = fitted("bound")["Contact/Friction/Dynamic"]
+    expect("a coefficient at its bound has no interval", found["at_bound"] == 1 and found["fitted"] == 1 and math.isnan(found["lower"]) and math.isnan(found["upper"]), found)
+    expect("and is warned of", "ends at a bound of friction" in " ".join((done.stdout + done.stderr).split()), done.stderr)
+    block = fitted("bound")["Torque and Drag/Block Weight"]
+    expect("the other quantity has one", block["lower"] < block["fitted"] < block["upper"], block)
+
+
 def refusals():
     table = "bit depth [m],operation,hook load [kN],surface torque [kN m]\n"
     for number, (name, text, words) in enumerate((
@@ -132,5 +155,6 @@ def refusals():
 
 straight()
 intervals()
+bounds()
 refusals()
 sys.exit(finish())

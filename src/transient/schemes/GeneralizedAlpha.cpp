@@ -106,8 +106,8 @@ deck::ListSpec generalizedAlphaParameters() {
       .expert()
       .boolean("Phase Correction", true,
                "Make up for the period error of the scheme: vibration is then followed to fourth "
-               "order in the step, at about a "
-               "third more work per step.")
+               "order in the step (to second beside strong gyroscopic or other damping terms), at "
+               "about a third more work per step.")
       .boolean(
           "Resolve Impacts", true,
           "Halve steps in which a point meets a wall, until its rebound is that of the wall, also "
@@ -166,6 +166,10 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   void advance(const State& from, State& to) override;
   bool judgesSteps() const override { return controlled_; }
   double equalStep() const override { return controlled_ ? 0.0 : grid_.length(0); }
+  /// PhaseCorrection knows mass and stiffness alone.
+  bool followsPhase(bool gyroscopic) const override {
+    return parameters_.phaseCorrection && !gyroscopic;
+  }
   void saveHistory(std::vector<double>& history) const override;
   void prepareRetaking(const Integrator& run, CompiledModel& model, const Window& window,
                        const State& start) override;

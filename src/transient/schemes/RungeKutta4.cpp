@@ -32,6 +32,7 @@ class RungeKutta4 final : public FixedStepIntegrator {
   bool carriesPointStates() const override { return true; }
   bool dividesAmongRanks() const override { return true; }
   bool followsCorners() const override { return true; }
+  bool followsPhase(bool /*gyroscopic*/) const override { return true; }
   std::string advice() const override {
     return "Reduce Transient/Step, or use the integrator \"Generalized-alpha\"";
   }

@@ -42,8 +42,7 @@ double integralOf(const model::ScalarLaw& law, double begin, double end) {
 
 }  // namespace
 
-LawWatch::LawWatch(const model::SecondOrderModel& model, const Integrator& run) {
-  if (run.equalStep() > 0) return;
+LawWatch::LawWatch(const model::SecondOrderModel& model) {
   for (std::size_t i = 1; i < model.laws.size(); ++i) laws_.push_back({&model.laws[i]});
 }
 

@@ -23,8 +23,7 @@ void judgeLaws(const model::SecondOrderModel& model, const Integrator& run, cons
 /// between the times at which a step looks at it: each step is looked at while the run goes.
 class LawWatch {
  public:
-  /// \param run  of one with equal steps nothing is watched
-  LawWatch(const model::SecondOrderModel& model, const Integrator& run);
+  explicit LawWatch(const model::SecondOrderModel& model);
   /// A step, or a part of one. What is shorter than a sixteenth of it may be missed.
   void look(double begin, double end);
   /// As judgeLaws().

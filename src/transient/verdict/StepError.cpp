@@ -10,9 +10,12 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Steps in a window.
-constexpr long inWindow = 8;
-/// Steps from one window to the next: a window costs about as much as 20 steps. Short runs still
+/// Steps in a window. An error of the frequency shows in a window that is not short beside 1/omega.
+/// Schemes whose phase is right to second order alone err in steps that are short beside it: their
+/// windows have up to `longest` steps, and so many radians of the motion.
+constexpr long usualWindow = 8, longestWindow = 32;
+constexpr double radiansInWindow = 2;
+/// Steps from one window to the next: a usual window costs as much as 20 steps. Short runs still
 /// have `fewest` windows if they can, long ones no more than `most`.
 constexpr long usualStride = 400, fewest = 8, most = 128;
 /// Fewer windows say nothing.
@@ -29,6 +32,23 @@ constexpr double longer = 1.2;
 /// Motion begins anew where it is so many times as large as before; it is compared from there when
 /// that is after this part of T, of which too little would be left.
 constexpr double risen = 100, lateStart = 0.5;
+/// |C_ij - C_ji| / 2 over twice the fourth root of K_ii M_ii K_jj M_jj from which gyroscopic terms
+/// matter: they then change frequencies by about this part.
+constexpr double strongGyroscopics = 0.05;
+
+bool isGyroscopic(const CompiledModel& model, double t) {
+  const auto& source = model.source();
+  const Sparse C = source.dampingAt(t), transposed = C.transpose(), skew = 0.5 * (C - transposed);
+  const Vector k = source.stiffnessAt(t).diagonal(), m = source.mass.diagonal();
+  bool strong = false;
+  for (int i = 0; i < skew.rows(); ++i)
+    for (Sparse::InnerIterator it(skew, i); it; ++it) {
+      const double scale = k[i] * m[i] * k[it.col()] * m[it.col()];
+      strong = strong || (scale > 0 && std::abs(it.value()) >
+                                           2 * strongGyroscopics * std::sqrt(std::sqrt(scale)));
+    }
+  return model.cut().any(strong);
+}
 
 }  // namespace
 
@@ -42,8 +62,9 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
       turning_(std::min(longest, window.end - window.begin)),
       start_(start.q),
       difference_(start.q),
+      followsPhase_(run.followsPhase(isGyroscopic(model, window.begin))),
       steps_(static_cast<long>(std::floor((window.end - window.begin) / h_ + 1e-6))),
-      stride_(std::max(std::clamp(steps_ / fewest, inWindow, usualStride), steps_ / most)),
+      stride_(std::max(std::clamp(steps_ / fewest, usualWindow, usualStride), steps_ / most)),
       last_(start),
       calm_(start) {
   if (window.end - window.begin > longer * turning_)
@@ -53,8 +74,15 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
 
 void StepError::plan() {
   const auto i = static_cast<double>(seen_);
-  next_ = stride_ == inWindow ? stride_ * seen_  // one after the other
-                              : spreadStep(stride_, i, i + 1);
+  next_ = stride_ == usualWindow ? stride_ * seen_  // one after the other
+                                 : spreadStep(stride_, i, i + 1);
+}
+
+long StepError::windowNow() const {
+  const double square = (sums_.speeds / sums_.offsets.max(1e-300)).maxCoeff();
+  if (followsPhase_ || !(sums_.duration > 0) || !(square > 0)) return usualWindow;
+  const double steps = radiansInWindow / (std::sqrt(square) * h_);
+  return std::clamp(static_cast<long>(std::min(steps, 1e6)), usualWindow, longestWindow);
 }
 
 void StepError::before(const Integrator& run, const State& from) {
@@ -62,10 +90,11 @@ void StepError::before(const Integrator& run, const State& from) {
   const double passed = (from.t - begin_) / h_;
   const long step = std::lround(passed);
   if (step < next_ || std::abs(passed - static_cast<double>(step)) > 1e-6) return;
-  if (step + inWindow > steps_) return;
+  inWindow_ = windowNow();
+  if (step + inWindow_ > steps_) return;
   ++seen_;
   plan();
-  end_ = step + inWindow;
+  end_ = step + inWindow_;
   most_ = {0, 0};
   watchCalm(from);
   window_.begin(run, from);
@@ -94,7 +123,7 @@ void StepError::after(const State& from, const State& to) {
   sums_.offsets += square(to.q, start_) * dt;
   sums_.duration += dt;
   most_ = most_.max(square(to.q, window_.start()));
-  const double endOfFirst = time(end_ - inWindow + 1), end = time(end_);
+  const double endOfFirst = time(end_ - inWindow_ + 1), end = time(end_);
   if (to.t < endOfFirst + 1e-6 * h_) window_.endFirst(to.q);
   if (to.t < end - 1e-6 * h_) return;
   if (window_.take(endOfFirst, end)) {
@@ -131,8 +160,9 @@ double StepError::damped() const {
 }
 
 void StepError::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(seen_), static_cast<double>(end_), sums_.windows,
-                               sums_.duration, level_});
+  memory.insert(memory.end(),
+                {static_cast<double>(seen_), static_cast<double>(end_),
+                 static_cast<double>(inWindow_), sums_.windows, sums_.duration, level_});
   for (const Norms* norms :
        {&most_, &sums_.errors, &sums_.moved, &sums_.sizes, &sums_.speeds, &sums_.offsets})
     memory.insert(memory.end(), norms->begin(), norms->end());
@@ -146,6 +176,7 @@ void StepError::save(std::vector<double>& memory) const {
 void StepError::restore(const double*& memory) {
   seen_ = static_cast<long>(*memory++);
   end_ = static_cast<long>(*memory++);
+  inWindow_ = static_cast<long>(*memory++);
   for (double* each : {&sums_.windows, &sums_.duration, &level_}) *each = *memory++;
   for (Norms* norms :
        {&most_, &sums_.errors, &sums_.moved, &sums_.sizes, &sums_.speeds, &sums_.offsets})

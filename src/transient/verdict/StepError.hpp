@@ -57,6 +57,7 @@ class StepError {
 
  private:
   void plan();
+  long windowNow() const;
   void watchCalm(const State& from);
   double of(int norm) const;
   double time(long step) const { return begin_ + static_cast<double>(step) * h_; }
@@ -68,13 +69,15 @@ class StepError {
   double begin_, h_, turning_;          ///< start of the run, step, T [s]
   Vector start_;                        ///< q(0)
   Vector difference_;
-  long steps_;   ///< in the run
-  long stride_;  ///< mean distance of windows in steps
+  bool followsPhase_;  ///< of the scheme, in this model
+  long steps_;         ///< in the run
+  long stride_;        ///< mean distance of windows in steps
 
-  long seen_ = 0;     ///< windows begun
-  long next_ = 0;     ///< first step of the next one
-  long end_ = -1;     ///< last step of the one under way, -1 for none
-  Norms most_{0, 0};  ///< max_k |q_k - q_0|^2 in it
+  long seen_ = 0;      ///< windows begun
+  long next_ = 0;      ///< first step of the next one
+  long end_ = -1;      ///< last step of the one under way, -1 for none
+  long inWindow_ = 0;  ///< steps of it
+  Norms most_{0, 0};   ///< max_k |q_k - q_0|^2 in it
   struct Sums {
     double windows = 0, duration = 0;   ///< 1, integral of 1
     Norms errors{0, 0}, moved{0, 0};    ///< |e|^2, max_k |q_k - q_0|^2

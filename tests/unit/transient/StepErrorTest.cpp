@@ -4,8 +4,10 @@
 /// them.
 #include "transient/verdict/StepError.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -31,28 +33,31 @@ double ofVibration(double wh, double radius, bool corrected, double sampling = 1
 
 /// Without damping (r = 1) the scheme is the trapezoidal rule, which turns (q, v/w) by a = 2
 /// atan(wh/2) and keeps its length; two halves turn it by b = 4 atan(wh/4). A motion that turns by
-/// b per step and has q_0 and q_1 of one that turns by a, q_k = cos(f + k a), ends 8 steps later
-/// at (q_1 sin 8b - q_0 sin 7b) / sin b. T is 3 s; the run begins at rest, at its amplitude:
-/// <|q - q(0)|^2> = 3/2, <|v|^2> = 2 sin^2(a/2) / h^2.
+/// b per step and has q_0 and q_1 of one that turns by a, q_k = cos(f + k a), ends n steps later
+/// at (q_1 sin nb - q_0 sin (n-1)b) / sin b. T is 3 s; the run begins at rest, at its amplitude:
+/// <|q - q(0)|^2> = 3/2, <|v|^2> = 2 sin^2(a/2) / h^2. Without phase correction windows have two
+/// radians at the root of their ratio, 8 to 32 steps.
 double expectedOfVibration(double wh) {
   const double a = 2 * std::atan(wh / 2), b = 4 * std::atan(wh / 4), h = wh / w;
+  const double omega = std::sqrt(2 * std::pow(std::sin(a / 2) / h, 2) / 1.5);
+  const int n = static_cast<int>(std::clamp(2 / (omega * h), 8.0, 32.0));
   double error = 0, moved = 0;
   for (double f = 0; f < 2 * constants::pi; f += 1e-3) {
     const auto q = [&](int k) { return std::cos(f + k * a); };
-    error += std::pow(q(8) - (q(1) * std::sin(8 * b) - q(0) * std::sin(7 * b)) / std::sin(b), 2);
+    error +=
+        std::pow(q(n) - (q(1) * std::sin(n * b) - q(0) * std::sin((n - 1) * b)) / std::sin(b), 2);
     double most = 0;
-    for (int k = 1; k <= 8; ++k) most = std::max(most, std::pow(q(k) - q(0), 2));
+    for (int k = 1; k <= n; ++k) most = std::max(most, std::pow(q(k) - q(0), 2));
     moved += most;
   }
-  const double turns = 3 * std::sqrt(2 * std::pow(std::sin(a / 2) / h, 2) / 1.5);
-  return turns * std::sqrt(error / moved);
+  return 3 * omega * std::sqrt(error / moved);
 }
 
 TEST(StepError, measuresThePhaseThatAWindowLoses) {
   for (double wh : {0.05, 0.2, 0.4}) {
     const double expected = expectedOfVibration(wh);
-    EXPECT_NEAR(ofVibration(wh, 1.0, false), expected, 0.05 * expected) << wh;
-    EXPECT_NEAR(ofVibration(wh, 1.0, false, 0.75), expected, 0.05 * expected)
+    EXPECT_NEAR(ofVibration(wh, 1.0, false), expected, 0.1 * expected) << wh;
+    EXPECT_NEAR(ofVibration(wh, 1.0, false, 0.75), expected, 0.1 * expected)
         << wh << ", samples within a step";
   }
 }
@@ -110,6 +115,44 @@ TEST(StepError, isThatOfTheCorrectedPhase) {
 }
 
 /// Window after window or one in many: same motion, same counts, to the last digit.
+/// Of a rotor whose gyroscopic terms split its frequencies the phase is right to second order only,
+/// in steps that are short beside it: windows of 8 of them said a third to a sixth of the error.
+TEST(StepError, isThatOfARotor) {
+  Matrix K(2, 2), G(2, 2);
+  K << 1e4, 0, 0, 1.3e4;
+  for (const double g : {50.0, 100.0, 200.0})
+    for (const double h : {5e-4, 2.5e-4}) {
+      G << 0, g, -g, 0;
+      auto model = denseModel(Matrix::Identity(2, 2), G, K);
+      model.initialDisplacement = Vector{{1e-3, 0.0}};
+      model.initialVelocity = Vector{{0.0, 0.1}};
+      Matrix A = Matrix::Zero(4, 4);
+      A.topRightCorner(2, 2).setIdentity();
+      A.bottomLeftCorner(2, 2) = -K;
+      A.bottomRightCorner(2, 2) = -G;
+      const Eigen::ComplexEigenSolver<Matrix> modes(A);
+      const Eigen::VectorXcd start = modes.eigenvectors().partialPivLu().solve(
+          (Vector(4) << model.initialDisplacement, model.initialVelocity)
+              .finished()
+              .cast<std::complex<double>>());
+      auto o = options("Generalized-alpha", 3.0, h, 0.01);
+      acceptCoarseSteps(o);
+      Keep samples;
+      const double said = integrate(model, o, samples).stepError;
+      double apart = 0, size = 0;
+      for (std::size_t i = 0; i < samples.time.size(); ++i) {
+        const Eigen::VectorXcd turned =
+            (modes.eigenvalues() * samples.time[i]).array().exp() * start.array();
+        const Vector exact = (modes.eigenvectors() * turned).real().head(2);
+        apart += (samples.q[i] - exact).squaredNorm();
+        size += (exact - model.initialDisplacement).squaredNorm();
+      }
+      const double error = std::sqrt(apart / size);
+      EXPECT_GT(said, 0.5 * error) << g << ", " << h;
+      EXPECT_LT(said, 3 * error) << g << ", " << h;
+    }
+}
+
 TEST(StepError, leavesTheRunAlone) {
   const auto drop = [](double end, Keep& samples) {
     auto o = options("Generalized-alpha", end, 1e-3, 0.005);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What is said of valid scenes whose results are not those of a drillstring.
+#include "substructures/drillstring/scene/Remarks.hpp"
+
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include "tests/support/SourceFolder.hpp"
+
+namespace RemarksTest {
+
+using namespace tooljoint;
+using namespace tooljoint::drillstring;
+
+Scene scene(const std::string& deck, const std::vector<std::string>& overrides) {
+  return readScene(testing_::sourceFolder() + "/xml/" + deck, overrides);
+}
+
+TEST(Remarks, BitFrictionThatFallsWantsDampingThatRises) {
+  const std::string deck = "stick_slip_2500m.xml", undamped = "Damping/Stiffness Coefficient=0";
+  EXPECT_EQ(bitFrictionRemark(scene(deck, {})), "");
+  EXPECT_NE(bitFrictionRemark(scene(deck, {undamped})).find("Give Damping/Stiffness Coefficient"),
+            std::string::npos);
+  EXPECT_EQ(bitFrictionRemark(scene(deck, {undamped, "Bit/Stribeck/Static Coefficient=0.5",
+                                           "Bit/Stribeck/Dynamic Coefficient=0.5"})),
+            "")
+      << "friction that does not fall";
+  EXPECT_EQ(bitFrictionRemark(scene("helical_170m.xml", {})), "") << "no law of the bit";
+}
+
+TEST(Remarks, ThePublishedPreStressIsWrongInBends) {
+  EXPECT_NE(prestressRemark(scene("helical_170m.xml", {})), "");
+  EXPECT_EQ(prestressRemark(scene("helical_170m.xml", {"Path/Pre-stress=Full tangent"})), "");
+}
+
+}  // namespace RemarksTest
