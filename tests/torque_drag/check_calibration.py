@@ -129,7 +129,9 @@ def bounds():
     expect("a coefficient at its bound has no interval", found["at_bound"] == 1 and found["fitted"] == 1 and math.isnan(found["lower"]) and math.isnan(found["upper"]), found)
     expect("and is warned of", "ends at a bound of friction" in " ".join((done.stdout + done.stderr).split()), done.stderr)
     block = fitted("bound")["Torque and Drag/Block Weight"]
-    expect("the other quantity has one", block["lower"] < block["fitted"] < block["upper"], block)
+    apart = numpy.array([float(row["hook_load"]) - float(row["computed_hook_load"]) for row in rows("bound", "torque_drag_measured.csv")])
+    half = stats.t.ppf(0.975, len(apart) - 1) * math.sqrt(apart @ apart / (len(apart) - 1) / len(apart))
+    expect(f"the interval of the block weight is that beside a held coefficient, {half}", abs((block["upper"] - block["lower"]) / 2 - half) < 1e-3 * half, block)
 
 
 def refusals():

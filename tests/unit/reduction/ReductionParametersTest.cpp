@@ -93,7 +93,8 @@ TEST(ReductionParameters, ExactlyOneModeSelection) {
 TEST(ReductionParameters, StaticCondensationNeedsNoSelection) {
   auto list = defaults();
   list.set("Basis", "Guyan");
-  EXPECT_EQ(modesOf(reduceAll(samples::loopFrame(6, false), list)), (std::vector<int>{0, 0, 0, 0}));
+  for (const auto& part : reduceAll(samples::loopFrame(6, false), list))
+    EXPECT_EQ(part.retained + part.modes, 0) << part.name;
   list.sublist("Mode Selection").set("Modes", 3);
   const auto masters = reduceAll(samples::loopFrame(6, false), list);
   EXPECT_EQ(masters[0].retained, 3);
