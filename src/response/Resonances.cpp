@@ -25,6 +25,8 @@ constexpr int lookedSpeeds = 5;
 /// Iterations to a place of the sweep, and its relative accuracy.
 constexpr int mostIterations = 30;
 constexpr double close = 1e-9;
+/// Of the place: resonances of two speeds that are nearer are one, or half their width apart.
+constexpr double samePlace = 1e-4;
 
 class Search {
  public:
@@ -71,11 +73,19 @@ class Search {
       if (s.real() > noGrowth * std::abs(s) && (!out_.growing || s.real() > out_.growing->s.real()))
         out_.growing = Growing{speed, s};
       if (s.imag() < noVibration * std::abs(s)) continue;
-      if (settings_.bySpeed())
-        follow({s, found.vectors.col(j)});
-      else
+      if (!settings_.bySpeed())
         add(s.imag() / perUnit_, s);
+      else if (!isKnown(s))
+        follow({s, found.vectors.col(j)});
     }
+  }
+
+  /// A mode of another speed has led to where this one would.
+  bool isKnown(Complex s) const {
+    const double where = s.imag() / perUnit_;
+    return std::any_of(out_.found.begin(), out_.found.end(), [where](const Resonance& one) {
+      return std::abs(one.where - where) < std::max(0.5 * one.width, samePlace * where);
+    });
   }
 
   void add(double where, Complex s) {
