@@ -170,6 +170,11 @@ void exportCase(const Case& one, io::ExportFormat format, const std::string& fol
   if (!text.empty()) log::info(text);
   const auto reduced = reduce(one, *rest);
   log::info(reduction::summaryTable(reduced.parts()));
+  if (reduced.coupled().dependent > 0)
+    log::warn(std::to_string(reduced.coupled().dependent) +
+              " coordinates of the parts depend on the others in this model (\"Residual "
+              "Coordinates\" = \"Tied\"). In part files they are free: coupled again, the parts "
+              "are the model of \"Free\".");
   exportParts(rest->contents(reduced.unreduced.parts), reduced.parts(), format,
               folder.empty()
                   ? (fs::path("results") / fs::path(deck.file()).stem() / "parts").string()

@@ -171,7 +171,7 @@ def analyses():
     assembly, string = str(ROOT / "xml/bha_motor_1500m.xml"), str(ROOT / "xml/helical_170m.xml")
     bha = [word for name, value in (("Inclination", "{20 deg}"), ("Build Rate", "3 deg/30m"), ("Weight On Bit", "{20 kN, 60 kN}"), ("Tool Face", "{0 deg, 90 deg}"))
            for word in ("--set", f"Bottom-Hole Assembly/{name}={value}")]
-    campbell = ["--set", "Campbell/Highest Speed=120 rpm", "--set", "Campbell/Points=12", "--set", "Campbell/Modes=4"]
+    campbell = ["--set", "Campbell/Highest Speed=120 rpm", "--set", "Campbell/Points=8", "--set", "Campbell/Modes=4"]
     response = pathlib.Path("response.xml")
     text = (ROOT / "xml/helical_170m.xml").read_text(encoding="utf-8").replace('value="components/', f'value="{ROOT}/xml/components/')
     place = '<Parameter name="Node" type="int" value="60"/><Parameter name="Component" type="string" value="u"/>'

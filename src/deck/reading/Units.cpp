@@ -105,11 +105,12 @@ std::vector<UnitSymbol> makeSymbols() {
   add(power, "kW", 1e3);
   add(density, "ppg", pound / gallon, {"PPG"});
   add(density, "pcf", pound / (foot * foot * foot));
-  add(density, "sg", waterDensity);
+  add(density, "sg", waterDensity, {"SG"});
   add(rotarySpeed, "rpm", constants::rpm, {"RPM"});
   add(frequency, "Hz", 1.0);
   add(frequency, "kHz", 1e3);
   add(volume, "l", 1e-3, {"liter", "liters", "litre", "litres"});
+  add(volume, "cc", 1e-6);
   add(volume, "gal", gallon);
   add(volume, "bbl", barrel);
   add(flow, "gpm", gallon / 60.0, {"GPM"});
