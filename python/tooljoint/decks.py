@@ -2,6 +2,7 @@
 """Decks: read, changed, written, run."""
 from __future__ import annotations
 
+import copy
 import difflib
 import json
 import os
@@ -39,15 +40,18 @@ class Deck:
 
     def __init__(self, file: str | os.PathLike, set: Mapping[str, Any] | None = None, without: Iterable[str] = ()):
         self.file = str(file)
+        self._folder = os.getcwd()
         self._text = ""
         self.overrides = ["!" + path for path in without] + [f"{path}={text_of(value)}" for path, value in (set or {}).items()]
         self._read = _core.read_deck(self._source())
 
-    def _source(self):
-        return _core.DeckSource(self.file, self._text, self.overrides)
+    def _source(self, text=None, overrides=None):
+        """What the toolkit reads, also after a change of the working folder."""
+        file = self.file if os.getcwd() == self._folder else os.path.join(self._folder, self.file)
+        return _core.DeckSource(file, self._text if text is None else text, self.overrides if overrides is None else overrides)
 
     def _change(self, override):
-        self._read = _core.read_deck(_core.DeckSource(self.file, self._text, [*self.overrides, override]))
+        self._read = _core.read_deck(self._source(overrides=[*self.overrides, override]))
         self.overrides.append(override)
 
     def __getitem__(self, path: str) -> Any:
@@ -91,7 +95,7 @@ class Deck:
                 element.remove(old)
         element.append(ElementTree.fromstring(write(name, values, _described(description, name))))
         text = self._whole(root)
-        self._read = _core.read_deck(_core.DeckSource(self.file, text, overrides))
+        self._read = _core.read_deck(self._source(text, overrides))
         self.overrides = overrides
         self._text = text
 
@@ -189,9 +193,8 @@ def study(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None, 
 def _with(deck, set, without):
     if not isinstance(deck, Deck):
         return Deck(deck, set, without)
-    changed = Deck(deck.file)
-    changed.overrides, changed._text = list(deck.overrides), deck._text
-    changed._read = deck._read
+    changed = copy.copy(deck)
+    changed.overrides = list(deck.overrides)
     for path in without:
         del changed[path]
     for path, value in (set or {}).items():

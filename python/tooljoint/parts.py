@@ -80,7 +80,10 @@ def write_part(part: _core.Part, path: str | os.PathLike, interfaces: Mapping[st
 
     interfaces: positions of dofs by the name of their set, for Parts/Joints; by default all of the interface as "interface".
     positions: coordinates [m] of nodes by their number, for pictures and for moved parts. Point laws are no part of the format.
+    A reduced part is refused: make a part of its `model` with `part()`.
     """
+    if not isinstance(part, _core.Part):
+        raise UsageError(f"write_part() takes a Part, not {part!r}. Of a reduced part, write part(name, model.mass, model.stiffness(), ...) of its model.")
     sets = {"interface": part.interface} if interfaces is None else interfaces
     _core.write_part(part, str(path), {name: list(map(int, dofs)) for name, dofs in sets.items() if len(list(dofs))}, dict(positions or {}))
 

@@ -44,6 +44,20 @@ class Decks(unittest.TestCase):
         with self.assertRaises(KeyError):
             deck["Mud"]
 
+    def test_a_deck_stays_in_its_folder_when_the_working_folder_changes(self):
+        there = pathlib.Path.cwd()
+        with tempfile.TemporaryDirectory() as folder:
+            deck = tj.Deck(os.path.relpath(FRAME), set=SHORT)
+            try:
+                os.chdir(folder)
+                deck["Transient/End Time"] = "20 ms"
+                deck.check()
+                tj.run(deck, set={"Transient/End Time": "10 ms"}, output="short")
+                self.assertTrue(pathlib.Path(folder, "short").is_dir())
+            finally:
+                os.chdir(there)
+        self.assertEqual(deck["Transient/End Time"], 0.02)
+
     def test_a_deck_is_written_and_read_again(self):
         deck = tj.Deck(FRAME)
         deck["Transient/End Time"] = "250 ms"

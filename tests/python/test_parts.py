@@ -197,6 +197,12 @@ class Reduction(unittest.TestCase):
         self.assertTrue(np.allclose(found, self.frequency, rtol=1e-8), f"{found} against {self.frequency}")
         with self.assertRaises(tj.DeckError):
             tj.read_part("nowhere.h5")
+        reduced = tj.reduce(self.left, modes=2)
+        with self.assertRaisesRegex(tj.UsageError, "takes a Part, not <ReducedPart"):
+            tj.write_part(reduced, "reduced.h5")
+        part = tj.part("reduced", reduced.model.mass, reduced.model.stiffness(), interface=range(reduced.interface))
+        tj.write_part(part, "reduced.h5")
+        self.assertTrue(np.allclose(tj.modes(tj.read_part("reduced.h5"), 2).frequency, tj.modes(reduced.model, 2).frequency, rtol=1e-10))
 
     def test_laws_of_a_file_are_given_and_point_laws_told(self):
         stiff, k = np.diag([5e3, 0, 0]), 1e3 * np.array([[2.0, -1, 0], [-1, 2, -1], [0, -1, 2]])

@@ -135,15 +135,25 @@ class Reader {
                                     " occurs more than once in the header. Rename one.");
     column.place = places[0];
     if (column.wanted.name.empty()) column.wanted.name = names[places[0]];
-    if (&column == &columns_[0] && (clock_ = hasClock(column.place))) return;
+    if (&column == &columns_[0] && hasClock(column)) return;
     unit(column, headings_[column.place].unit);
   }
 
-  /// Whether the first cell of a column that is not empty is a time of day.
-  bool hasClock(std::size_t place) const {
-    for (std::size_t i = firstRow_; i < rows_.size(); ++i)
-      if (place < rows_[i].cells.size() && !rows_[i].cells[place].empty())
-        return clockTime(rows_[i].cells[place]).has_value();
+  /// Whether the first cell of the time that is not empty is a time of day, and be it one in a form
+  /// that is not read, such as a date whose day and month may be meant in either order.
+  bool hasClock(const Column& time) {
+    for (std::size_t i = firstRow_; i < rows_.size(); ++i) {
+      if (time.place >= rows_[i].cells.size() || rows_[i].cells[time.place].empty()) continue;
+      const std::string& first = rows_[i].cells[time.place];
+      clock_ = clockTime(first).has_value();
+      const bool otherForm = !clock_ && first.find(':') != std::string::npos;
+      if (otherForm)
+        fault(rows_[i].line, "the time " + inQuotes(first) + " of the column " +
+                                 inQuotes(time.wanted.name) +
+                                 " has a form that is not read. Write times as hh:mm:ss or as "
+                                 "YYYY-MM-DD hh:mm:ss.");
+      return clock_ || otherForm;
+    }
     return false;
   }
 

@@ -84,6 +84,19 @@ TEST(LogTable, TimesOfDayCountFromTheFirstOne) {
   EXPECT_NE(text.find(":4: the value \"3\""), std::string::npos) << text;
 }
 
+TEST(LogTable, TimesOfOtherFormsAreRefusedByTheirForm) {
+  for (const std::string form : {"24/11/2026 10:00:00", "24.11.2026 10:00:00", "10:00"}) {
+    const auto text =
+        tooljoint::errorText([&] { read("Time,x [N]\n" + form + ",1\n", {{"x", "N", ""}}); });
+    EXPECT_NE(text.find(":2: the time \"" + form +
+                        "\" of the column \"Time\" has a form that is not read. Write times as "
+                        "hh:mm:ss or as YYYY-MM-DD hh:mm:ss."),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("has no unit"), std::string::npos) << text;
+  }
+}
+
 constexpr const char* head =
     "~Version\nVERS. 2.0 : x\nWRAP. YES : x\n~Well\nUWI 100091604920W300\nNULL. -999.25 : "
     "x\n~Curve\nTIME.S : t\n"
