@@ -191,7 +191,7 @@ class HbFile {
   }
 
   /// Repeat counts and the width before the point: 1P,4E20.12 -> 4 fields of 20 columns,
-  /// 3(1PE25.13) -> 3 of 25.
+  /// 3(1PE25.13) -> 3 of 25, 3ES26.16 -> 3 of 26.
   static FieldFormat formatOf(std::string text) {
     constexpr std::int64_t most = 1024;
     const auto letter = text.find_first_of("(IEDFGP");
@@ -204,7 +204,10 @@ class HbFile {
     if (text[letter] == '(') {
       field = formatOf(text.substr(letter + 1, text.rfind(')') - letter - 1));
     } else {
-      const auto width = wholeNumber(text.substr(letter + 1, text.find('.') - letter - 1));
+      const bool twoLetters =
+          text.compare(letter, 2, "ES") == 0 || text.compare(letter, 2, "EN") == 0;
+      const auto first = letter + (twoLetters ? 2 : 1);
+      const auto width = wholeNumber(text.substr(first, text.find('.') - first));
       if (width >= 1 && width <= most) field.width = static_cast<std::size_t>(width);
     }
     if (count < 1 || count > most || field.count > most) return {};

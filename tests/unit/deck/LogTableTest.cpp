@@ -86,8 +86,9 @@ TEST(LogTable, TimesOfDayCountFromTheFirstOne) {
 
 TEST(LogTable, TimesOfOtherFormsAreRefusedByTheirForm) {
   for (const std::string form : {"24/11/2026 10:00:00", "24.11.2026 10:00:00", "10:00"}) {
-    const auto text =
-        tooljoint::errorText([&] { read("Time,x [N]\n" + form + ",1\n", {{"x", "N", ""}}); });
+    const auto text = tooljoint::errorText([&] {
+      read("Time,x [N]\n" + form + ",1\n", {{"x", "N", ""}});
+    });
     EXPECT_NE(text.find(":2: the time \"" + form +
                         "\" of the column \"Time\" has a form that is not read. Write times as "
                         "hh:mm:ss or as YYYY-MM-DD hh:mm:ss."),

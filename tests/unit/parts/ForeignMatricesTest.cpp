@@ -293,7 +293,8 @@ TEST(HarwellBoeing, SeveralNumbersALine) {
             (std::vector<DofLabel>{DofLabel::physical(3, 1), DofLabel::physical(7, 3)}));
   EXPECT_EQ(stiffness(part), (Matrix(2, 2) << 4, -3, -3, 5).finished());
   EXPECT_EQ(Matrix(part.part.model.mass), (Matrix(2, 2) << 0, 0, 0, 2).finished());
-  for (const char* format : {"(1P3E10.3)", "(3(1PE10.3))", "(1P, 3(e10.3))", "(1( 3E10.3 ))"}) {
+  for (const char* format : {"(1P3E10.3)", "(3(1PE10.3))", "(1P, 3(e10.3))", "(1( 3E10.3 ))",
+                             "(3ES10.3)", "(3EN10.3)"}) {
     giveStiffness(format);
     EXPECT_EQ(stiffness(folder.read("part.json")), stiffness(part)) << format;
   }
