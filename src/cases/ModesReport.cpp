@@ -67,10 +67,9 @@ Growth growthOf(const std::vector<std::complex<double>>& values) {
   return growth;
 }
 
-/// Says what the damped modes say of the stability of the state, and warns of states of point laws
-/// that they leave as they are at rest.
-void sayStability(const Growth& growth, std::size_t listed, const model::SecondOrderModel& model,
-                  double t) {
+/// Prints whether damped modes grow, and warns of states of point laws that they leave out.
+void reportStability(const Growth& growth, std::size_t listed, const model::SecondOrderModel& model,
+                     double t) {
   if (growth.modes == 0)
     log::info("None of the " + std::to_string(listed) + " damped modes listed grows.");
   else
@@ -78,9 +77,7 @@ void sayStability(const Growth& growth, std::size_t listed, const model::SecondO
               " damped modes listed " + (growth.modes == 1 ? "grows" : "grow") +
               ", the fastest as exp(" + fmt::format("{:.3g}", growth.fastest) +
               " t): the state is unstable.");
-  const auto held = stability::withoutStates(model::setsWithMovingStates(model, t));
-  if (!held.empty())
-    log::warn(trim(held) + " The responses to harmonic loads (tooljoint response) have it, too.");
+  stability::warnOfHeldStates(model, t);
 }
 
 /// What is listed, for the files.
@@ -217,7 +214,7 @@ ListedModes listFullModes(const model::SecondOrderModel& full, const ModesOption
         {static_cast<double>(i + 1), size / constants::twoPi, ratio, s.imag() / constants::twoPi});
   }
   listed.growth = growthOf({damped.values.begin(), damped.values.end()});
-  sayStability(*listed.growth, at(damped.values.size()), full, t);
+  reportStability(*listed.growth, at(damped.values.size()), full, t);
   logStageTimes();
   listed.damped = dampedTable;
   return listed;
@@ -265,7 +262,7 @@ ListedModes listComparedModes(const model::SecondOrderModel& full, const std::ve
   }
   listed.growth = growthOf(values);
   listed.coupledGrowth = growthOf(coupled);
-  sayStability(*listed.growth, values.size(), full, t);
+  reportStability(*listed.growth, values.size(), full, t);
   if (listed.growth->modes == 0 && listed.coupledGrowth->modes > 0)
     log::warn(fmt::format(
         "{} of the coupled modes beside them {}, the fastest as exp({:.3g} t): the reduction makes "

@@ -43,10 +43,12 @@ Synthesis synthesise(const std::vector<model::Substructure>& parts,
                           basis.dependentCoordinates(result.coupled.model, result.coupled.maps,
                                                      cache.views, bases));
       });
-      std::vector<int> rows;
-      for (const auto& part : result.parts) rows.push_back(part.interface);
       if (options.interface)
-        parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface, rows); });
+        parallel::agree([&] {
+          std::vector<int> joinable;
+          for (const auto& part : result.parts) joinable.push_back(part.interface);
+          reduceInterfaces(result.coupled, *options.interface, joinable);
+        });
       return result;
     }
     parallel::agree([&] {

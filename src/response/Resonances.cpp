@@ -10,14 +10,14 @@
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/part/Partition.hpp"
 #include "response/SweepParameters.hpp"
+#include "response/campbell/ModeSearch.hpp"
 
 namespace tooljoint::response {
 
 namespace {
 
-/// Of |s|: a mode with less Im s does not vibrate, one with less damping has no finite peak, and
-/// one that grows more slowly grows by rounding.
-constexpr double noVibration = 1e-6, noDamping = 1e-9, noGrowth = 1e-8;
+/// Of |s|: a mode with less damping has no finite peak.
+constexpr double noDamping = 1e-9;
 /// Modes asked for beyond the undamped ones up to the highest frequency, and at most.
 constexpr int moreModes = 8, mostModes = 256;
 /// Speeds of a sweep whose modes are looked at.
@@ -70,9 +70,9 @@ class Search {
     const auto found = modes(rotating_.at(speed));
     for (Eigen::Index j = 0; j < found.values.size(); ++j) {
       const Complex s = found.values[j];
-      if (s.real() > noGrowth * std::abs(s) && (!out_.growing || s.real() > out_.growing->s.real()))
+      if (grows(s) && (!out_.growing || s.real() > out_.growing->s.real()))
         out_.growing = Growing{speed, s};
-      if (s.imag() < noVibration * std::abs(s)) continue;
+      if (!vibrates(s)) continue;
       if (!settings_.bySpeed())
         add(s.imag() / perUnit_, s);
       else if (!isKnown(s))
@@ -100,7 +100,7 @@ class Search {
       if (!(speed > sweep_.front() && speed < sweep_.back())) return;
       const auto m = rotating_.at(speed);
       const auto there = linalg::refine(m.mass, m.damping, m.stiffness, mode);
-      if (!there || !(there->s.imag() > noVibration * std::abs(there->s))) return;
+      if (!there || !vibrates(there->s)) return;
       mode = *there;
       const double next = mode.s.imag() / perUnit_;
       if (std::abs(next - speed) <= close * next) return add(next, mode.s);

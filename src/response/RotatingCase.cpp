@@ -110,11 +110,7 @@ std::vector<estimate::ModeComparison> RotatingCase::compare(
   return compareAt(speed, target);
 }
 
-void RotatingCase::announceHeldStates() const {
-  const auto held = stability::withoutStates(model::setsWithMovingStates(model(), time_));
-  if (!held.empty())
-    log::warn(trim(held) + " The responses to harmonic loads (tooljoint response) have it, too.");
-}
+void RotatingCase::announceHeldStates() const { stability::warnOfHeldStates(model(), time_); }
 
 void RotatingCase::announceUnknownStates() const {
   const auto unknown = model::setsWithUnknownStates(model(), time_);

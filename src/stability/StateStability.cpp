@@ -16,6 +16,7 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/report/EvaluationCounters.hpp"
+#include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/input/ComponentAxes.hpp"
@@ -288,6 +289,12 @@ std::string withoutStates(const std::vector<std::string>& held) {
   return " The states of " + quotedList(held) +
          " are held here: stiffness and damping by them are left out, and growth by them (by the "
          "delay of a cutting bit, by the control of a drive) is not seen. The motion shows it.";
+}
+
+void warnOfHeldStates(const model::SecondOrderModel& model, double t) {
+  const auto held = withoutStates(model::setsWithMovingStates(model, t));
+  if (!held.empty())
+    log::warn(trim(held) + " The responses to harmonic loads (tooljoint response) have it, too.");
 }
 
 StateStability assess(const model::SecondOrderModel& model, double t) {

@@ -49,6 +49,8 @@ struct StateStability {
 
 /// What a verdict on these modes leaves out, as a sentence after a blank; empty without such sets.
 std::string withoutStates(const std::vector<std::string>& held);
+/// Warns of it where the damped modes of a model at t [s] leave out states of point laws.
+void warnOfHeldStates(const model::SecondOrderModel& model, double t);
 
 /// Growth rates below this are not reported [1/s]: a disturbance takes more than a quarter of an
 /// hour to grow by e.

@@ -23,8 +23,9 @@ using model::DofLabel;
 
 class Reducer {
  public:
-  Reducer(Coupling& coupling, const reduction::InterfaceBasis& basis, const std::vector<int>& rows)
-      : coupling_(coupling), model_(coupling.model), basis_(basis), rows_(rows) {}
+  Reducer(Coupling& coupling, const reduction::InterfaceBasis& basis,
+          const std::vector<int>& joinable)
+      : coupling_(coupling), model_(coupling.model), basis_(basis), joinable_(joinable) {}
 
   void run() {
     if (!coupling_.multipliers.empty())
@@ -74,7 +75,7 @@ class Reducer {
     std::vector<std::vector<int>> partsOf(model_.dofs.size());
     for (std::size_t p = 0; p < coupling_.maps.size(); ++p)
       forEachEntry(coupling_.maps[p], [&](int row, int column, double) {
-        if (!rows_.empty() && row >= rows_[p]) return;
+        if (!joinable_.empty() && row >= joinable_[p]) return;
         auto& parts = partsOf[at(column)];
         if (parts.empty() || parts.back() != static_cast<int>(p))
           parts.push_back(static_cast<int>(p));
@@ -152,15 +153,15 @@ class Reducer {
   Coupling& coupling_;
   model::SecondOrderModel& model_;
   const reduction::InterfaceBasis& basis_;
-  const std::vector<int>& rows_;
+  const std::vector<int>& joinable_;
   std::vector<int> reduced_, others_;
 };
 
 }  // namespace
 
 void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis,
-                      const std::vector<int>& rows) {
-  Reducer(coupling, basis, rows).run();
+                      const std::vector<int>& joinable) {
+  Reducer(coupling, basis, joinable).run();
 }
 
 }  // namespace tooljoint::coupling

@@ -15,11 +15,11 @@ namespace tooljoint::coupling {
 /// start that is not in their span is fitted in least squares of mass. What was there before stays
 /// as `wholeInterfaces`. A coupled model without joined dofs is not changed. ModelError for a model
 /// with multipliers.
-/// \param rows  how many coordinates of each part, its first ones, may be joined: the dofs that
+/// \param joinable  how many coordinates of each part, its first ones, may be joined; dofs that
 /// join
-///              the same parts are an interface. Empty: all of them. Others may depend on every
-///              joined dof (DependentCoordinates).
+///     the same parts are one interface. Empty: all of them. The others may depend on every joined
+///     dof (DependentCoordinates).
 void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis,
-                      const std::vector<int>& rows = {});
+                      const std::vector<int>& joinable = {});
 
 }  // namespace tooljoint::coupling

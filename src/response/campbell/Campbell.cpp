@@ -345,11 +345,6 @@ class Diagram {
 
 }  // namespace
 
-bool grows(Complex s) {
-  constexpr double rounding = 1e-8;  // of |s|
-  return s.real() > rounding * std::abs(s);
-}
-
 double CampbellRow::frequency() const { return s.imag() / constants::twoPi; }
 double CampbellRow::damping() const { return 0.0 - s.real() / std::abs(s); }
 

@@ -143,9 +143,6 @@ struct StateRow {
   }
 };
 
-/// Whether a mode grows, beyond rounding.
-bool grows(std::complex<double> s);
-
 struct CampbellDiagram {
   std::vector<CampbellRow> rows;        ///< speed by speed, by |s|
   std::vector<Crossing> crossings;      ///< by line, then speed

@@ -12,6 +12,7 @@
 #include "common/report/StageTimes.hpp"
 #include "response/Columns.hpp"
 #include "response/campbell/Campbell.hpp"
+#include "response/campbell/ModeSearch.hpp"
 
 namespace tooljoint::response {
 

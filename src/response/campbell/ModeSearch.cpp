@@ -14,6 +14,8 @@ namespace {
 
 /// Of |s|: a mode with less Im s does not vibrate.
 constexpr double noVibration = 1e-6;
+/// Of |s|: what grows more slowly grows by rounding.
+constexpr double noGrowth = 1e-8;
 /// Modes looked at beyond those followed: the next ones may come below them.
 constexpr int beyond = 8;
 /// Of the width of a window, looked at on either side of it.
@@ -50,6 +52,7 @@ std::vector<int> nearestTo(Complex centre, const Eigen::VectorXcd& values, int c
 }  // namespace
 
 bool vibrates(Complex s) { return s.imag() > noVibration * std::abs(s); }
+bool grows(Complex s) { return s.real() > noGrowth * std::abs(s); }
 
 ModeSearch::ModeSearch(const RotatingStates& states, const CampbellSettings& settings)
     : states_(states), settings_(settings) {}

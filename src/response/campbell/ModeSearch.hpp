@@ -16,6 +16,8 @@ namespace tooljoint::response {
 
 /// Im s > 0 beside rounding.
 bool vibrates(std::complex<double> s);
+/// Re s > 0 beside rounding.
+bool grows(std::complex<double> s);
 
 class ModeSearch {
  public:

@@ -8,8 +8,8 @@ std::string prestressRemark(const Scene& scene) {
   for (const double s : scene.string.depths())
     if (scene.well.trajectory().at(s).curvature.norm() > 0.0)
       return "Path/Pre-stress is \"Axial and torque\" in a well that bends: the string then "
-             "resists a "
-             "spin about its own curved axis, and torques are wrong. Take \"Full tangent\" (the "
+             "resists a spin about its own curved axis, and torques are wrong. Take \"Full "
+             "tangent\" (the "
              "default) unless the published model of Nguyen et al. 2020 is wanted.";
   return "";
 }

@@ -16,9 +16,9 @@ namespace {
 /// Units that are proposed for one number.
 constexpr std::size_t mostUnits = 2;
 
-/// Of a string that turns [rad/s]: 760 rpm, and 300 rpm of a number without a unit, since "60" most
-/// probably means rpm; of a diagram over its speed: 2400 rpm.
-constexpr double fastest = 80.0, fastestBare = 31.5, fastestDrawn = 250.0;
+/// Of a string that turns [rad/s]: 760 rpm, and 300 rpm of a value in rad/s, the unit of a bare
+/// number: "60" most probably means rpm; of a diagram over its speed: 2400 rpm.
+constexpr double fastest = 80.0, fastestInSi = 31.5, fastestDrawn = 250.0;
 /// Once round, and friction coefficients.
 constexpr double round = 6.3, roughest = 1.5;
 /// Weight on bit and torques [N, N m].
@@ -108,22 +108,22 @@ const std::vector<UsualRange>& usualRanges() {
       {"Loads/Weight On Bit", leastWeight, mostWeight},
       {"Loads/Torque On Bit", leastTorque, mostTorque},
       {"Loads/Gravity", 1, 30},
-      {"Rotary Speed/Constant/Speed", 0, fastest, fastestBare},
+      {"Rotary Speed/Constant/Speed", 0, fastest, fastestInSi},
       {"Drillstring/Tool Face", 0, round},
       {"Contact/Friction/Static", 0, roughest},
       {"Contact/Friction/Dynamic", 0, roughest},
-      {"Rotary Speed/Exponential/Initial Speed", 0, fastest, fastestBare},
-      {"Rotary Speed/Exponential/Final Speed", 0, fastest, fastestBare},
-      {"Rotary Speed/Harmonic/Mean Speed", 0, fastest, fastestBare},
-      {"Rotary Speed/Ramp/Initial Speed", 0, fastest, fastestBare},
-      {"Rotary Speed/Ramp/Final Speed", 0, fastest, fastestBare},
+      {"Rotary Speed/Exponential/Initial Speed", 0, fastest, fastestInSi},
+      {"Rotary Speed/Exponential/Final Speed", 0, fastest, fastestInSi},
+      {"Rotary Speed/Harmonic/Mean Speed", 0, fastest, fastestInSi},
+      {"Rotary Speed/Ramp/Initial Speed", 0, fastest, fastestInSi},
+      {"Rotary Speed/Ramp/Final Speed", 0, fastest, fastestInSi},
       {"Rotary Speed/Table/Speeds", 0, fastest},
       {"Top Drive/Torque Limit", leastTorque, mostTorque},
       {"Top Drive/Block Speed", 0, fastestBlock},
       {"Top Drive/Autodriller/Weight On Bit", leastWeight, mostWeight},
       {"Torque and Drag/Depths", 0, longest},
       {"Torque and Drag/Block Weight", leastWeight, mostWeight},
-      {"Torque and Drag/Rotary Speed", 0, fastest, fastestBare},
+      {"Torque and Drag/Rotary Speed", 0, fastest, fastestInSi},
       {"Torque and Drag/Broomstick", 0, roughest},
       {"Torque and Drag/Reaming Speed", 0, fastestBlock},
       {"Torque and Drag/Rate Of Penetration", 0, 0.1},
@@ -150,8 +150,8 @@ std::vector<std::string> unusualValues(const deck::Deck& scene) {
     const bool doubled = diameter != nullptr && scene.gives(other);
     if (!doubled && !scene.gives(range.path)) continue;
     const auto& parameter = *list.findParameter(place.name);
-    if (range.bare > 0 && scene.given(range.path, parameter.unit).unit == parameter.unit)
-      range.high = range.bare;
+    if (range.highInSi > 0 && scene.given(range.path, parameter.unit).unit == parameter.unit)
+      range.high = range.highInSi;
     const auto values = numbers(valuesAt(scene.list(), place.list), parameter);
     const auto odd = std::find_if(values.begin(), values.end(),
                                   [&](double value) { return !isUsual(value, range); });

@@ -12,9 +12,9 @@
 namespace tooljoint::drillstring {
 
 struct UsualRange {
-  std::string path;  ///< of a number, or of an array of them, of sceneSpec()
-  double low, high;  ///< of its size, in its SI unit; 0 is usual everywhere
-  double bare = 0;   ///< `high` of a number without a unit; 0: the same
+  std::string path;     ///< of a number, or of an array of them, of sceneSpec()
+  double low, high;     ///< of its size, in its SI unit; 0 is usual everywhere
+  double highInSi = 0;  ///< `high` of a value in the SI unit, which a bare number has; 0: the same
 };
 
 /// From the laboratory to the largest rigs.
