@@ -180,8 +180,8 @@ def cuts(options):
     lines = [cut_row(options, counts, ranks) for counts in (chosen[:1] if options.short else chosen) for ranks in CUT_RANKS if ranks > 1 or counts != CUT_BLOCKS[-1]]
     return (f"{CUT_CHAPTER}\n\nThe same blocks, clamped at one end, without kept dofs: {MODES} coupled modes by `Basis` = `Multilevel` with {CUT_PARTS} parts, estimates included,\n"
             f"from the file on (`modes --coupled`, `Basis Checks` = `false`), beside {MODES} modes of the whole by one shift-invert run. Errors are the largest of the {MODES}\n"
-            f"frequencies; memory is that of one rank. The whole of more than {CUT_WHOLE} dofs is not solved. Times of `tools/scale.py --cut --most 600000`;\n"
-            "other work on the machine lengthens all of them alike.\n\n" +
+            f"frequencies; memory is that of one rank. The whole of more than {CUT_WHOLE} dofs is not solved. Times of `tools/scale.py --cut --most 600000`\n"
+            f"on a machine of its own: {machine()}, {os.cpu_count()} cores.\n\n" +
             table(("dofs", "ranks", "wall [s]", "memory [MB]", "largest error", "largest estimate", "whole: wall [s]", "memory [MB]"), lines))
 
 

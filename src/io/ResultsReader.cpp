@@ -45,6 +45,20 @@ bool isElsewhere(hid_t dataset) {
   return H5Pget_external_count(creation.get()) != 0 || H5Pget_layout(creation.get()) == H5D_VIRTUAL;
 }
 
+/// Name of a filter of a dataset that this HDF5 cannot undo; empty where it can undo all.
+std::string unknownFilter(hid_t dataset) {
+  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  for (int i = 0; i < H5Pget_nfilters(creation.get()); ++i) {
+    char name[64] = "";
+    std::size_t values = 0;
+    const H5Z_filter_t filter = H5Pget_filter2(creation.get(), static_cast<unsigned>(i), nullptr,
+                                               &values, nullptr, sizeof name, name, nullptr);
+    if (filter >= 0 && H5Zfilter_avail(filter) <= 0)
+      return *name != '\0' ? std::string(name) : "filter " + std::to_string(filter);
+  }
+  return {};
+}
+
 /// Bytes of a file that HDF5 has open.
 double fileSize(hid_t file) {
   hsize_t size = 0;
@@ -115,6 +129,10 @@ std::size_t ResultsReader::count(const std::string& path, std::int64_t dataset) 
   if (isElsewhere(dataset))
     throw FileError("The results file " + path_ + " has the values of " + path +
                     " in other files, which are not read. Copy them into it.");
+  if (const std::string filter = unknownFilter(dataset); !filter.empty())
+    throw FileError("The results file " + path_ + " has " + path + " compressed by \"" + filter +
+                    "\", which this program cannot undo. Write it with gzip, or without "
+                    "compression.");
   const double values = valuesOf(extents(dataset));
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const double bytes = values * static_cast<double>(H5Tget_size(type.get()));

@@ -225,6 +225,12 @@ def among_bending(program):
     near("its frequency [Hz]", static["growth_hz"], truth["frequency"], 1e-3 * truth["frequency"])
 
 
+def stuck_with_arkode(program):
+    """A bit that dry friction holds stays, also where Newton of a stage meets the way on which it turns."""
+    run = program.run("stuck_with_arkode", HERE.parents[1] / "xml/stick_slip_2500m.xml", {"Transient/Integrator": "SUNDIALS ARKODE", "Transient/End Time": 0.6}, ("Transient/Step",))
+    near("speed of the bit that is held [rad/s]", np.abs(run.data("transient/motion")[:, 2]).max(), 0.0, 0.5)
+
+
 def idle_bits(program):
     """Bits that would do nothing, and drives without a torque or an integral, are refused."""
     cutting = {"Bit/Law": "Cutting", "Bit/Cutting/Radius": 0.1, "Bit/Cutting/Blades": 4}
@@ -418,7 +424,7 @@ def cutting(program):
          np.abs(drift + lost - impulse).max() / np.abs(impulse).max(), 0.0, 0.02)
 
 
-CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, among_bending, idle_bits, matched, cutting, oscillator, whirl, hoisting.tanh_bit,
+CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, among_bending, stuck_with_arkode, idle_bits, matched, cutting, oscillator, whirl, hoisting.tanh_bit,
                                        hoisting.penetration_bit, hoisting.autodriller)}
 ON_REQUEST = {"stick_slip_2500m": scene_2500m.stick_slip_2500m,
               "combinations": lambda program: combinations(program, "without-sundials" not in sys.argv)}

@@ -140,6 +140,10 @@ def external(file):
     file.create_dataset("damping", shape=(2, 2), dtype="f8", external=[("/dev/zero", 0, h5py.h5f.UNLIMITED)])
 
 
+def foreign_filter(file):
+    file.create_dataset("damping", data=np.eye(2), compression="lzf")
+
+
 def many_names(file):
     file.attrs["name"] = np.array(["a"] * 50, dtype=h5py.string_dtype())
 
@@ -148,6 +152,7 @@ def announced_sizes():
     for write, sentence in ((huge_dofs, "announces 2e+12 values in /dofs"), (huge_matrix, "announces 1e+18 values in /mass"),
                             (huge_shape, "\"damping/shape\" holds 4e+09, expected rows and columns from 1 to 16777216"),
                             (huge_texts, "announces 1e+10 values in /omitted"), (external, "has the values of /damping in other files"),
+                            (foreign_filter, "has /damping compressed by \"lzf\", which this program cannot undo"),
                             (many_names, "text in the attribute name")):
         refused(f"HDF5 part with {write.__name__}", 2, sentence, "check", hdf5_part(f"{write.__name__}.h5", write))
     head = "%%MatrixMarket matrix coordinate real general\n"

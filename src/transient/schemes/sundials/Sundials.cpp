@@ -4,8 +4,8 @@
 /// differentiation) on y = (q, v, rated states of point laws), with the error of each step held
 /// below
 ///
-///     sqrt( 1/N sum_i (e_i / (rtol |y_i| + atol_i))^2 ) <= 1,   atol_i that of velocities for v,
-///     of positions else
+///     sqrt( 1/N sum_i (e_i / (rtol s_i + atol_i))^2 ) <= 1,
+///     s_i = |v_i| and the tolerance of velocities for v, min(|y_i|, 1) and that of positions else
 ///
 /// Both choose their steps; samples are interpolated. Held states of point laws change where a step
 /// ends; where that changes a force, the method begins anew.
@@ -44,7 +44,8 @@ constexpr double restingMotion = 1e-2;
 
 void addCommon(deck::ListSpec& spec, double tolerance) {
   spec.real("Relative Tolerance", "", tolerance, deck::Range::positive(),
-            "Error of a step allowed in each coordinate and velocity, relative to its size.")
+            "Error of a step allowed in each coordinate and velocity, relative to its size. A "
+            "coordinate counts up to 1 m or 1 rad: turns made before do not loosen it.")
       .real("Absolute Tolerance", "m", deck::Optional{}, deck::Range::positive(),
             "Error of a step allowed in displacements beside that, and by the same number in "
             "rotations (rad), coordinates of "
@@ -250,7 +251,7 @@ class Sundials final : public Integrator {
     double sum = 0;
     for (Eigen::Index i = 0; i < 2 * n; ++i) {
       const double allowed =
-          options_.relative * std::abs(y_[i]) + (i < n ? options_.positions : options_.velocities);
+          i < n ? options_.allowedPosition(y_[i]) : options_.allowedVelocity(y_[i]);
       sum += std::pow((y_[i] - start_[i]) / allowed, 2);
     }
     return std::sqrt(sum / static_cast<double>(2 * n));

@@ -5,6 +5,8 @@
 /// without SUNDIALS has this header but not its source.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -21,6 +23,15 @@ struct SundialsOptions {
   int maxIterations = 3;     ///< of Newton
   int maxOrder = 2;          ///< CVODE
   std::string table;         ///< ARKODE
+
+  /// Error allowed in a step where a position or a state of a law, or a velocity, has the value y:
+  ///     rtol min(|y|, 1) + atol,   rtol |y| + atol_v
+  /// A string that has turned a hundred times is no stiffer in angle than one that has not, so a
+  /// position counts up to 1 m or 1 rad.
+  double allowedPosition(double y) const {
+    return relative * std::min(std::abs(y), 1.0) + positions;
+  }
+  double allowedVelocity(double v) const { return relative * std::abs(v) + velocities; }
 };
 
 /// Why a step could not be taken.
