@@ -84,16 +84,23 @@ Linearised linearise(const model::SecondOrderModel& model, double t) {
 }
 
 Linearised linearise(const model::SecondOrderModel& model, double t, double omega) {
+  return linearise(model, t, Complex(0.0, std::max(omega, model::slowestOmega)));
+}
+
+Linearised linearise(const model::SecondOrderModel& model, double t, Complex s) {
   auto matrices = linearise(model, t);
   for (const auto& set : model.points) {
     const auto* law = model::stateful(*set.law);
     if (law == nullptr || law->states() == 0) continue;
     const auto change =
         model::tangentByStates(*law, t, Vector(set.offset + set.rows * model.initialDisplacement),
-                               Vector(set.rows * model.initialVelocity), omega);
+                               Vector(set.rows * model.initialVelocity), s);
     const Eigen::Map<const ComplexVector> entries(change.data(), sizeOf(change));
-    matrices.stiffness -= onDofs(set, entries.real());
-    matrices.damping -= onDofs(set, entries.imag() / std::max(omega, model::slowestOmega));
+    // entries = a + s b with real a and b
+    const Vector b =
+        s.imag() != 0.0 ? Vector(entries.imag() / s.imag()) : Vector(Vector::Zero(entries.size()));
+    matrices.stiffness -= onDofs(set, entries.real() - s.real() * b);
+    matrices.damping -= onDofs(set, b);
   }
   return matrices;
 }

@@ -46,8 +46,10 @@ struct Linearised {
 };
 /// States of point laws stay as they are.
 Linearised linearise(const model::SecondOrderModel& model, double t);
-/// Motions e^{i omega t}, omega >= 0 [rad/s], which the states follow (model::tangentByStates):
-/// what they add to K + i omega C is real in K and imaginary in i omega C.
+/// Motions e^{s t} [1/s], which the states follow (model::tangentByStates): what they add to
+/// K + s C, as real K and C (a real s: all in K).
+Linearised linearise(const model::SecondOrderModel& model, double t, Complex s);
+/// The same of s = i omega, omega >= 0 [rad/s].
 Linearised linearise(const model::SecondOrderModel& model, double t, double omega);
 
 /// Motions of the coupled model in the dofs of the full one: column by column, dofs matched by

@@ -43,7 +43,7 @@ constexpr double rounding = 1e-12;
 
 bool isUnknown(const StatefulPointLaw& law, double t, const Place& place) {
   for (int p = 0; p < law.size(); ++p)
-    if (!law.heldFactor(t, lookedAt, p, place.d.data(), place.v.data())) return true;
+    if (!law.heldFactor(t, Complex(0.0, lookedAt), p, place.d.data(), place.v.data())) return true;
   return false;
 }
 
@@ -62,13 +62,17 @@ bool moves(const StatefulPointLaw& law, double t, const Place& place) {
 
 std::vector<Complex> tangentByStates(const StatefulPointLaw& law, double t, const Vector& d,
                                      const Vector& v, double omega) {
+  return tangentByStates(law, t, d, v, Complex(0.0, std::max(omega, slowestOmega)));
+}
+
+std::vector<Complex> tangentByStates(const StatefulPointLaw& law, double t, const Vector& d,
+                                     const Vector& v, Complex s) {
   const auto all = tangentsAtStart(law, t, d, v);
   const int w = law.width(), r = law.rated();
-  const Complex s(0.0, std::max(omega, slowestOmega));
   std::vector<Complex> change(at(law.size() * w * w));
   for (int p = 0; p < law.size(); ++p) {
     RowsOut sum(&change[at(p * w * w)], w, w);
-    const auto held = law.heldFactor(t, s.imag(), p, d.data(), v.data());
+    const auto held = law.heldFactor(t, s, p, d.data(), v.data());
     const auto own = all.of(p);
     sum = (held.value_or(1.0) - 1.0) * own.fd.cast<Complex>();
     if (r == 0) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Point laws with states in small harmonic motions, in which the states follow.
+/// Point laws with states in small motions e^{s t}, which the states follow.
 #pragma once
 
 #include <string>
@@ -12,13 +12,15 @@
 
 namespace tooljoint::model {
 
-/// What the states of a law add to its tangent df/dd + i omega df/dv in a motion e^{i omega t}
-/// about (d, v):
+/// What the states of a law add to its tangent df/dd + s df/dv in a motion e^{s t} about (d, v):
 ///
-///     (h - 1) f_d + f_x (i omega - g_x)^-1 (g_d + i omega g_v)
+///     (h - 1) f_d + f_x (s - g_x)^-1 (g_d + s g_v)
 ///
 /// with h of StatefulPointLaw::heldFactor(), 1 where a law does not know it; width x width per
-/// point, row-major. At omega = 0, where an integral has no value, that of slowestOmega.
+/// point, row-major.
+std::vector<Complex> tangentByStates(const StatefulPointLaw& law, double t, const Vector& d,
+                                     const Vector& v, Complex s);
+/// The same of s = i omega. At omega = 0, where an integral has no value, that of slowestOmega.
 std::vector<Complex> tangentByStates(const StatefulPointLaw& law, double t, const Vector& d,
                                      const Vector& v, double omega);
 

@@ -147,20 +147,26 @@ Matrix joined(const Sparse& mass, const Matrix& first, const std::vector<Matrix>
   return set.basis();
 }
 
-/// Growing modes of the equations projected on the columns of `basis`, the fastest first.
+/// Growing modes of the equations projected on the columns of `basis` and the `others` least damped
+/// ones, the fastest first.
 std::vector<linalg::DampedMode> growingModes(const estimate::Linearised& tangent,
-                                             const Matrix& basis) {
+                                             const Matrix& basis, std::size_t others) {
   const auto projected = [&](const Sparse& A) {
     return Matrix(basis.transpose() * Matrix(A * basis));
   };
   const auto modes = linalg::dampedModes(projected(tangent.mass), projected(tangent.damping),
                                          projected(tangent.stiffness));
-  std::vector<linalg::DampedMode> growing;
+  std::vector<Eigen::Index> upper;
   for (Eigen::Index j = 0; j < modes.values.size(); ++j)
-    if (isGrowth(modes.values[j]) && modes.values[j].imag() >= 0.0)
-      growing.push_back({modes.values[j], basis.cast<Complex>() * modes.vectors.col(j)});
-  std::sort(growing.begin(), growing.end(),
-            [](const auto& a, const auto& b) { return a.s.real() > b.s.real(); });
+    if (modes.values[j].imag() >= 0.0) upper.push_back(j);
+  std::sort(upper.begin(), upper.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return modes.values[a].real() > modes.values[b].real();
+  });
+  std::vector<linalg::DampedMode> growing;
+  for (const auto j : upper) {
+    if (!isGrowth(modes.values[j]) && others-- == 0) break;
+    growing.push_back({modes.values[j], basis.cast<Complex>() * modes.vectors.col(j)});
+  }
   return growing;
 }
 
@@ -191,11 +197,67 @@ struct GrowingMode {
   bool refined;  ///< with the whole equations
 };
 
+/// Modes that decay while states are held and are followed all the same: at most, and of all dofs
+/// together, as each takes a score of factorisations.
+constexpr std::size_t mostReleased = 24;
+constexpr int dofsReleased = 60000;
+/// Steps in which states of point laws are let go, and iterations of each.
+constexpr int releases = 4, mostIterations = 30;
+/// Relative change of s that ends them, and the steps before the last.
+constexpr double settled = 1e-7, onTheWay = 0.1;
+
+/// What a mode of held states becomes when they follow it: s and x of
+///
+///     (s^2 M + s C(s) + K(s)) x = 0,   C, K = (1 - a) those of held states + a those of e^{s t},
+///
+/// a from 0 to 1. Each s gives real matrices, whose mode is the next s.
+class Release {
+ public:
+  Release(const model::SecondOrderModel& model, double t, const estimate::Linearised& held)
+      : model_(model), t_(t), held_(held) {}
+
+  /// Nothing where s does not settle.
+  std::optional<linalg::DampedMode> operator()(linalg::DampedMode mode) const {
+    for (int step = 1; step <= releases; ++step) {
+      const double a = static_cast<double>(step) / releases;
+      const double accuracy = step < releases ? onTheWay : settled;
+      auto next = iterated(a, mode, accuracy);
+      if (!next && mode.s.imag() == 0.0) {  // two divergences may have become a vibration
+        mode.s += Complex(0.0, 0.5 * std::abs(mode.s));
+        next = iterated(a, mode, accuracy);
+      }
+      if (!next) return std::nullopt;
+      mode = std::move(*next);
+    }
+    return mode;
+  }
+
+ private:
+  std::optional<linalg::DampedMode> iterated(double a, linalg::DampedMode mode,
+                                             double accuracy) const {
+    for (int i = 0; i < mostIterations; ++i) {
+      const auto moving = estimate::linearise(model_, t_, mode.s);
+      auto next = linalg::refine(held_.mass, (1.0 - a) * held_.damping + a * moving.damping,
+                                 (1.0 - a) * held_.stiffness + a * moving.stiffness, mode);
+      if (!next || next->s == 0.0) return std::nullopt;
+      const double change = std::abs(next->s - mode.s) / std::abs(next->s);
+      mode = std::move(*next);
+      if (change <= accuracy) return mode;
+    }
+    return std::nullopt;
+  }
+
+  const model::SecondOrderModel& model_;
+  double t_;
+  const estimate::Linearised& held_;
+};
+
 /// Of the modes that grow nearly as fast as the fastest one, that of lowest frequency: the
 /// overtones of a string that friction drives grow as fast as its fundamental. Nothing where the
 /// whole equations have none.
 std::optional<GrowingMode> mostTelling(const estimate::Linearised& tangent,
-                                       std::vector<linalg::DampedMode> ritz) {
+                                       std::vector<linalg::DampedMode> ritz,
+                                       const Release* release) {
   if (ritz.empty()) return std::nullopt;
   const double fastest = ritz.front().s.real();
   std::sort(ritz.begin() + 1, ritz.end(), [&](const auto& a, const auto& b) {
@@ -205,7 +267,9 @@ std::optional<GrowingMode> mostTelling(const estimate::Linearised& tangent,
   });
   std::vector<GrowingMode> found;
   for (std::size_t i = 0; i < ritz.size() && (i < mostRefined || found.empty()); ++i) {
-    const auto exact = ofWholeEquations(tangent, ritz[i]);
+    auto exact = ofWholeEquations(tangent, ritz[i]);
+    if (exact && release != nullptr)
+      if (auto followed = (*release)(*exact)) exact = std::move(followed);
     const GrowingMode one{exact ? *exact : ritz[i], exact.has_value()};
     if (isGrowth(one.mode.s)) found.push_back(one);
   }
@@ -287,14 +351,21 @@ ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape
 std::string withoutStates(const std::vector<std::string>& held) {
   if (held.empty()) return "";
   return " The states of " + quotedList(held) +
-         " are held here: stiffness and damping by them are left out, and growth by them (by the "
-         "delay of a cutting bit, by the control of a drive) is not seen. The motion shows it.";
+         " are held where modes are looked for, and followed from there for the least damped ones "
+         "alone: other growth by them (by the delay of a cutting bit, by the control of a drive) "
+         "is "
+         "not seen. The motion shows it.";
 }
 
 void warnOfHeldStates(const model::SecondOrderModel& model, double t) {
-  const auto held = withoutStates(model::setsWithMovingStates(model, t));
-  if (!held.empty())
-    log::warn(trim(held) + " The responses to harmonic loads (tooljoint response) have it, too.");
+  const auto names = model::setsWithMovingStates(model, t);
+  if (!names.empty())
+    log::warn(
+        "The states of " + quotedList(names) +
+        " are held in the damped modes: stiffness and damping by them (by the delay of a "
+        "cutting bit, by the control of a drive) are left out, so that modes may grow here and "
+        "decay in the motion, or the other way round. The motion shows it, and the responses "
+        "to harmonic loads (tooljoint response) have it.");
 }
 
 StateStability assess(const model::SecondOrderModel& model, double t) {
@@ -332,8 +403,12 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   found.examined = static_cast<int>(basis.cols());
   count("modes of the static state", found.examined);
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
-  const auto growing = growingModes(tangent, basis);
-  const auto worst = mostTelling(tangent, growing);
+  const bool follow = !found.held.empty() && model::setsWithUnknownStates(model, t).empty();
+  const auto others =
+      follow ? std::min<std::size_t>(mostReleased, at(dofsReleased / model.size())) : 0;
+  const auto growing = growingModes(tangent, basis, others);
+  const Release release(model, t, tangent);
+  const auto worst = mostTelling(tangent, growing, follow ? &release : nullptr);
   if (!worst) return found;
   found.refined = worst->refined;
   found.growthRate = worst->mode.s.real();

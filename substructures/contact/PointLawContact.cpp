@@ -92,11 +92,11 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
     }
   }
 
-  std::optional<std::complex<double>> heldFactor(double t, double omega, int point, const double* d,
-                                                 const double* v) const override {
+  std::optional<std::complex<double>> heldFactor(double t, std::complex<double> s, int point,
+                                                 const double* d, const double* v) const override {
     if (with_ == nullptr) return 1.0;
     place(t, all_, d, v);
-    return with_->heldFactor(t, omega, point, y_.data(), yDot_.data());
+    return with_->heldFactor(t, s, point, y_.data(), yDot_.data());
   }
 
   int reach() const override { return 3; }

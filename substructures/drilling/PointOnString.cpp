@@ -52,10 +52,10 @@ class LawInFrame final : public model::StatefulPointLaw {
     with_->forcesWithTangents(t, points, y_.data(), yDot_.data(), x, f, g, tangents);
   }
 
-  std::optional<std::complex<double>> heldFactor(double t, double omega, int point, const double* d,
-                                                 const double* v) const override {
+  std::optional<std::complex<double>> heldFactor(double t, std::complex<double> s, int point,
+                                                 const double* d, const double* v) const override {
     place(t, d, v);
-    return with_->heldFactor(t, omega, point, y_.data(), yDot_.data());
+    return with_->heldFactor(t, s, point, y_.data(), yDot_.data());
   }
 
   Power powers(double t, const std::vector<int>& points, const double* d, const double* v,

@@ -30,7 +30,8 @@ struct ElasticPlastic : Formula<1, 0, 1> {
     p[0] = std::clamp(p[0], d[0] - F / k, d[0] + F / k);
   }
   /// A small motion does not yield.
-  std::optional<std::complex<double>> heldFactor(double, const double*, const double*) const {
+  std::optional<std::complex<double>> heldFactor(std::complex<double>, const double*,
+                                                 const double*) const {
     return 1.0;
   }
   Power power(const PointAt<double>& at, const double* xDot) const {

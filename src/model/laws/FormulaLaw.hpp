@@ -50,7 +50,7 @@ struct Formula {
   /// Held states at the end of a step, from those of its start.
   void accept(double /*t*/, const double* /*d*/, const double* /*v*/, double* /*held*/) const {}
   /// StatefulPointLaw::heldFactor() of a formula with held states.
-  std::optional<std::complex<double>> heldFactor(double /*omega*/, const double* /*d*/,
+  std::optional<std::complex<double>> heldFactor(std::complex<double> /*s*/, const double* /*d*/,
                                                  const double* /*v*/) const {
     return std::nullopt;
   }
@@ -106,10 +106,10 @@ class FormulaLaw final : public StatefulPointLaw {
     for (int p = 0; p < points_; ++p) law_.accept(t, d + p * W, v + p * W, x + p * states() + R);
   }
 
-  std::optional<std::complex<double>> heldFactor(double /*t*/, double omega, int p, const double* d,
-                                                 const double* v) const override {
+  std::optional<std::complex<double>> heldFactor(double /*t*/, std::complex<double> s, int p,
+                                                 const double* d, const double* v) const override {
     if (law_.held() == 0) return 1.0;
-    return law_.heldFactor(omega, d + p * W, v + p * W);
+    return law_.heldFactor(s, d + p * W, v + p * W);
   }
 
   Power powers(double t, const std::vector<int>& points, const double* d, const double* v,

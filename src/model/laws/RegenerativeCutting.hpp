@@ -100,11 +100,11 @@ class RegenerativeCutting : public Formula<2> {
     f[1] = -0.5 * p_.radius * (forward * cutting_ * chip + s * p_.friction * wear_ * g);
   }
 
-  /// The bit cuts what it left a pitch ago: 1 - e^{-i omega tau}, tau = (2 pi/n) / w.
-  std::optional<std::complex<double>> heldFactor(double omega, const double*,
+  /// The bit cuts what it left a pitch ago: 1 - e^{-s tau}, tau = (2 pi/n) / w.
+  std::optional<std::complex<double>> heldFactor(std::complex<double> s, const double*,
                                                  const double* v) const {
     if (v[1] <= p_.angularVelocity) return 1.0;
-    return 1.0 - std::polar(1.0, -omega * pitch_ / v[1]);
+    return 1.0 - std::exp(-s * pitch_ / v[1]);
   }
 
   /// Everything the rock takes is lost in cutting and friction.

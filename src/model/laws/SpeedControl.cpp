@@ -51,7 +51,8 @@ struct SpeedControl : Formula<1, 1, 2> {
     g[0] = ki > 0.0 && kp > 0.0 ? T((f[0] - wanted) / kp) : T(0.0);
   }
   /// They are numbers of the start.
-  std::optional<std::complex<double>> heldFactor(double, const double*, const double*) const {
+  std::optional<std::complex<double>> heldFactor(std::complex<double>, const double*,
+                                                 const double*) const {
     return 1.0;
   }
   Power power(const PointAt<double>& at, const double*) const {

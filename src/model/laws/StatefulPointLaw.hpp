@@ -55,10 +55,10 @@ class StatefulPointLaw : public PointLaw {
   virtual void accept(double /*t*/, const double* /*d*/, const double* /*v*/, double* /*x*/) const {
   }
 
-  /// What held states do in a small motion e^{i omega t} of a point about (d, v), as a factor of
-  /// df/dd: 1 where they stay as they are, 1 - e^{-i omega tau} where forces are of y(t) - y(t -
-  /// tau). Nothing where that is not known, as it is by default of a law with held states.
-  virtual std::optional<std::complex<double>> heldFactor(double /*t*/, double /*omega*/,
+  /// What held states do in a small motion e^{s t} of a point about (d, v), as a factor of df/dd: 1
+  /// where they stay as they are, 1 - e^{-s tau} where forces are of y(t) - y(t - tau). Nothing
+  /// where that is not known, as it is by default of a law with held states.
+  virtual std::optional<std::complex<double>> heldFactor(double /*t*/, std::complex<double> /*s*/,
                                                          int /*point*/, const double* /*d*/,
                                                          const double* /*v*/) const {
     if (states() > rated()) return std::nullopt;
