@@ -460,6 +460,23 @@ def responses_beyond_the_linear_range():
     expect("a state that negative damping leaves is warned of", "The state of the parts is unstable: a vibration of 10.0" in said, said)
 
 
+def massless_nodes_of_dual_assemblies():
+    """A node without mass starts in balance with the others, also where a multiplier joins it: q2 = q1/2 beside q3, whatever it is given."""
+    for part, m, k, ends in (("a", [1.0, 0.0, 1.0], [[2e4, -1e4, 0], [-1e4, 2e4, -1e4], [0, -1e4, 1e4]], {"r": [3]}), ("b", [1.0, 1.0], [[1e4, -1e4], [-1e4, 1e4]], {"l": [1]})):
+        pathlib.Path(f"{part}.json").write_text(json.dumps({"format": "tooljoint part 1", "components": ["u"], "dofs": [[i + 1, "u"] for i in range(len(m))],
+                                                            "mass": np.diag(m).tolist(), "stiffness": k, "interfaces": ends}), encoding="utf-8")
+    lists = {"Parts": {"Imported": {part: {"File": f"{part}.json"} for part in "ab"}, "Joints": ["a:r = b:l"], "Starts": {"s": {"Part": "a", "Node": 1, "Component": "u", "Displacement": 1e-3}}},
+             "Reduction": {"Basis": "Guyan", "Mode Selection": {"All Modes": True}}, "Transient": {"End Time": 0.2, "Sampling Interval": 1e-3, "Step": 1e-3, "Generalized-alpha": {"Spectral Radius": 1.0}}}
+    motions = {}
+    for assembly in ("Primal", "Dual"):
+        pathlib.Path("massless.xml").write_text(parameter_list("massless", {**lists, "Coupling": {"Assembly": assembly}}), encoding="utf-8")
+        done = tooljoint("run", "massless.xml", "--output", "massless")
+        expect(f"a massless node runs in a {assembly} assembly", done.returncode == 0, done.stderr[-300:])
+        with h5py.File("massless/results.h5") as results:
+            motions[assembly] = results["/transient/velocity"][:, :, 0]
+    expect("its motion is the same in both", np.abs(motions["Dual"] - motions["Primal"]).max() < 1e-9 * np.abs(motions["Primal"]).max() < 1e-9, np.abs(motions["Dual"]).max())
+
+
 if __name__ == "__main__":
     documented_scripts()
     frame()
@@ -472,6 +489,7 @@ if __name__ == "__main__":
     released()
     laws_on_joints()
     starts_of_joints()
+    massless_nodes_of_dual_assemblies()
     floating_beams()
     creeping_dofs()
     unstable_equilibria()

@@ -23,6 +23,7 @@ void AlphaStep::start(CompiledModel& model, double h, State& state, Counters& co
   model.setStart(state.t, h);
   mass_ = std::make_shared<MassFactor>(model);
   ++counters.factorisations;
+  model.bindStates(state.x.data());
   balanceMassless(model, *mass_, state);
   for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
   state.a.setZero();
@@ -30,14 +31,13 @@ void AlphaStep::start(CompiledModel& model, double h, State& state, Counters& co
   model.addDamping(state.v.data(), state.a.data());
   state.a = -state.a;
   for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
-  model.bindStates(state.x.data());
   model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
   if (mass_->regular()) {
     mass_->solve(state.a);
-  } else {
+  } else if (!solveSingularMass(model, *mass_, state)) {
     log::warn("The mass matrix is singular at " + model.pivotName(mass_->singularAt()) +
-              " although there is mass on it: the motion starts without acceleration, with an "
-              "error of first order in the step.");
+              " although there is mass on it: the motion starts in balance, but without "
+              "acceleration, with an error of first order in the step.");
     state.a.setZero();
   }
   equation_.bind(model, parameters_.equations);

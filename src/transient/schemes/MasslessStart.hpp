@@ -8,13 +8,19 @@
 
 namespace tooljoint::transient {
 
-/// Put dofs s without mass, damping and points in balance with the others, m:
+/// Put motions s without mass and damping in balance with the others, m:
 ///
-///     K_ss q_s = F_s - K_sm q_m,   K_ss v_s = -K_sm v_m
+///     K_ss q_s = F_s - K_sm q_m + f_s(q, v),   (K_ss - f_d) v_s = -K_sm v_m
 ///
-/// They follow the others at every instant; any other start would be left in the first step, with
-/// energy that the motion does not have. Where K_ss is singular the state stays as it is.
-/// Collective; the model is at the time of the state.
+/// by Newton's method with M + tau (C - f_v) + tau^2 (K - f_d), tau far below the shortest period:
+/// what has mass or damping stays. They follow the others at every instant; any other start would
+/// be left in the first step, with energy that the motion does not have. Where that does not
+/// succeed the state stays as it is, which is warned of. Collective; the model is at the time of
+/// the state, its states of laws are bound.
 void balanceMassless(CompiledModel& model, const MassFactor& mass, State& state);
+
+/// a := q'' of M q'' = a for a mass matrix that is singular in motions of several dofs, of a state
+/// in balance: q''_s follows the others as in balanceMassless(). False where that does not succeed.
+bool solveSingularMass(CompiledModel& model, const MassFactor& mass, State& state);
 
 }  // namespace tooljoint::transient
