@@ -152,6 +152,12 @@ def rounding():
         expect("the bit is stuck as the program says", rows["Time the bit is stuck"] == "25.0 % below 4.77 rpm", rows)
         expect("weight, penetration and energy in both units", [rows[key] for key in ("Mean weight on bit", "Rate of penetration", "Mechanical specific energy")]
                == ["444.8 kN 100.0 klbf; 400.0 kN to 500.0 kN", "3.05 m/h 10.0 ft/h", "6.9 MPa 1.0 ksi"] and "Mean torque on bit" not in rows, rows)
+    without = [name for name, _, _ in results.merits(run)]
+    expect("without displacements figures of the summary stay", "Lateral acceleration" in without and "Backward whirl" in without and not any("vibration" in name for name in without), without)
+    run.summary["transient"]["figures"]["lateral_acceleration"]["worst_rms"] = 1e-9
+    expect("those of rounding do not", not {"Lateral acceleration", "Backward whirl"} & {name for name, _, _ in results.merits(run)})
+    expect("a table says of which time it is", results.times_of_merits(run, motion).startswith("Figures of 1 to 2 s (") and "second half of the motion, 1.00503 to 2 s" in results.times_of_merits(run, motion),
+           results.times_of_merits(run, motion))
     expect("numbers that round to zero have no sign", [quantities.fixed(-0.04, 1), quantities.fixed(-1.26, 1), quantities.plain(-0.0), quantities.percent(-0.0)] == ["0.0", "-1.3", "0", "0 %"])
 
 
@@ -234,7 +240,7 @@ def judged():
     expect("the worst check is the one closest to its bound", checks.worst(summary)[0] == "step error" and checks.worst({}) is None)
 
     class Parts:
-        is_string, value = False, results.Run.value
+        is_string, value, time = False, results.Run.value, None
 
         def __init__(self, residual):
             self.summary = {"transient": {"energy_residual": residual}}

@@ -273,8 +273,10 @@ def chosen_nodes(run, rms, most=4):
     return dict(sorted(found.items()))
 
 
-def merits(run, motion):
-    """Figures of merit of the second half of the motion: rows of (name, value, what it is)."""
+def merits(run, motion=None):
+    """Figures of merit: rows of (name, value, what it is). `motion`: None where no displacements are recorded."""
+    if motion is None:
+        return [*figures_of_bit(run), *figures_along(run, accelerates(run))]
     rms = motion.lateral_rms()
     largest = int(np.argmax(rms))
     node = int(run.recorded[largest])
@@ -287,8 +289,23 @@ def merits(run, motion):
     return [*figures_of_bit(run), *rows, *figures_along(run, vibrates)]
 
 
-def window(found):
-    return f"{found['begin']:g} to {found['end']:g} s"
+def span(first, last):
+    return f"{first:g} to {last:g} s"
+
+
+def times_of_merits(run, motion=None):
+    """Of which time the rows of merits() are."""
+    found = run.value("transient.figures") or {}
+    said = [] if found.get("begin") is None else [f"Figures of {span(found['begin'], found['end'])} (transient.figures; Output/Figures chooses the window)"]
+    if motion is not None:
+        said.append(f"vibration in mm rms of the second half of the motion, {span(run.time[motion.first], run.time[-1])}")
+    text = "; ".join(said)
+    return text[:1].upper() + text[1:]
+
+
+def accelerates(run):
+    """Whether a motion without recorded displacements vibrates across the axis: more than VIBRATES of lateral acceleration [m/s2]."""
+    return ((run.value("transient.figures.lateral_acceleration") or {}).get("worst_rms") or 0.0) > VIBRATES
 
 
 def sense_of_figures(run, found):
@@ -300,8 +317,11 @@ def figures_of_bit(run):
     """Bit speed, weight, torque and penetration from summary.json, over the window it names."""
     found = run.value("transient.figures") or {}
     rows = []
+    speed = found.get("bit_speed_rpm") or {}
+    if speed.get("mean") is not None:
+        rows.append(("Bit speed", f"{fixed(speed['mean'], 1)} rpm", f"{fixed(speed['min'], 1)} to {fixed(speed['max'], 1)} rpm"))
     if found.get("stick_slip_index") is not None:
-        rows.append(("Stick-slip index", fixed(found["stick_slip_index"], 3), f"(max - min) / (2 mean) of the bit speed; stick-slip from 1 on; {window(found)}"))
+        rows.append(("Stick-slip index", fixed(found["stick_slip_index"], 3), f"(max - min) / (2 mean) of the bit speed; stick-slip from 1 on"))
     if found.get("stuck_share") is not None:
         rows.append(("Time the bit is stuck", f"{fixed(100 * found['stuck_share'], 1)} %", f"below {found['stuck_speed_rpm']:.3g} rpm"))
     for name, key, quantity in (("Mean weight on bit", "weight_on_bit", "hook load"), ("Mean torque on bit", "torque_on_bit", "torque"), ("Rate of penetration", "rate_of_penetration", "penetration"),
@@ -326,7 +346,7 @@ def figures_along(run, vibrates):
     rows = []
     lateral, whirl, bending = (found.get(key) or {} for key in ("lateral_acceleration", "whirl", "bending"))
     if vibrates and lateral.get("rms") is not None:
-        rows.append(("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms", f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most; {window(found)}"))
+        rows.append(("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms", f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most"))
     if vibrates and whirl.get("worst_backward_share"):
         rows.append(("Backward whirl", f"{fixed(100 * whirl['worst_backward_share'], 1)} % of the time",
                      f"at {whirl['worst_backward_share_depth']:.1f} m, mean precession {fixed((sense_of_figures(run, found) or 1) * whirl['worst_precession_rpm'], 1)} rpm; in contact as well at most {fixed(100 * whirl['worst_backward_contact_share'], 1)} %"))
