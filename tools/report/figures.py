@@ -234,7 +234,7 @@ def orbits(run, motion, chosen):
         plots.square(axes, 1.08 * largest)
         axes.set_xlabel(f"{right} [mm]"), axes.set_ylabel(f"{up} [mm]")
         circle = "" if gap < 20 * largest else f"; the clearance of {gap:.0f} mm is out of the picture"
-        found.append(Figure(f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}, looking down the hole; {whirl(run, motion, number, turned)}{circle}."))
+        found.append(Figure(f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}, second half of the motion, looking down the hole; {whirl(run, motion, number, turned)}{circle}."))
     return found
 
 
