@@ -24,6 +24,7 @@ BLUE, ORANGE, GREEN = COLOURS[:3]
 WALL = "#e2e2e2"
 KIND = "folder of a run that ended"
 MOST_PICTURES = 200  # of an animation
+FIELDS = ("velocity", "acceleration", "normal_force")  # of Output/Fields besides the displacement
 ALONG = 0.999  # cosine of an angle that is none
 LARGEST_SHARE = 0.1  # of the size of a scene that the largest displacement is magnified to
 
@@ -211,8 +212,13 @@ def moving_parts(results, samples):
 
 def animate(results, path):
     """The motion as an animation of at most MOST_PICTURES samples."""
+    if "/transient/time" not in results:
+        sys.exit("results.h5 has no motion to animate: the run ended with its static state. Run a deck with a list Transient (without --without Transient), or leave --animate out.")
     if "/transient/displacement" not in results:
-        sys.exit("results.h5 has no motion to animate: the run ended with its static state. Run it without --static, or leave --animate out.")
+        others = [name for name in FIELDS if f"/transient/{name}" in results]
+        nodes = ", without Output/Depths and Output/Nodes" if "/transient/node" in results else ""
+        sys.exit(f"results.h5 has a motion without displacements (of the fields it holds {', '.join(others) or 'none'}). "
+                 f"Run the deck again with --set \"Output/Fields={{{', '.join(['displacement', *others])}}}\"{nodes}, or leave --animate out.")
     if "/transient/node" in results:
         sys.exit("results.h5 has the motion of chosen nodes alone. Take Output/Depths or Output/Nodes out and run the deck again, or leave --animate out.")
     time = results["/transient/time"][:]

@@ -208,6 +208,20 @@ class Results(Style):
             whole["/model/frame"] = np.tile(np.eye(3), (21, 1, 1))
             self.assertEqual(plot_results.lateral_names(whole), ("u, north at the surface", "v, east at the surface"))
 
+    def test_what_an_animation_lacks(self):
+        with memory() as file:
+            with self.assertRaisesRegex(SystemExit, "ended with its static state. Run a deck with a list Transient"):
+                plot_results.animate(string(file, moves=False), pathlib.Path("motion.gif"))
+        with memory() as file:
+            whole = string(file)
+            whole["/transient/velocity"] = whole["/transient/displacement"][:]
+            del whole["/transient/displacement"]
+            with self.assertRaisesRegex(SystemExit, r'it holds velocity\). Run the deck again with --set "Output/Fields={displacement, velocity}"'):
+                plot_results.animate(whole, pathlib.Path("motion.gif"))
+            del whole["/transient/velocity"]
+            with self.assertRaisesRegex(SystemExit, r'it holds none\). Run the deck again with --set "Output/Fields={displacement}"'):
+                plot_results.animate(whole, pathlib.Path("motion.gif"))
+
     def test_animations(self):
         with memory() as file:
             plot_results.animate(string(file), pathlib.Path("motion.gif"))

@@ -9,6 +9,7 @@ import base64
 import pathlib
 import re
 import sys
+from unittest import mock
 
 import numpy as np
 
@@ -71,9 +72,11 @@ def stresses():
 def motions():
     time = np.arange(4000) * 5e-3
     for rate in (12.0, -3.0):
-        turn = results.precession(1.0 + 0.3 * np.cos(rate * time), 0.3 * np.sin(rate * time), time)
-        near(f"an orbit that turns with {rate} rad/s", turn, rate, 1e-3)  # (w dt)^2/6 = 6e-4 of the central differences
-    to_and_fro = results.precession(np.cos(7 * time), 0 * time, time)
+        u, v = 1.0 + 0.3 * np.cos(rate * time), 0.3 * np.sin(rate * time)
+        near(f"an orbit that turns with {rate} rad/s", results.precession(u, v, -rate * v, rate * (u - 1.0)), rate, 1e-3)  # its centre is that of 38 and 9.5 turns
+        found = results.precession(u, v, results.differences(u, time), results.differences(v, time))
+        near("central differences find less of it", found, rate * np.sinc(rate * time[1] / np.pi), 1e-3)
+    to_and_fro = results.precession(np.cos(7 * time), 0 * time, -7 * np.sin(7 * time), 0 * time)
     expect("a motion to and fro does not turn", abs(to_and_fro) < 1e-12, to_and_fro)
     for frequency, amplitude in ((6.0, 2.0), (31.5, 0.1)):
         f, power = plots.spectrum(5.0 + amplitude * np.sin(2 * np.pi * frequency * time), time[1])
@@ -91,9 +94,11 @@ def motions():
 class Still:
     """A string of three nodes in the place of a run: vertical, inclined by 30 degrees to the east, by 1 degree to the south; `amplitude` [m] of a circle at all of them."""
 
-    is_string, moves, value, rotary = True, True, results.Run.value, lambda self: np.full(200, 10.0)
+    is_string, moves, value, sense = True, True, results.Run.value, results.Run.sense
 
-    def __init__(self, amplitude, figures=None):
+    def __init__(self, amplitude, figures=None, speed=10.0, orbit=10.0):
+        """Turns at `speed` [rad/s]; the circle at `orbit` [rad/s], clockwise looking down the hole."""
+        self.speed = np.full(200, speed)
         self.s, self.time, self.recorded = np.array([0.0, 500.0, 1000.0]), np.linspace(0, 2, 200), np.arange(3)
         self.summary = {"transient": {"figures": figures or {}}}
         tilt = np.radians([0.0, 30.0, 1.0])
@@ -101,14 +106,22 @@ class Still:
         x = np.array([1.0, 2.0, 0.0]) - np.outer(tangents @ [1.0, 2.0, 0.0], [1, 1, 1]) * tangents
         x /= np.linalg.norm(x, axis=1)[:, None]
         self.data = {"/model/frame": np.stack([x, np.cross(tangents, x), tangents], axis=2), "/model/clearance": np.full(3, 0.05)}
-        circle = amplitude * np.stack([np.cos(10 * self.time), np.sin(10 * self.time)], axis=1)
+        circle = amplitude * np.stack([np.cos(orbit * self.time), np.sin(orbit * self.time)], axis=1)
         self.file = {"/transient/displacement": np.concatenate([np.repeat(circle[:, None], 3, axis=1), np.zeros((200, 3, 4))], axis=2)}
 
     def get(self, path):
         return self.data.get(path)
 
+    def rotary(self):
+        return self.speed
+
     def blocks(self, path):
         yield 0, self.file[path]
+
+    def record_velocities(self, orbit):
+        motion = self.file["/transient/displacement"]
+        self.file["/transient/velocity"] = np.zeros_like(motion)
+        self.file["/transient/velocity"][..., 0], self.file["/transient/velocity"][..., 1] = -orbit * motion[..., 1], orbit * motion[..., 0]
 
     second_half, column, component_at, bit_speed = results.Run.second_half, results.Run.column, lambda self, node: "pipe", lambda self: np.full(200, 10.0)
 
@@ -139,9 +152,46 @@ def rounding():
         expect("the bit is stuck as the program says", rows["Time the bit is stuck"] == "25.0 % below 4.77 rpm", rows)
         expect("weight, penetration and energy in both units", [rows[key] for key in ("Mean weight on bit", "Rate of penetration", "Mechanical specific energy")]
                == ["444.8 kN 100.0 klbf; 400.0 kN to 500.0 kN", "3.05 m/h 10.0 ft/h", "6.9 MPa 1.0 ksi"] and "Mean torque on bit" not in rows, rows)
-    captions = [figure.caption for figure in figures.orbits(run, motion, {0: "top", 1: "middle"})]
-    expect("an orbit says how it is seen and how it turns", all("looking down the hole; mean precession 95 rpm, 1.00 of the surface speed" in text for text in captions), captions)
+    without = [name for name, _, _ in results.merits(run)]
+    expect("without displacements figures of the summary stay", "Lateral acceleration" in without and "Backward whirl" in without and not any("vibration" in name for name in without), without)
+    run.summary["transient"]["figures"]["lateral_acceleration"]["worst_rms"] = 1e-9
+    expect("those of rounding do not", not {"Lateral acceleration", "Backward whirl"} & {name for name, _, _ in results.merits(run)})
+    expect("a table says of which time it is", results.times_of_merits(run, motion).startswith("Figures of 1 to 2 s (") and "second half of the motion, 1.00503 to 2 s" in results.times_of_merits(run, motion),
+           results.times_of_merits(run, motion))
     expect("numbers that round to zero have no sign", [quantities.fixed(-0.04, 1), quantities.fixed(-1.26, 1), quantities.plain(-0.0), quantities.percent(-0.0)] == ["0.0", "-1.3", "0", "0 %"])
+
+
+def whirls():
+    """Captions of orbits that turn with the string and against it, to the right and to the left, from recorded velocities and without."""
+    for speed, orbit, said in ((10.0, 10.0, "mean precession 95.5 rpm, 1.00 of the surface speed; clockwise is forward, positive"),
+                               (-10.0, -10.0, "mean precession 95.5 rpm, 1.00 of the surface speed; anticlockwise is forward, positive"),
+                               (-10.0, 70.0, "mean precession -668.5 rpm, -7.00 of the surface speed; anticlockwise is forward, positive"),
+                               (0.0, -10.0, "mean precession -95.5 rpm; clockwise is positive")):
+        run = Still(1e-3, speed=speed, orbit=orbit)
+        run.record_velocities(orbit)
+        captions = [figure.caption for figure in figures.orbits(run, results.Motion(run, (0, 1)), {0: "top", 1: "middle"})]
+        expect(f"an orbit of {orbit} rad/s at {speed} rad/s says how it is seen and how it turns", len(captions) == 2 and all(f"looking down the hole; {said};" in text for text in captions), captions)
+    run = Still(1e-3, orbit=70.0)
+    caption = figures.orbits(run, results.Motion(run, (0,)), {0: "top"})[0].caption
+    expect("without velocities it says what the samples resolve", "from displacements alone" in caption and "; 62.5 samples a turn of the surface" in caption, caption)
+    run.speed = np.linspace(-5.0, 10.0, 200)
+    expect("a rotation that changes its sense has none, in its second half it has one", (run.sense(), run.sense(slice(100, None)), Still(1e-3, speed=0.0).sense()) == (0, 1, 0))
+
+
+def torques():
+    """One sign, against the rotation, though the program records torque on bit against a rotation to the right."""
+    for sense in (1, -1):
+        run = Still(1e-3, {"begin": 1.0, "end": 2.0, "torque_on_bit": {"mean": sense * 2000.0, "min": min(sense * 1500.0, sense * 2500.0), "max": max(sense * 1500.0, sense * 2500.0)}}, sense * 10.0)
+        run.speed[0] = 0.0  # there the surface torque is against a rotation to the right
+        run.data["/transient/torque_on_bit"] = np.full(200, sense * 2000.0)
+        run.data["/transient/surface_torque"] = np.where(np.arange(200) > 0, 5000.0, sense * 5000.0)
+        drawn = []
+        with mock.patch.object(plots, "envelope", lambda time, values, drawn=drawn: drawn.append(values) or (time, values)):
+            caption = figures.surface(run)[0].caption
+        near("torques at the surface and on the bit have one sign", drawn, np.array([np.full(200, 5.0), np.full(200, 2.0)]))
+        expect("and the caption says so", caption.endswith("of the rock on the bit, positive against the rotation."), caption)
+        row = results.figures_of_bit(run)
+        expect("so has the mean torque on bit", [(one[1], one[2].partition("; ")[2]) for one in row] == [("2.00 kN m", "1.50 kN m to 2.50 kN m; positive against the rotation")], row)
 
 
 def pictures():
@@ -190,7 +240,7 @@ def judged():
     expect("the worst check is the one closest to its bound", checks.worst(summary)[0] == "step error" and checks.worst({}) is None)
 
     class Parts:
-        is_string, value = False, results.Run.value
+        is_string, value, time = False, results.Run.value, None
 
         def __init__(self, residual):
             self.summary = {"transient": {"energy_residual": residual}}
@@ -239,7 +289,7 @@ def view():
 
 
 def main():
-    for part in (stresses, motions, sides, rounding, pictures, units, scenes, judged, mapped, view):
+    for part in (stresses, motions, sides, rounding, whirls, torques, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 

@@ -223,7 +223,10 @@ def lesser_strings():
     """Runs without what a deck may leave out; "full" is what other tests damage."""
     for name, arguments in {"bare": ["--set", "Output/Fields={}"], "free": ["--without", "Contact", "--without", "Mud"], "full": ["--without", "Reduction", "--without", "Substructures"]}.items():
         run(name, STRING, *arguments)
-        page(f"string, {name}", name, WITHOUT_MOTION - {"side"})
+        text = page(f"string, {name}", name, WITHOUT_MOTION - {"side"})[1]
+        merits = json.loads(pathlib.Path(name, "summary.json").read_text(encoding="utf-8"))["transient"]["figures"]
+        row = f"<th>Lateral acceleration</th><td>{merits['lateral_acceleration']['worst_rms']:.3g} m/s2 rms</td>"
+        expect(f"string, {name}: figures of the summary, with their time", row in text and f"<caption>Figures of {merits['begin']:g} to {merits['end']:g} s (" in text, row)
     run("measured", str(ROOT / "tests/effects/log.xml"))
     text = page("string with a measured log", "measured", {f"measured-{kind}{number}" for kind in ("", "spectrum-") for number in (1, 2)})[1]
     expect("string with a measured log: differences stand above the figures", "Computed less measured over the common window" in text)

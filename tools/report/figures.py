@@ -122,11 +122,17 @@ def bit_speed(run):
 
 
 def surface(run):
-    """Torques and hook load over time, as far as they are recorded."""
+    """Torques and hook load over time, as far as they are recorded.
+
+    Torques have one sign, positive against the rotation: /transient/surface_torque is against the rotation of each sample (to the right where nothing turns),
+    /transient/torque_on_bit against a rotation to the right."""
     found = []
-    for name, label, lines in (("torques", "torque [kN m]", (("surface_torque", "at the surface", ORANGE), ("torque_on_bit", "of the rock on the bit", BLUE))),
-                               ("hook-loads", "hook load [kN]", (("hook_load", "what the hook carries, without block", ORANGE),))):
-        recorded = [(values, text, colour) for data, text, colour in lines if (values := run.get(f"/transient/{data}")) is not None]
+    sense = run.sense() or 1
+    signs = {"surface_torque": sense * np.where(run.rotary() < 0, -1, 1), "torque_on_bit": sense}
+    against = results.AGAINST[run.sense()]
+    for name, label, said, lines in (("torques", "torque [kN m]", f", {against}", (("surface_torque", "at the surface", ORANGE), ("torque_on_bit", "of the rock on the bit", BLUE))),
+                                     ("hook-loads", "hook load [kN]", "", (("hook_load", "what the hook carries, without block", ORANGE),))):
+        recorded = [(signs.get(data, 1) * values, text, colour) for data, text, colour in lines if (values := run.get(f"/transient/{data}")) is not None]
         if not recorded:
             continue
         made, axes = plots.in_time(label, run.time)
@@ -137,7 +143,7 @@ def surface(run):
         if high - low < least:
             axes.set_ylim(0.5 * (low + high - least), 0.5 * (low + high + least))
         plots.legend_above(axes)
-        found.append(Figure(name, made, f"{label.split(' [')[0].capitalize()} over time: {' and '.join(text for _, text, _ in recorded)}.", True))
+        found.append(Figure(name, made, f"{label.split(' [')[0].capitalize()} over time: {' and '.join(text for _, text, _ in recorded)}{said}.", True))
     return found
 
 
@@ -189,6 +195,23 @@ def vibration(run, motion):
     return found
 
 
+def whirl(run, motion, number, turned):
+    """What a caption says of the mean precession of a chosen node: positive in the sense of the rotation. `turned`: of results.sides."""
+    half = slice(motion.first, None)
+    time = run.time[half]
+    a, b = turned @ motion.histories[half, number, :2].T
+    rates = [results.differences(values, time) for values in (a, b)] if motion.velocities is None else turned @ motion.velocities[:, number].T
+    sense, speed = run.sense(half), np.abs(run.rotary()[half]).mean()
+    turn = (sense or 1) * results.precession(a, b, *rates)
+    ratio = f", {fixed(turn / speed, 2)} of the surface speed" if speed > 0 else ""
+    forward = {1: "clockwise is forward, positive", -1: "anticlockwise is forward, positive", 0: "clockwise is positive"}[sense]
+    coarse = ""
+    if motion.velocities is None and len(time) > 1:
+        turns = f"; {2 * np.pi / speed / np.median(np.diff(time)):.3g} samples a turn of the surface" if speed > 0 else ""
+        coarse = f"; from displacements alone, without velocity in Output/Fields: 1 % too small at 26 samples a turn of the orbit, 10 % at 8{turns}"
+    return f"mean precession {fixed(RPM * turn, 1)} rpm{ratio}; {forward}{coarse}"
+
+
 def orbits(run, motion, chosen):
     """The path of the axis of the string in the bore at those of the chosen nodes that vibrate, in the second half of the motion, looking down the hole."""
     found = []
@@ -210,11 +233,8 @@ def orbits(run, motion, chosen):
         axes.plot(b[-1], a[-1], "o", color=ORANGE, markersize=4)
         plots.square(axes, 1.08 * largest)
         axes.set_xlabel(f"{right} [mm]"), axes.set_ylabel(f"{up} [mm]")
-        turn = results.precession(a, b, run.time[half])
-        speed = np.abs(run.rotary()[half]).mean()
-        whirl = f"; mean precession {fixed(RPM * turn, 0)} rpm" + (f", {fixed(turn / speed, 2)} of the surface speed" if speed > 0 else "")
         circle = "" if gap < 20 * largest else f"; the clearance of {gap:.0f} mm is out of the picture"
-        found.append(Figure(f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}, looking down the hole{whirl}{circle}."))
+        found.append(Figure(f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}, second half of the motion, looking down the hole; {whirl(run, motion, number, turned)}{circle}."))
     return found
 
 

@@ -7,6 +7,7 @@ from report.quantities import both, fixed, percent
 def headline(run):
     """Cards of what is asked first."""
     found = []
+    whole = "the whole motion" + ("" if run.time is None or len(run.time) == 0 else f", {results.span(run.time[0], run.time[-1])}")
     if run.is_string and run.value("static.hook_load") is not None:
         found.append(("Hook load", *both(run.value("static.hook_load"), "hook load"), "at rest, without block", False))
         found.append(("Surface torque", *both(run.value("static.surface_torque"), "torque"), "at rest, against the rotation", False))
@@ -14,21 +15,21 @@ def headline(run):
         if node:
             depth, feet = both(run.s[node - 1], "length")
             found.append(("Largest side force", *both(run.value("static.max_normal_force"), "side force"),
-                          f"at {depth} ({feet}), {run.component_at(node - 1) or f'node {node}'}", False))
+                          f"at rest, at {depth} ({feet}), {run.component_at(node - 1) or f'node {node}'}", False))
     speed = run.value("transient.bit_speed_rpm") or {}
     if speed.get("mean") is not None:
-        found.append(("Bit speed", f"{fixed(speed['mean'], 1)} rpm", f"{fixed(speed['min'], 1)} to {fixed(speed['max'], 1)} rpm", "mean and range of the motion", False))
+        found.append(("Bit speed", f"{fixed(speed['mean'], 1)} rpm", f"{fixed(speed['min'], 1)} to {fixed(speed['max'], 1)} rpm", f"mean and range of {whole}", False))
     for what, unit in (("displacement", "m"), ("rotation", "rad"), ("coordinate", "")):
         largest = run.value(f"transient.max_{what}")
         if largest is not None:
-            found.append((f"Largest {what}", f"{largest:.4g}", unit, "of all nodes", False))
+            found.append((f"Largest {what}", f"{largest:.4g}", unit, f"of all nodes in {whole}", False))
     worst = checks.worst(run.summary)
     if worst:
         name, value, bound = worst
         found.append(("Worst check", "met" if value <= bound else "NOT MET", f"{value:.2g}", f"{name}, bound {bound:g}", value > bound))
     energy = run.value("transient.energy_residual")
     if energy is not None:
-        found.append(("Energy balance", percent(energy), "", "lost (> 0) or made (< 0) by the integration", abs(energy) > checks.ENERGY))
+        found.append(("Energy balance", percent(energy), "", f"lost (> 0) or made (< 0) by the integration in {whole}", abs(energy) > checks.ENERGY))
     return cards(found) if found else ""
 
 
@@ -70,11 +71,11 @@ def motion_sections(page, run):
         motion = results.Motion(run)
         chosen = results.chosen_nodes(run, motion.lateral_rms())
         motion = results.Motion(run, chosen)
-        page.plots("motion", "Motion", [*over_time(run), *figures.contact(run, results.Contact(run)), *figures.vibration(run, motion)], tables.pairs(results.merits(run, motion)))
+        page.plots("motion", "Motion", [*over_time(run), *figures.contact(run, results.Contact(run)), *figures.vibration(run, motion)], tables.pairs(results.merits(run, motion), results.times_of_merits(run, motion)))
         page.plots("orbits", "Orbits", figures.orbits(run, motion, chosen))
         page.plots("spectra", "Spectra", figures.spectra(run, motion, chosen))
     elif run.time is not None:
-        page.plots("motion", "Motion", over_time(run), tables.pairs(results.figures_of_bit(run)))
+        page.plots("motion", "Motion", over_time(run), tables.pairs(results.merits(run), results.times_of_merits(run)))
 
 
 def part_sections(page, run):

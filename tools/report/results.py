@@ -14,6 +14,7 @@ BLOCK = 8_000_000  # numbers of a time series that are in memory at once
 SECOND_HALF = 0.5  # statistics begin after this share of the motion, when its start has died away
 VIBRATES = 1e-6  # [m], [rad], [rad/s], rms: less is no vibration. Solvers leave 1e-10 to 1e-7 of it, a wall is rough by more.
 STEEP = math.sin(math.radians(3))  # a hole that is nearer to the vertical has no high side worth the name
+AGAINST = {1: "positive against the rotation", -1: "positive against the rotation", 0: "positive against a rotation to the right"}  # torques, by the sense of the rotation
 NONE, STILL = "none", f"less than {1e6 * VIBRATES:g} micrometre rms: rounding"
 # Without these datasets of a string there is nothing to draw.
 NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius", "/model/path_curvature", "/model/curvature_of_rotations", "/static/displacement", "/static/normal_force", "/static/axial_force", "/static/torque")
@@ -120,6 +121,11 @@ class Run(Folder):
         speed = self.get("/transient/speed")
         return np.zeros(len(self.time)) if speed is None else speed
 
+    def sense(self, samples=slice(None)):
+        """Sense of the rotation in the samples: 1 to the right (clockwise looking down the hole), -1 to the left, 0 where it changes or nothing turns."""
+        speed = self.rotary()[samples]
+        return int(np.any(speed > VIBRATES)) - int(np.any(speed < -VIBRATES))
+
     def bit_speed(self):
         """Omega + dtheta_z/dt of the bit [rad/s] at the samples, or None."""
         motion = self.get("/transient/motion")
@@ -192,6 +198,9 @@ class Motion:
         self.mean = total / count
         self.rms = np.sqrt(np.maximum(square / count - self.mean ** 2, 0.0))
         self.vibrates = self.lateral_rms()[self.chosen] > VIBRATES  # of the chosen nodes
+        velocity = run.file.get("/transient/velocity") if self.chosen else None
+        # (u', v') of the chosen nodes in the second half, None where a run did not record them
+        self.velocities = None if velocity is None else velocity[self.first:, self.chosen, :2]
 
     def lateral_rms(self):
         """Root mean square of the lateral vibration about the mean position [m], of the nodes of a string."""
@@ -218,11 +227,16 @@ class Contact:
         self.duty = touching / (len(run.time) - first)
 
 
-def precession(u, v, time):
-    """Mean rate of an orbit about its centre [rad/s], positive from x to y: sum(u v' - v u') / sum(u^2 + v^2)."""
+def differences(values, time):
+    """Central differences. Those of a circle of n samples a turn are its velocity times sin(2 pi/n)/(2 pi/n)."""
+    return np.gradient(values, time) if len(time) > 1 else np.zeros_like(values)
+
+
+def precession(u, v, u_rate, v_rate):
+    """Mean rate of an orbit about its centre [rad/s], positive from u to v: sum(u v' - v u') / sum(u^2 + v^2)."""
     u, v = u - u.mean(), v - v.mean()
     size = np.sum(u ** 2 + v ** 2)
-    return float(np.sum(u * np.gradient(v, time) - v * np.gradient(u, time)) / size) if size > 0 and len(u) > 2 else 0.0
+    return float(np.sum(u * v_rate - v * u_rate) / size) if size > 0 and len(u) > 2 else 0.0
 
 
 def sides(run, node):
@@ -259,8 +273,10 @@ def chosen_nodes(run, rms, most=4):
     return dict(sorted(found.items()))
 
 
-def merits(run, motion):
-    """Figures of merit of the second half of the motion: rows of (name, value, what it is)."""
+def merits(run, motion=None):
+    """Figures of merit: rows of (name, value, what it is). `motion`: None where no displacements are recorded."""
+    if motion is None:
+        return [*figures_of_bit(run), *figures_along(run, accelerates(run))]
     rms = motion.lateral_rms()
     largest = int(np.argmax(rms))
     node = int(run.recorded[largest])
@@ -273,26 +289,54 @@ def merits(run, motion):
     return [*figures_of_bit(run), *rows, *figures_along(run, vibrates)]
 
 
-def window(found):
-    return f"{found['begin']:g} to {found['end']:g} s"
+def span(first, last):
+    return f"{first:g} to {last:g} s"
+
+
+def times_of_merits(run, motion=None):
+    """Of which time the rows of merits() are."""
+    found = run.value("transient.figures") or {}
+    said = [] if found.get("begin") is None else [f"Figures of {span(found['begin'], found['end'])} (transient.figures; Output/Figures chooses the window)"]
+    if motion is not None:
+        said.append(f"vibration in mm rms of the second half of the motion, {span(run.time[motion.first], run.time[-1])}")
+    text = "; ".join(said)
+    return text[:1].upper() + text[1:]
+
+
+def accelerates(run):
+    """Whether a motion without recorded displacements vibrates across the axis: more than VIBRATES of lateral acceleration [m/s2]."""
+    return ((run.value("transient.figures.lateral_acceleration") or {}).get("worst_rms") or 0.0) > VIBRATES
+
+
+def sense_of_figures(run, found):
+    """Sense of the rotation in the window of figures."""
+    return run.sense((run.time >= found["begin"]) & (run.time <= found["end"]))
 
 
 def figures_of_bit(run):
     """Bit speed, weight, torque and penetration from summary.json, over the window it names."""
     found = run.value("transient.figures") or {}
     rows = []
+    speed = found.get("bit_speed_rpm") or {}
+    if speed.get("mean") is not None:
+        rows.append(("Bit speed", f"{fixed(speed['mean'], 1)} rpm", f"{fixed(speed['min'], 1)} to {fixed(speed['max'], 1)} rpm"))
     if found.get("stick_slip_index") is not None:
-        rows.append(("Stick-slip index", fixed(found["stick_slip_index"], 3), f"(max - min) / (2 mean) of the bit speed; stick-slip from 1 on; {window(found)}"))
+        rows.append(("Stick-slip index", fixed(found["stick_slip_index"], 3), f"(max - min) / (2 mean) of the bit speed; stick-slip from 1 on"))
     if found.get("stuck_share") is not None:
         rows.append(("Time the bit is stuck", f"{fixed(100 * found['stuck_share'], 1)} %", f"below {found['stuck_speed_rpm']:.3g} rpm"))
     for name, key, quantity in (("Mean weight on bit", "weight_on_bit", "hook load"), ("Mean torque on bit", "torque_on_bit", "torque"), ("Rate of penetration", "rate_of_penetration", "penetration"),
                                 ("Mechanical specific energy", "specific_energy", "pressure")):
         value = found.get(key)
         spans = isinstance(value, dict)
-        mean = value["mean"] if spans else value
+        mean, ends = (value["mean"], [value.get("min"), value.get("max")]) if spans else (value, [])
         if mean is not None:
+            remark = ""
+            if key == "torque_on_bit":
+                sense = sense_of_figures(run, found)
+                mean, *ends = (sense or 1) * np.array([mean, *ends])
+                remark = f"; {AGAINST[sense]}"
             si, field = both(mean, quantity)
-            rows.append((name, si, field + (f"; {both(value['min'], quantity)[0]} to {both(value['max'], quantity)[0]}" if spans else "")))
+            rows.append((name, si, field + (f"; {both(min(ends), quantity)[0]} to {both(max(ends), quantity)[0]}" if spans else "") + remark))
     return rows
 
 
@@ -302,10 +346,10 @@ def figures_along(run, vibrates):
     rows = []
     lateral, whirl, bending = (found.get(key) or {} for key in ("lateral_acceleration", "whirl", "bending"))
     if vibrates and lateral.get("rms") is not None:
-        rows.append(("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms", f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most; {window(found)}"))
+        rows.append(("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms", f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most"))
     if vibrates and whirl.get("worst_backward_share"):
         rows.append(("Backward whirl", f"{fixed(100 * whirl['worst_backward_share'], 1)} % of the time",
-                     f"at {whirl['worst_backward_share_depth']:.1f} m, {fixed(whirl['worst_precession_rpm'], 0)} rpm; in contact as well at most {fixed(100 * whirl['worst_backward_contact_share'], 1)} %"))
+                     f"at {whirl['worst_backward_share_depth']:.1f} m, mean precession {fixed((sense_of_figures(run, found) or 1) * whirl['worst_precession_rpm'], 1)} rpm; in contact as well at most {fixed(100 * whirl['worst_backward_contact_share'], 1)} %"))
     if bending.get("range"):
         rows.append(("Largest range of the bending moment", f"{bending['range'] / 1e3:.3g} kN m", f"at {bending['range_depth']:.1f} m, in a plane that turns with the pipe"))
     if bending.get("damage_per_hour") is not None:

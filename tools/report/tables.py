@@ -20,10 +20,13 @@ def table(titles, rows, numbers=(), caption="", kind=""):
     return f'<div class="scroll"><table{style}>{above}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
-def pairs(rows):
+def pairs(rows, caption=""):
     """Names and values, with a remark where there is one."""
+    if not rows:
+        return ""
+    above = f"<caption>{escape(caption)}</caption>" if caption else ""
     body = "".join(f"<tr><th>{escape(str(name))}</th><td>{escape(str(value))}</td><td class=\"remark\">{escape(str(remark))}</td></tr>" for name, value, remark in rows)
-    return f'<div class="scroll"><table class="pairs"><tbody>{body}</tbody></table></div>'
+    return f'<div class="scroll"><table class="pairs">{above}<tbody>{body}</tbody></table></div>'
 
 
 def of_deck(rows):
