@@ -288,8 +288,21 @@ def view():
     expect("a held node is joined to the nearest node of its part", found == [(0, 1)], found)
 
 
+def released():
+    """Below a released joint results have the motion of the part above: the element there is shown as the next one."""
+    bar, bent = Bar(), np.zeros((11, 6))
+    bent[:, 2], bent[:, 3], bent[:, 5] = 1e-5 * bar.s, -1e-3 * bar.s, 1e-4 * bar.s
+    smooth = results.von_mises(bar, bent)
+    bent[5:, 2:] += 0.05  # the part below node 6 is apart from what is shown of it
+    expect("a joint that opens is seen as a stress", results.von_mises(bar, bent)[5 - 1] > 2 * smooth[5 - 1])
+    bar.data["/model/elements_below_releases"] = np.array([5])
+    near("but not where it is released", results.von_mises(bar, bent), smooth)
+    motion = np.stack([bent, 2 * bent])
+    near("nor in a motion", results.curvature(bar, motion)[1], 2e-3)
+
+
 def main():
-    for part in (stresses, motions, sides, rounding, whirls, torques, pictures, units, scenes, judged, mapped, view):
+    for part in (stresses, released, motions, sides, rounding, whirls, torques, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 

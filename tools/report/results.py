@@ -136,12 +136,21 @@ class Run(Folder):
         return int(np.searchsorted(self.time, start + SECOND_HALF * (end - start)))
 
 
+def beside_releases(run, values):
+    """`values` (... x elements) with those of the next element where a joint above is released: results have the motion of the part above the joint."""
+    below = run.get("/model/elements_below_releases")
+    if below is not None:
+        values = values.copy()
+        values[..., below - 1] = values[..., below]
+    return values
+
+
 def curvature(run, displacement):
     """Curvature of the bent string in its elements [1/m]: turn of the axes of the cross sections from node to node, a' = a + theta x a, over the
     length. `displacement` is ... x nodes x 6 in nodal frames."""
     rotations = displacement[..., 3:6]
     both = np.concatenate((rotations[..., :-1, :], rotations[..., 1:, :]), axis=-1)
-    return np.linalg.norm(run.get("/model/path_curvature") + np.einsum("eac,...ec->...ea", run.get("/model/curvature_of_rotations"), both), axis=-1)
+    return beside_releases(run, np.linalg.norm(run.get("/model/path_curvature") + np.einsum("eac,...ec->...ea", run.get("/model/curvature_of_rotations"), both), axis=-1))
 
 
 def internal_forces(run, displacement):
@@ -154,7 +163,8 @@ def internal_forces(run, displacement):
         return None
     E, G, S, J = (run.get(f"/model/{name}") for name in ("young_modulus", "shear_modulus", "area", "torsion_constant"))
     change = np.diff(displacement - run.get("/static/displacement"), axis=-2) / np.diff(run.s)[:, None]
-    return run.get("/static/axial_force") + E * S * change[..., 2], run.get("/static/torque") + G * J * change[..., 5]
+    tension, torque = (beside_releases(run, values) for values in (E * S * change[..., 2], G * J * change[..., 5]))
+    return run.get("/static/axial_force") + tension, run.get("/static/torque") + torque
 
 
 def von_mises(run, displacement):

@@ -148,7 +148,7 @@ void ofMotion(const Json& summary) {
   for (const auto& [name, unit] :
        {std::pair{"displacement", " m"}, {"rotation", " rad"}, {"coordinate", ""}})
     if (const auto largest = number(summary, ("/transient/max_" + std::string(name)).c_str())) {
-      line(name, brief(*largest, 3) + unit, "the largest of all nodes");
+      line(name, brief(*largest, 3) + unit, "the largest component of all nodes");
       parts = true;
     }
   if (!parts) return;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/Constants.hpp"
 
@@ -84,22 +85,20 @@ Spectrum spectrumOf(const std::vector<double>& signal, double interval, std::siz
 
 std::vector<SpectralPeak> largestPeaks(const Spectrum& spectrum, std::size_t most) {
   const auto& density = spectrum.density;
-  std::vector<std::size_t> maxima;
-  for (std::size_t k = 1; k < density.size(); ++k)
-    if (density[k] > 0.0 && density[k] > density[k - 1] &&
-        (k + 1 == density.size() || density[k] >= density[k + 1]))
-      maxima.push_back(k);
-  std::stable_sort(maxima.begin(), maxima.end(),
-                   [&](std::size_t a, std::size_t b) { return density[a] > density[b]; });
-  if (maxima.size() > most) maxima.resize(most);
   std::vector<SpectralPeak> peaks;
-  for (const auto k : maxima) {
-    double power = 0.0;
-    for (std::size_t i = k - std::min(k, halfLobe); i <= std::min(k + halfLobe, density.size() - 1);
-         ++i)
-      power += density[i] * spectrum.frequency[1];
+  for (std::size_t k = 1; k < density.size(); ++k) {
+    const auto first = density.begin() + static_cast<std::ptrdiff_t>(k - std::min(k, halfLobe));
+    const auto last =
+        density.begin() + static_cast<std::ptrdiff_t>(std::min(k + halfLobe + 1, density.size()));
+    if (!(density[k] > 0.0) || *std::max_element(first, last) > density[k] ||
+        density[k] == density[k - 1])
+      continue;
+    const double power = std::accumulate(first, last, 0.0) * spectrum.frequency[1];
     peaks.push_back({spectrum.frequency[k], std::sqrt(2.0 * power)});
   }
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const auto& a, const auto& b) { return a.amplitude > b.amplitude; });
+  if (peaks.size() > most) peaks.resize(most);
   return peaks;
 }
 

@@ -62,8 +62,9 @@ struct SpectralPeak {
   double amplitude = 0.0;  ///< of the sine with the power of the peak
 };
 
-/// The largest local maxima of the density above f = 0, by falling density. Amplitude: A^2/2 is the
-/// power in the main lobe of a Hann window, two lines to either side; exact for a sine on a line.
+/// The largest peaks above f = 0, by falling amplitude: maxima of the density among the two lines
+/// to either side, the main lobe of a Hann window. A^2/2 is the power in that lobe; exact for a
+/// sine on a line.
 std::vector<SpectralPeak> largestPeaks(const Spectrum& spectrum, std::size_t most);
 
 }  // namespace tooljoint::cases

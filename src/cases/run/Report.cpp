@@ -16,6 +16,8 @@ constexpr double largeError = 0.2;
 /// Scenes whose reduced motion is within 10 % have 1e-6 to 5e-3, those on walls too stiff for their
 /// modes 0.04 to 0.4 (more than 100 % off).
 constexpr double largeCutOffEnergy = 0.01;
+/// The same where the error of the reduced motion is estimated.
+constexpr double muchCutOffEnergy = 0.03;
 
 /// Integrator, steps and counters, two lines.
 std::string describeSteps(const transient::TransientReport& report) {
@@ -90,6 +92,14 @@ std::vector<std::string> remarks(const estimate::MotionEstimate& error) {
                   " off that of the full model. Keep more modes or nodes, or give Reduction a "
                   "Motion Tolerance.");
   return out;
+}
+
+std::vector<std::string> remarksBesideEstimate(const transient::TransientReport& report) {
+  if (!(report.cutOffEnergy > muchCutOffEnergy)) return {};
+  return {percent(report.cutOffEnergy) +
+          " of the kinetic energy of the reduced motion is in modes above half the frequency at "
+          "which those of their parts end: beside it the estimate of the error was found from a "
+          "fifth of the error on. Raise the cut-off, or retain more nodes."};
 }
 
 std::vector<std::string> remarks(const transient::TransientReport& report) {

@@ -28,6 +28,8 @@ std::string describeMotionError(const estimate::MotionEstimate& error);
 std::vector<std::string> remarks(const estimate::MotionEstimate& error);
 /// Of a reduced motion with more than a hundredth of its kinetic energy where its modes end.
 std::vector<std::string> remarks(const transient::TransientReport& report);
+/// The same where the error of a reduced motion is estimated.
+std::vector<std::string> remarksBesideEstimate(const transient::TransientReport& report);
 /// Integrator, steps and counters, the figures of the case, and the energy balance.
 std::string describeTransient(const transient::TransientReport& report, const MotionRecord& record);
 

@@ -157,6 +157,7 @@ class Run {
     const auto error = estimator->result();
     log::info(describeMotionError(error));
     for (const auto& remark : remarks(error)) log::warn(remark);
+    for (const auto& remark : remarksBesideEstimate(report)) log::warn(remark);
     summarise(error, files_.summary());
     return report;
   }

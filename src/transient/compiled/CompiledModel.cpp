@@ -308,13 +308,30 @@ void CompiledModel::crossCorners(double begin, double end, const Value& value) {
   if (!plainLoads_) sumLoads();
 }
 
+/// The same for matrices.
+template <class Value>
+void CompiledModel::crossCornersOfMatrices(double begin, double end, const Value& value) {
+  bool crossed = false;
+  for (std::size_t i = 0; i < lawValues_.size(); ++i) {
+    if (!hasCorner(model_.laws[i], begin, end)) continue;
+    lawValues_[i] = value(model_.laws[i]);
+    crossed = true;
+  }
+  if (!crossed) return;
+  plainLoads_ = false;
+  const bool c = damping_.update(lawValues_), k = stiffness_.update(lawValues_);
+  if (c || k) ++stamp_;
+}
+
 void CompiledModel::setStepEnd(double begin, double end) {
   setTime(end);
   const double next = end + (end - begin);
-  crossCorners(begin, next, [=](const model::ScalarLaw& law) {
+  const auto around = [=](const model::ScalarLaw& law) {
     const auto ahead = momentsOf(law, end, next);
     return momentsOf(law, begin, end).first + ahead.mean - ahead.first;
-  });
+  };
+  crossCorners(begin, next, around);
+  crossCornersOfMatrices(begin, next, around);
 }
 
 void CompiledModel::setStart(double t, double h) {
@@ -327,12 +344,14 @@ void CompiledModel::setStart(double t, double h) {
 
 void CompiledModel::setStage(double t, double begin, double h) {
   setTime(t);
-  crossCorners(begin, begin + h, [=](const model::ScalarLaw& law) {
+  const auto stage = [=](const model::ScalarLaw& law) {
     const auto [mean, moment] = momentsOf(law, begin, begin + h);
     const double first = law.value(begin), second = 3 * (mean - moment) - 0.5 * first;
     const double left = begin + h - t;
     return 2 * left > 0.5 * h ? second : 6 * mean - first - 4 * second;
-  });
+  };
+  crossCorners(begin, begin + h, stage);
+  crossCornersOfMatrices(begin, begin + h, stage);
 }
 
 bool CompiledModel::setMean(double begin, double end) {

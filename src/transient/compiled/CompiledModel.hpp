@@ -127,9 +127,9 @@ class CompiledModel {
   /// Evaluate the laws at t and recombine what changed. Cheap when nothing did.
   void setTime(double t);
   double time() const { return time_; }
-  // Loads of steps of length h inside which a law f has corners: f is replaced by values that give
-  // its integral and first moment, since what jumps or pulses between two ends of steps would
-  // otherwise come early, late or not at all. Elsewhere they are those of setTime().
+  // Loads and matrices of steps of length h inside which a law f has corners: f is replaced by
+  // values that give its integral and first moment, since what jumps or pulses between two ends of
+  // steps would otherwise come early, late or not at all. Elsewhere they are those of setTime().
 
   /// At the end of an implicit step, for one of the same length behind it:
   /// int_{-h}^{h} f(end + t) (1 - |t|/h) dt / h.
@@ -244,6 +244,8 @@ class CompiledModel {
   void sumLoads();
   template <class Value>
   void crossCorners(double begin, double end, const Value& value);
+  template <class Value>
+  void crossCornersOfMatrices(double begin, double end, const Value& value);
   linalg::BlockRange all() const { return {0, pattern_.blocks()}; }
 
   const model::SecondOrderModel& model_;

@@ -28,6 +28,8 @@ constexpr double roundedDepth = 1e-6;
 constexpr double usualSpeed = 120.0 * constants::rpm;
 /// When the start of the rotation counts as over [s].
 constexpr double started = 1e4;
+/// Part of a speed by which one that has settled may differ from its mean.
+constexpr double steady = 1e-9;
 
 double mudDensity(const Scene& scene) {
   return scene.list().isSublist("Mud") ? mud::readProperties(scene.list().sublist("Mud")).density
@@ -179,9 +181,14 @@ SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene
 
 namespace {
 
-/// Of the deck's list Rotary Speed after its start, with sign; 0 where it is missing or stops.
+/// Of the deck's list Rotary Speed after its start, with sign, of one that goes on changing the
+/// mean; 0 where it is missing or stops.
 double deckSpeed(const Scene& scene) {
-  return scene.rotary.present() ? scene.rotary.speed(started) : 0.0;
+  if (!scene.rotary.present()) return 0.0;
+  const double last = scene.rotary.speed(2.0 * started);
+  if (scene.rotary.speed(started) == last && scene.rotary.acceleration(started) == 0.0) return last;
+  const double mean = (scene.rotary.angle(2.0 * started) - scene.rotary.angle(started)) / started;
+  return std::abs(mean - last) > steady * std::abs(last) ? mean : last;
 }
 
 }  // namespace

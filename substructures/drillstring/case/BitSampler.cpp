@@ -14,8 +14,6 @@ namespace {
 using beam::nodal::thetaZ;
 using beam::nodal::w;
 
-void addTo(std::optional<double>& sum, double value) { sum = sum.value_or(0.0) + value; }
-
 }  // namespace
 
 BitSampler::BitSampler(const Scene& scene) : scene_(scene) {
@@ -34,16 +32,20 @@ BitSample BitSampler::at(const cases::Sample& sample,
   BitSample out;
   out.imposed = scene_.rotary.speed(sample.t);
   out.speed = out.imposed + sample.velocity(last + thetaZ);
-  // Loads act along w and theta_z, the rock against them.
-  for (const auto& load : loads_)
-    addTo(load.component == w ? out.weight : out.torque, -load.value * load.law.value(sample.t));
   for (const auto& record : drilling) {
     if (record.set().name != drilling::bitSet) continue;
     const int weight = record.find("weight_on_bit"), torque = record.find("torque_on_bit");
-    if (torque >= 0) addTo(out.torque, *record.values(torque));
+    if (torque >= 0) out.torque = *record.values(torque);
     if (weight < 0) continue;
-    addTo(out.weight, *record.values(weight));
+    out.weight = *record.values(weight);
     out.advance = scene_.topDrive.blockSpeed + sample.velocity(last + w);
+  }
+  // Without a law for it Loads stand for the rock: they act along w and theta_z, it against them.
+  const bool ofLaw[] = {out.weight.has_value(), out.torque.has_value()};
+  for (const auto& load : loads_) {
+    auto& sum = load.component == w ? out.weight : out.torque;
+    if (!ofLaw[load.component == w ? 0 : 1])
+      sum = sum.value_or(0.0) - load.value * load.law.value(sample.t);
   }
   return out;
 }

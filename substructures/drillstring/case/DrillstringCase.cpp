@@ -53,7 +53,7 @@ class RestingString : public cases::RestingCase {
     const int count = scene_.string.nodeCount();
     for (int node = 1; node <= count; ++node) m.nodes.push_back(node);
     for (const auto& node : scene_.string.nodes) m.depth.push_back(node.s);
-    m.bending = bendingPlaces(scene_.string, stage_.path);
+    m.bending = bendingPlaces(scene_.string, stage_.path, elementsBelowReleases(scene_, stage_));
     m.components = {0, 1, 2};
     m.vibrating = 2;
     m.clearance.assign(m.nodes.size(), std::numeric_limits<double>::infinity());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/case/StringFigures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/printf.h>
 #include <utility>
@@ -48,10 +49,15 @@ StringFigures::StringFigures(const Scene& scene, const StaticStage& stage)
       bending_(bendingElements(scene.string, stage.path), scene.output.figures.snLine) {
   const auto nodes = nodeDepth_.size();
   elementDepth_ = 0.5 * (nodeDepth_.head(nodes - 1) + nodeDepth_.tail(nodes - 1));
+  belowReleases_ = elementsBelowReleases(scene, stage);
 }
 
 void StringFigures::sample(const cases::Sample& sample, const BitSample& bit,
                            const Vector& normalForce) {
+  if (bit.weight) {
+    leastWeight_ = std::min(leastWeight_, *bit.weight);
+    mostWeight_ = std::max(mostWeight_, *bit.weight);
+  }
   if (!window_.contains(sample.t)) return;
   if (samples_ == 0) first_ = sample.t;
   last_ = sample.t;
@@ -99,7 +105,8 @@ std::vector<StringFigures::Column> StringFigures::elementColumns() const {
   const auto counts = bending_.counts();
   Vector cycles(elementDepth_.size()), range(elementDepth_.size()), damage(elementDepth_.size());
   for (Eigen::Index e = 0; e < elementDepth_.size(); ++e) {
-    const auto& one = counts[static_cast<std::size_t>(e)];
+    const bool next = std::binary_search(belowReleases_.begin(), belowReleases_.end(), e);
+    const auto& one = counts[static_cast<std::size_t>(next ? e + 1 : e)];
     cycles[e] = one.cycles;
     range[e] = one.largestRange;
     damage[e] = one.damage * perHour();
@@ -175,12 +182,12 @@ std::vector<std::string> StringFigures::warnings() const {
         "larger later. Let the motion last longer before its figures are taken "
         "(Transient/End Time, Output/Figures/Begin).",
         *growth, first_, last_));
-  if (!known() || !scene_.bit) return found;
-  if (bit_.weight().samples() > 0) {
-    auto weight = drilling::outsideCalibration(*scene_.bit, "the motion", bit_.weight().min(),
-                                               bit_.weight().max());
+  if (scene_.bit && leastWeight_ <= mostWeight_) {
+    auto weight =
+        drilling::outsideCalibration(*scene_.bit, "the motion", leastWeight_, mostWeight_);
     if (!weight.empty()) found.push_back(std::move(weight));
   }
+  if (!known() || !scene_.bit) return found;
   const auto backward = bit_.backwardAdvance();
   if (scene_.bit->law->cutsForwardOnly() && backward && *backward >= negligible)
     found.push_back(fmt::sprintf(
@@ -241,7 +248,8 @@ void StringFigures::stageTables(io::OutputFolder& folder) const {
 }
 
 void StringFigures::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(samples_), first_, last_});
+  memory.insert(memory.end(),
+                {static_cast<double>(samples_), first_, last_, leastWeight_, mostWeight_});
   bit_.save(memory);
   axial_.save(memory);
   lateral_.save(memory);
@@ -254,6 +262,8 @@ void StringFigures::restore(const double*& memory) {
   samples_ = static_cast<long>(*memory++);
   first_ = *memory++;
   last_ = *memory++;
+  leastWeight_ = *memory++;
+  mostWeight_ = *memory++;
   bit_.restore(memory);
   axial_.restore(memory);
   lateral_.restore(memory);

@@ -4,6 +4,7 @@
 /// and element. Sums alone are kept, no histories.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -55,13 +56,16 @@ class StringFigures {
   void summariseNodes(io::Summary& summary) const;
   void summariseBending(io::Summary& summary) const;
   double perHour() const;
+  std::vector<int> belowReleases_;  ///< elementsBelowReleases()
   void sampleNodes(const cases::Sample& sample, const Vector& normalForce);
 
   const Scene& scene_;
   cases::FigureWindow window_;
   Vector nodeDepth_, elementDepth_;  ///< [m]; elements at their middle
   long samples_ = 0;
-  double first_ = 0.0, last_ = 0.0;  ///< samples in the window [s]
+  double leastWeight_ = std::numeric_limits<double>::infinity();
+  double mostWeight_ = -std::numeric_limits<double>::infinity();  ///< on the bit, whole motion
+  double first_ = 0.0, last_ = 0.0;                               ///< samples in the window [s]
   BitFigures bit_;
   cases::MagnitudeFigures axial_, lateral_;  ///< accelerations [m/s2]
   cases::OrbitFigures orbit_;

@@ -98,6 +98,12 @@ void writeBending(const Scene& scene, const StaticStage& stage, io::ResultsFile&
              "Curvature of the elements on the path, in two axes across them");
   file.write("/model/curvature_of_rotations", slopes, {elements, 2, 6}, "1/m",
              "Curvature in these axes per rotation of the upper and the lower node");
+  std::vector<int> below = elementsBelowReleases(scene, stage);
+  for (int& element : below) ++element;
+  if (!below.empty())
+    file.write("/model/elements_below_releases", below, {below.size()}, "1",
+               "Elements, counted from 1, whose upper node moves apart from that shown: strain and "
+               "curvature are those of the next element");
 }
 
 void writePath(const StaticStage& stage, io::ResultsFile& file) {

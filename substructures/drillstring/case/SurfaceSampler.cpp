@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/case/SurfaceSampler.hpp"
 
-#include <string>
+#include <cmath>
 
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/StringModel.hpp"
@@ -34,8 +34,15 @@ void SurfaceSampler::sample(const cases::Sample& sample) {
   const Vector& D = sample.displacement;
   speed_ = scene_.rotary.speed(sample.t) + sample.velocity(thetaZ);
   hookLoad_ = axialOffset_ + axialStiffness_ * stretch(D, w);
-  const double sense = scene_.rotary.speed(sample.t) < 0.0 ? -1.0 : 1.0;
-  torque_ = -sense * (torqueOffset_ + torsionalStiffness_ * stretch(D, thetaZ));
+  torque_ = -sense(sample.t) * (torqueOffset_ + torsionalStiffness_ * stretch(D, thetaZ));
+}
+
+/// Where the surface stands it is that of the turns made so far, and before those of the first one.
+double SurfaceSampler::sense(double t) const {
+  const auto& rotary = scene_.rotary;
+  for (const double turning : {rotary.speed(t), rotary.angle(t), rotary.sense(t)})
+    if (turning != 0.0) return std::copysign(1.0, turning);
+  return 1.0;
 }
 
 }  // namespace tooljoint::drillstring

@@ -27,6 +27,9 @@ class SurfaceSampler {
   const double& hookLoad() const { return hookLoad_; }  ///< T [N]
 
  private:
+  /// Of the rotation: 1 to the right, also where nothing turns, -1 to the left.
+  double sense(double t) const;
+
   const Scene& scene_;
   double axialStiffness_, torsionalStiffness_;  ///< E S/L [N/m], G J/L [N m/rad]
   double axialOffset_, torqueOffset_;           ///< T and M at w_2 = w_1, theta_2 = theta_1

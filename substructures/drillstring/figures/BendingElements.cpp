@@ -54,15 +54,18 @@ std::vector<BendingElement> bendingElements(const DrillString& string,
 
 /// M = E I/l (theta2 x a2 - theta1 x a1)
 std::vector<cases::BendingPlace> bendingPlaces(const DrillString& string,
-                                               const path::PathState& path) {
+                                               const path::PathState& path,
+                                               const std::vector<int>& belowReleases) {
   constexpr std::array components{beam::nodal::thetaX, beam::nodal::thetaY, beam::nodal::thetaZ};
   std::vector<cases::BendingPlace> out;
   const auto elements = bendingElements(string, path);
-  for (std::size_t e = 0; e < elements.size(); ++e) {
+  for (std::size_t number = 0; number < elements.size(); ++number) {
+    const bool next = std::binary_search(belowReleases.begin(), belowReleases.end(), number);
+    const std::size_t e = next ? number + 1 : number;
     const auto& element = elements[e];
     const double stiffness = element.rigidity / element.length;
     cases::BendingPlace place;
-    place.depth = 0.5 * (string.nodes[e].s + string.nodes[e + 1].s);
+    place.depth = 0.5 * (string.nodes[number].s + string.nodes[number + 1].s);
     place.stressPerMoment = element.stressPerMoment;
     for (std::size_t axis : {0, 1})
       for (std::size_t end : {0, 1})

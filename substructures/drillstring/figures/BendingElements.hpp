@@ -17,7 +17,9 @@ std::vector<BendingElement> bendingElements(const DrillString& string, const pat
 
 /// The mean moments of the elements beside those at rest as sums of the rotations of their nodes,
 /// which are numbered from 1.
+/// \param belowReleases  elements (0-based, increasing) that have the moments of the next one
 std::vector<cases::BendingPlace> bendingPlaces(const DrillString& string,
-                                               const path::PathState& path);
+                                               const path::PathState& path,
+                                               const std::vector<int>& belowReleases);
 
 }  // namespace tooljoint::drillstring

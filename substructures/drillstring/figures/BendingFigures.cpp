@@ -69,10 +69,10 @@ std::vector<BendingCounts> BendingFigures::counts() const {
     for (const auto& plane : planes_[e]) {
       auto totals = plane.totals;
       plane.rainflow.finish([&](const cases::LoadCycle& c) { count(e, c, totals); });
-      const BendingCounts found{totals.cycles, totals.largestRange, damage(e, totals)};
-      const bool worse = found.damage != out[e].damage ? found.damage > out[e].damage
-                                                       : found.largestRange > out[e].largestRange;
-      if (worse) out[e] = found;
+      out[e].damage = std::max(out[e].damage, damage(e, totals));
+      if (!(totals.largestRange > out[e].largestRange)) continue;
+      out[e].largestRange = totals.largestRange;
+      out[e].cycles = totals.cycles;
     }
   }
   return out;

@@ -37,7 +37,7 @@ struct BendingElement {
 Eigen::Vector2d meanMoment(const BendingElement& element, std::size_t index,
                            const Vector& displacement);
 
-/// Counts of one element, in its worst plane.
+/// Counts of one element: of the plane with the largest range, and the damage of the worst plane.
 struct BendingCounts {
   double cycles = 0.0;
   double largestRange = 0.0;  ///< [N m]

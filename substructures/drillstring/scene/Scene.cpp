@@ -357,7 +357,7 @@ double feedOfSetWeight(const Scene& scene) {
 /// An autodriller finds the block speed of the static state.
 bool feedsBySetWeight(const Scene& scene) {
   return scene.bit && scene.bit->law->givesWeight() && scene.topDrive.autodriller &&
-         drilling::readTopDrive(scene.list().sublist("Top Drive")).blockSpeed == 0.0;
+         !scene.deck.gives("Top Drive/Block Speed");
 }
 
 /// What can be said of parts and basis before the static state.

@@ -476,6 +476,16 @@ coupling::ResolvedCoupling resolvedParts(const Scene& scene, const StaticStage& 
   return {std::move(parts), {}};
 }
 
+std::vector<int> elementsBelowReleases(const Scene& scene, const StaticStage& stage) {
+  if (!scene.coupling) return {};
+  std::vector<int> elements;
+  for (const auto& dof : resolvedParts(scene, stage).options.connections.released)
+    if (dof.node > 1 && dof.node < scene.string.elementCount())  // the next one is there
+      elements.push_back(static_cast<int>(dof.node) - 1);
+  makeUnique(elements);
+  return elements;
+}
+
 coupling::Coupling joinUnreduced(const coupling::ResolvedCoupling& resolved) {
   auto options = resolved.options;
   options.assembly = coupling::Assembly::Primal;

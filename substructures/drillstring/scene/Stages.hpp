@@ -67,6 +67,10 @@ std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stag
 
 /// These parts as the list Coupling wants them, and what joins them.
 coupling::ResolvedCoupling resolvedParts(const Scene& scene, const StaticStage& stage);
+/// Elements (0-based, increasing) below joints that Coupling/Releases or Hinges set free in part:
+/// results have the motion of the part above there, so what they say of strain and curvature is
+/// that of the next element.
+std::vector<int> elementsBelowReleases(const Scene& scene, const StaticStage& stage);
 /// Unreduced parts joined, in primal assembly.
 coupling::Coupling joinUnreduced(const coupling::ResolvedCoupling& resolved);
 
