@@ -104,6 +104,18 @@ def ahead(program, own):
             near(f"autodriller, {name}, {speed:g} rad/s: torque of the bit", float(on["surface_torque"]) - float(off["surface_torque"]), float(bit.torque(advance, speed)), 10.0)
 
 
+def two_sensors(program, top):
+    """Measured weight and hook load of a block that jerks: W = W_0 - (H - H_0) + m_b w_1'', and the inertia of the first element."""
+    own = {**top["Autodriller"], "Proportional Gain": 1e-6, "Integral Gain": 1e-7}
+    run = driller(program, "driller_sensors", {**top, "Autodriller": own}, 5.0, {"Output/Fields": "{displacement, acceleration}"})
+    weight, hook, steps = run.data("transient/measured_weight"), run.data("transient/hook_load"), run.nodes(W, "acceleration")
+    pipe = models.DENSITY * models.area(PIPE) * PIPE["Length"]
+    between = weight - weight[0] + hook - hook[0]
+    inertia = own["Block Mass"] * steps[:, 0] + pipe * (steps[:, 0] / 3 + steps[:, 1] / 6)
+    expect("autodriller: the block jerks", np.abs(between).max() > 1e3, np.abs(between).max())
+    near("autodriller: hook load and measured weight differ by the inertia between them", np.abs(between - inertia).max() / np.abs(between).max(), 0.0, 5e-3)
+
+
 def autodriller(program):
     """The loop of block, lines, pipe and bit: linear motion and closed-loop poles; the block speed it begins with; its limits."""
     bit = models.PenetrationBit()
@@ -131,6 +143,7 @@ def autodriller(program):
     full = driller(program, "driller_end", {"Block Speed": feed, "Autodriller": own}, 200.0, {"Transient/Step": 0.02})
     near("autodriller: the weight on bit in the end", full.data("transient/weight_on_bit")[-1], begin + lack, 1e-3 * lack)
     near("autodriller: the speed of the block in the end", full.data("transient/block_speed")[-1], settled, 1e-3 * settled)
+    two_sensors(program, {"Block Speed": feed, "Autodriller": own})
     ahead(program, own)
     limit = feed + 0.5 * lack / slope
     run = driller(program, "driller_limit", {"Block Speed": feed, "Autodriller": {**own, "Largest Block Speed": limit}}, 200.0, {"Transient/Step": 0.02})

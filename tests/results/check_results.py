@@ -376,10 +376,20 @@ def check_places(file):
     expect("parts: joined nodes are one", len(np.unique(position.round(6), axis=0)) == len(position))
 
 
+def check_left_turn():
+    """The sign of friction at rest is that of a rotation to the right, whichever way the string turns."""
+    folder = run(ROOT / "tests" / "effects" / "scene.xml", "left", "Rotary Speed/Exponential/Final Speed=-120 rpm", "Transient/End Time=0.002")
+    with h5py.File(folder / "results.h5") as file:
+        force, radius = file["/static/tangential_force"][:], file["/model/contact_radius"][:]
+        expect("friction of a string that turns to the left is positive", np.all(force >= 0) and force.max() > 1)
+        near("so is its torque", file["/static/friction_torque"][:], force * radius, 1e-9)
+
+
 def main():
     strings, parts = documented.rows("## results.h5"), documented.rows("**Results of a scene of parts.**")
     written = {"string": set(), "parts": set()}
     check_string(strings, written["string"])
+    check_left_turn()
     check_parts(parts, written["parts"])
     for title in written:  # tests/results/check_recorded.py writes it
         written[title].add("/transient/node")
