@@ -75,8 +75,10 @@ void reportStability(const Growth& growth, std::size_t listed, const model::Seco
   else
     log::info(std::to_string(growth.modes) + " of the " + std::to_string(listed) +
               " damped modes listed " + (growth.modes == 1 ? "grows" : "grow") +
-              ", the fastest as exp(" + fmt::format("{:.3g}", growth.fastest) +
-              " t): the state is unstable.");
+              ", the fastest as exp(" + fmt::format("{:.3g}", growth.fastest) + " t)" +
+              (model::setsWithMovingStates(model, t).empty()
+                   ? ": the state is unstable."
+                   : " with the states of point laws held."));
   stability::warnOfHeldStates(model, t);
 }
 

@@ -11,6 +11,7 @@
 #include "reduction/part/Partition.hpp"
 #include "response/SweepParameters.hpp"
 #include "response/campbell/ModeSearch.hpp"
+#include "stability/StateStability.hpp"
 
 namespace tooljoint::response {
 
@@ -67,11 +68,17 @@ class Search {
   }
 
   void look(double speed) {
-    const auto found = modes(rotating_.at(speed));
+    const auto held = rotating_.at(speed);
+    const auto found = modes(held);
     for (Eigen::Index j = 0; j < found.values.size(); ++j) {
       const Complex s = found.values[j];
-      if (grows(s) && (!out_.growing || s.real() > out_.growing->s.real()))
-        out_.growing = Growing{speed, s};
+      if (grows(s)) {
+        const Complex real = stability::followed(rotating_.turned(speed), rotating_.time(), held,
+                                                 {s, found.vectors.col(j)})
+                                 .s;
+        if (grows(real) && (!out_.growing || real.real() > out_.growing->s.real()))
+          out_.growing = Growing{speed, real};
+      }
       if (!vibrates(s)) continue;
       if (!settings_.bySpeed())
         add(s.imag() / perUnit_, s);

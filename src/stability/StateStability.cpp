@@ -357,6 +357,14 @@ std::string withoutStates(const std::vector<std::string>& held) {
          "not seen. The motion shows it.";
 }
 
+linalg::DampedMode followed(const model::SecondOrderModel& model, double t,
+                            const estimate::Linearised& held, const linalg::DampedMode& mode) {
+  if (model::setsWithMovingStates(model, t).empty() ||
+      !model::setsWithUnknownStates(model, t).empty())
+    return mode;
+  return Release(model, t, held)(mode).value_or(mode);
+}
+
 void warnOfHeldStates(const model::SecondOrderModel& model, double t) {
   const auto names = model::setsWithMovingStates(model, t);
   if (!names.empty())

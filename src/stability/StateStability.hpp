@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "estimate/ModeComparison.hpp"
+#include "linalg/DynamicStiffness.hpp"
 #include "model/SecondOrderModel.hpp"
 
 namespace tooljoint::stability {
@@ -51,6 +53,12 @@ struct StateStability {
 std::string withoutStates(const std::vector<std::string>& held);
 /// Warns of it where the damped modes of a model at t [s] leave out states of point laws.
 void warnOfHeldStates(const model::SecondOrderModel& model, double t);
+
+/// What a damped mode of the equations with held states of point laws becomes when they follow it.
+/// The mode itself where they do not move, where a law does not say how they do, and where that is
+/// not found.
+linalg::DampedMode followed(const model::SecondOrderModel& model, double t,
+                            const estimate::Linearised& held, const linalg::DampedMode& mode);
 
 /// Growth rates below this are not reported [1/s]: a disturbance takes more than a quarter of an
 /// hour to grow by e.

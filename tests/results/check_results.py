@@ -383,6 +383,21 @@ def check_left_turn():
         force, radius = file["/static/tangential_force"][:], file["/model/contact_radius"][:]
         expect("friction of a string that turns to the left is positive", np.all(force >= 0) and force.max() > 1)
         near("so is its torque", file["/static/friction_torque"][:], force * radius, 1e-9)
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        near("the torque at the surface has the sign of the rotation before it begins", file["/transient/surface_torque"][0], summary["static"]["surface_torque"], 1e-9)
+
+
+def check_released(rows, written):
+    """Below a joint that is free in part nodes have the motion of the part above: bending there is that of the next element."""
+    folder = run(ROOT / "tests" / "effects" / "coupling.xml", "released", "Transient/End Time=0.05", "Output/Figures/Begin=0")
+    with h5py.File(folder / "results.h5") as file:
+        below = file["/model/elements_below_releases"][:]
+        nodes = len(file["/model/s"])
+        check_datasets("released joints", file, rows, {"n": nodes, "r": nodes, "e": nodes - 1, "m": len(file["/transient/time"]), "p": len(file["/xdmf/time"]), "j": 2}, written)
+        expect("a hinge at node 5, a slide at node 9", list(below) == [5, 9], below)
+        for figure in ("bending_range", "bending_cycles"):
+            values = file[f"/figures/{figure}"][:]
+            expect(f"{figure} below them is that of the next element", list(values[below - 1]) == list(values[below]) and values[below].min() > 0, values[:11])
 
 
 def main():
@@ -390,6 +405,7 @@ def main():
     written = {"string": set(), "parts": set()}
     check_string(strings, written["string"])
     check_left_turn()
+    check_released(strings, written["string"])
     check_parts(parts, written["parts"])
     for title in written:  # tests/results/check_recorded.py writes it
         written[title].add("/transient/node")

@@ -2,6 +2,7 @@
 #include "substructures/drillstring/case/SurfaceSampler.hpp"
 
 #include <cmath>
+#include <string>
 
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/StringModel.hpp"

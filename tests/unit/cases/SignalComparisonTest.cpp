@@ -51,6 +51,19 @@ TEST(Spectrum, ASineBetweenLinesKeepsItsAmplitudeWithinTwoPerCent) {
   EXPECT_NEAR(peaks[0].amplitude, 3.0, 0.06);
 }
 
+// A sine on a line has a higher density than one of a tenth more amplitude between lines.
+TEST(Spectrum, PeaksComeByAmplitude) {
+  auto signal = sine(800, 1.0, 10.0);
+  const auto between = sine(800, 1.1, 20.25);
+  for (std::size_t i = 0; i < signal.size(); ++i) signal[i] += between[i];
+  const auto spectrum = spectrumOf(signal, interval, 200);
+  const auto peaks = largestPeaks(spectrum, 5);
+  ASSERT_GE(peaks.size(), 2U);
+  EXPECT_NEAR(peaks[0].frequency, 20.25, 0.3);
+  EXPECT_NEAR(peaks[1].frequency, 10.0, 1e-12);
+  EXPECT_GT(peaks[0].amplitude, peaks[1].amplitude);
+}
+
 // Parseval: sum of S df over one segment is sum (w x)^2/sum w^2, x without its mean
 TEST(Spectrum, HoldsThePowerOfTheSignal) {
   std::vector<double> values;

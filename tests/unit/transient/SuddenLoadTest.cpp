@@ -70,6 +70,43 @@ TEST(SuddenLoad, isOfSecondOrderWhereverItFalls) {
       }
 }
 
+/// A spring of which nine tenths break at a time: second order wherever that falls, and the energy
+/// of what breaks is booked.
+TEST(SuddenLoad, aSpringThatBreaksCountsFromThere) {
+  const double omega = std::sqrt(stiffness / mass), left = omega * std::sqrt(0.1), q0 = 0.2;
+  const auto errorOfBreak = [&](const char* integrator, double from, double h) {
+    auto model = denseModel(scalar(mass), Matrix(), Matrix());
+    const int law =
+        model.lawIndex({"break", [from](double t) { return t < from ? 1.0 : 0.1; }, {from}});
+    model.stiffness.push_back({"spring", scalar(stiffness).sparseView(), law});
+    model.initialDisplacement[0] = q0;
+    auto o = options(integrator, 3.0, h, 0.05);
+    if (integrator == std::string("Generalized-alpha"))
+      o.own.set("Spectral Radius", 1.0).set("Phase Correction", false);
+    acceptCoarseSteps(o);
+    Keep samples;
+    const auto report = integrate(model, o, samples);
+    EXPECT_LT(std::abs(report.energy.residual()), h) << integrator << from;
+    const double q1 = q0 * std::cos(omega * from), v1 = -q0 * omega * std::sin(omega * from);
+    double worst = 0;
+    for (std::size_t i = 0; i < samples.time.size(); ++i) {
+      const double t = samples.time[i], after = t - from;
+      const double q = after < 0 ? q0 * std::cos(omega * t)
+                                 : q1 * std::cos(left * after) + v1 / left * std::sin(left * after);
+      worst = std::max(worst, std::abs(samples.q[i][0] - q) / q0);
+    }
+    return worst;
+  };
+  const double h = 0.01;
+  for (const char* integrator : {"Generalized-alpha", "RK4"})
+    for (const double part : {0.0, 0.1, 0.5, 0.99}) {
+      const double coarse = errorOfBreak(integrator, 1.0 + part * h, h),
+                   fine = errorOfBreak(integrator, 1.0 + 0.25 * part * h, 0.25 * h);
+      EXPECT_LT(coarse, 0.01) << integrator << part;
+      EXPECT_GT(coarse, 8 * fine) << integrator << part;
+    }
+}
+
 /// A heavy mass in motion: the work of a load that comes late in a step is that of the rest of it.
 TEST(SuddenLoad, worksFromWhenItComes) {
   const double heavy = 1e6, speed = 2.0, end = 2.0;
