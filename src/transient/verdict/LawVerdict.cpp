@@ -75,8 +75,7 @@ void judgeLaws(const model::SecondOrderModel& model, const Integrator& run,
   if (!(equal > 0) && c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
   for (std::size_t i = 0; i < model.laws.size(); ++i) {
     const auto& law = model.laws[i];
-    const double missed =
-        missedPart(law, span.start, span.end, h, run.followsCorners());
+    const double missed = missedPart(law, span.start, span.end, h, run.followsCorners());
     say(law, missed, "The time step (" + formatNumber(h) + " s) is", run, span.stepErrorLimit);
   }
 }
