@@ -16,6 +16,10 @@ namespace tooljoint::study {
 namespace {
 
 /// A recorded motion in memory: all components of a string, the measured ones of a scene of parts.
+/// Nodes of one scene stand where they stand but for this part of its extent: the path of a string
+/// follows its loads.
+constexpr double samePlace = 1e-2;
+
 struct Motion {
   explicit Motion(const std::string& folder)
       : reader(folder + "/results.h5"), shape(reader.shape("/transient/displacement")) {
@@ -29,6 +33,21 @@ struct Motion {
         nodes.push_back(static_cast<std::size_t>(row) - 1);
     else
       for (std::size_t row = 0; row < all; ++row) nodes.push_back(row);
+  }
+
+  /// Largest distance of the nodes from those of another file, by the extent of both; 0 where
+  /// either does not say where they are.
+  double apartFrom(const Motion& other) const {
+    constexpr const char* places = "/model/position";
+    if (!reader.has(places) || !other.reader.has(places)) return 0.0;
+    const auto here = reader.numbers(places), there = other.reader.numbers(places);
+    if (here.size() != there.size() || here.empty()) return 0.0;
+    double apart = 0.0, extent = 0.0;
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      apart = std::max(apart, std::abs(here[i] - there[i]));
+      extent = std::max(extent, std::abs(here[i] - here[i % 3]));
+    }
+    return extent > 0.0 ? apart / extent : 0.0;
   }
 
   /// Leaves the motion of these nodes alone, which are recorded.
@@ -144,6 +163,10 @@ MotionErrors compareFolders(const ComparedFolders& folders, const Window& window
       motion.components != reference.components)
     throw UsageError(folders.folder + " and " + folders.reference +
                      " hold the motion of different scenes.");
+  if (const double apart = motion.apartFrom(reference); apart > samePlace)
+    throw UsageError(folders.folder + " and " + folders.reference +
+                     " hold the motion of different scenes: their nodes stand up to " +
+                     formatNumber(std::round(1e3 * apart) / 10.0) + " % of their extent apart.");
   std::vector<std::size_t> common;
   std::set_intersection(motion.nodes.begin(), motion.nodes.end(), reference.nodes.begin(),
                         reference.nodes.end(), std::back_inserter(common));

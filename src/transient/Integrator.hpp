@@ -82,6 +82,8 @@ class Integrator {
   /// Whether loads that jump or pulse inside a step act as they do, by CompiledModel::setStepEnd()
   /// or setStage(). Of others the run judges whether the ends of steps see such laws.
   virtual bool followsCorners() const { return false; }
+  /// And those of matrices, however large they are between two ends of steps.
+  virtual bool followsCornersOfMatrices() const { return false; }
 
   /// Every how many steps the energy ledger has to look, for steps that are short beside what
   /// moves.

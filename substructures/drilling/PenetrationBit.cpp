@@ -3,9 +3,12 @@
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <memory>
+#include <string>
 
 #include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "model/laws/FormulaLaw.hpp"
 #include "substructures/drilling/BitLaw.hpp"
 
@@ -70,8 +73,13 @@ class TuckerWang final : public BitLaw {
     return ofSource_ ? WeightRange{100e3, 250e3} : WeightRange{};
   }
   std::string describe() const override {
-    return std::string("weight and torque by the rate of penetration") +
-           (ofSource_ ? ", calibrated for 100 to 250 kN" : "");
+    const std::string text = "weight and torque by the rate of penetration";
+    if (!ofSource_) return text;
+    const deck::PrintedUnit force("kN");
+    return text +
+           fmt::format(", calibrated for {:.4g} to {:.4g} ", force(calibration().least),
+                       force(calibration().most)) +
+           force.name();
   }
 
  private:

@@ -12,6 +12,9 @@ import shutil
 import subprocess
 import sys
 
+import h5py
+import numpy as np
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
 
@@ -81,13 +84,19 @@ def comparisons(times):
         expect(f"--fail-above {factor} vibration errors: exit code {code}", done.returncode == code, f"({done.returncode}) {done.stderr}")
         expect(f"--fail-above {factor} vibration errors: the errors are printed all the same", done.stdout == said.stdout, done.stdout)
         expect(f"--fail-above {factor} vibration errors: the limit is named {code // 4} times", done.stderr.count("of --fail-above") == code // 4, done.stderr)
+    shutil.copytree("full", "moved", dirs_exist_ok=True)
+    with h5py.File("moved/results.h5", "a") as moved:
+        place = moved["/model/position"][:]
+        place[-2] += [0.05 * np.abs(place - place[0]).max(), 0.0, 0.0]
+        moved["/model/position"][...] = place
     same = json.loads(tooljoint("compare", "full", "full", "--fail-above", "0", "--json").stdout)
     expect("a run is its own equal", same["vibration_error"] == same["eps_t"]["max"] == same["eps_n"]["max"] == 0.0, str(same))
     for arguments, code, sentence in ((["reduced", "full", "--fail-above", "-1"], 1, '--fail-above: "-1" was given; expected is a number from 0 on.'),
                                       (["reduced", "full", "--fail-above", "nan"], 1, '--fail-above: "nan" was given'), (["reduced", "full", "--from", "7"], 1, f"full holds 0 samples (it ends at {whole[-1]:g} s)"),
                                       (["reduced", "full", "--from", "0.1", "--to", "0.05"], 1, "--to 0.05 is before --from 0.1."),
                                       (["brief", "full"], 1, f"brief holds {len(times['brief'])} samples from 0 to 0.1 s and full holds {len(whole)} samples from 0 to 0.2 s"),
-                                      (["reduced", "nowhere"], 5, "nowhere"), (["reduced", "parts"], 1, "hold the motion of different scenes")):
+                                      (["reduced", "nowhere"], 5, "nowhere"), (["reduced", "parts"], 1, "hold the motion of different scenes"),
+                                      (["reduced", "moved"], 1, "their nodes stand up to 5 % of their extent apart")):
         done = tooljoint("compare", *arguments)
         expect(f"compare {' '.join(arguments)}: exit code {code}", done.returncode == code and done.stderr.count(sentence) == 1, f"({done.returncode}) {done.stderr}")
 

@@ -146,6 +146,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   bool dividesAmongRanks() const override { return true; }
   /// Two steps of one length are booked together.
   bool followsCorners() const override { return true; }
+  bool followsCornersOfMatrices() const override { return true; }
   int ledgerStride() const override { return controlled_ ? 1 : 2; }
   std::string advice() const override {
     return std::string("Reduce ") +

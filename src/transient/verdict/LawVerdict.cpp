@@ -8,6 +8,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "transient/accuracy/LawResolution.hpp"
 
 namespace tooljoint::transient {
@@ -75,7 +76,14 @@ void judgeLaws(const model::SecondOrderModel& model, const Integrator& run,
   if (!(equal > 0) && c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
   for (std::size_t i = 0; i < model.laws.size(); ++i) {
     const auto& law = model.laws[i];
-    const double missed = missedPart(law, span.start, span.end, h, run.followsCorners());
+    const auto follows = [i](const auto& term) {
+      return term.law == static_cast<int>(i) && !linalg::isZero(term.matrix);
+    };
+    const bool ofMatrix = std::any_of(model.damping.begin(), model.damping.end(), follows) ||
+                          std::any_of(model.stiffness.begin(), model.stiffness.end(), follows);
+    const double missed =
+        missedPart(law, span.start, span.end, h,
+                   ofMatrix ? run.followsCornersOfMatrices() : run.followsCorners());
     say(law, missed, "The time step (" + formatNumber(h) + " s) is", run, span.stepErrorLimit);
   }
 }

@@ -26,4 +26,15 @@ std::string bitFrictionRemark(const Scene& scene) {
          "example 5e-4 s (3 % of critical damping at 20 Hz).";
 }
 
+std::string unbalanceRemark(const Scene& scene) {
+  const auto& loads = scene.list().sublist("Loads");
+  if (scene.topDrive.control != drilling::DriveControl::Torque || !loads.isSublist("Unbalance") ||
+      loads.sublist("Unbalance").numParams() == 0)
+    return "";
+  return "Loads/Unbalance turns with Rotary Speed, but under the control \"Torque\" of Top Drive "
+         "the "
+         "string turns as fast as the torque makes it: force and phase of the unbalance are not "
+         "those of the string. Set Top Drive/Control to \"Speed\", or leave the unbalance out.";
+}
+
 }  // namespace tooljoint::drillstring

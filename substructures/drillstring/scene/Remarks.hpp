@@ -16,4 +16,7 @@ std::string prestressRemark(const Scene& scene);
 /// rise with the frequency; else "".
 std::string bitFrictionRemark(const Scene& scene);
 
+/// A sentence when an unbalance turns with the set speed of a drive that does not hold it; else "".
+std::string unbalanceRemark(const Scene& scene);
+
 }  // namespace tooljoint::drillstring

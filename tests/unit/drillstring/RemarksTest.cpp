@@ -30,6 +30,15 @@ TEST(Remarks, BitFrictionThatFallsWantsDampingThatRises) {
   EXPECT_EQ(bitFrictionRemark(scene("helical_170m.xml", {})), "") << "no law of the bit";
 }
 
+TEST(Remarks, UnbalanceTurnsWithTheSetSpeed) {
+  const std::string deck = "first_run.xml";  // with unbalances
+  EXPECT_EQ(unbalanceRemark(scene(deck, {})), "");
+  EXPECT_NE(unbalanceRemark(scene(deck, {"Supports/Top=u v w", "Top Drive/Control=Torque",
+                                         "Top Drive/Inertia=100", "Top Drive/Torque=1e4"}))
+                .find("turns with Rotary Speed"),
+            std::string::npos);
+}
+
 TEST(Remarks, ThePublishedPreStressIsWrongInBends) {
   EXPECT_NE(prestressRemark(scene("helical_170m.xml", {})), "");
   EXPECT_EQ(prestressRemark(scene("helical_170m.xml", {"Path/Pre-stress=Full tangent"})), "");
