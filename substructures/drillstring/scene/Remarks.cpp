@@ -27,10 +27,10 @@ std::string bitFrictionRemark(const Scene& scene) {
 }
 
 std::string unbalanceRemark(const Scene& scene) {
-  const auto& loads = scene.list().sublist("Loads");
-  if (scene.topDrive.control != drilling::DriveControl::Torque || !loads.isSublist("Unbalance") ||
-      loads.sublist("Unbalance").numParams() == 0)
-    return "";
+  const bool loaded = scene.list().isSublist("Loads") &&
+                      scene.list().sublist("Loads").isSublist("Unbalance") &&
+                      scene.list().sublist("Loads").sublist("Unbalance").numParams() > 0;
+  if (!loaded || scene.topDrive.control != drilling::DriveControl::Torque) return "";
   return "Loads/Unbalance turns with Rotary Speed, but under the control \"Torque\" of Top Drive "
          "the "
          "string turns as fast as the torque makes it: force and phase of the unbalance are not "
