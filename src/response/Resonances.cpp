@@ -73,11 +73,11 @@ class Search {
     for (Eigen::Index j = 0; j < found.values.size(); ++j) {
       const Complex s = found.values[j];
       if (grows(s)) {
-        const Complex real = stability::followed(rotating_.turned(speed), rotating_.time(), held,
-                                                 {s, found.vectors.col(j)})
-                                 .s;
-        if (grows(real) && (!out_.growing || real.real() > out_.growing->s.real()))
-          out_.growing = Growing{speed, real};
+        const Complex moving = stability::followed(rotating_.turned(speed), rotating_.time(), held,
+                                                   {s, found.vectors.col(j)})
+                                   .s;
+        if (grows(moving) && (!out_.growing || moving.real() > out_.growing->s.real()))
+          out_.growing = Growing{speed, moving};
       }
       if (!vibrates(s)) continue;
       if (!settings_.bySpeed())

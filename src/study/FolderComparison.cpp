@@ -15,11 +15,11 @@ namespace tooljoint::study {
 
 namespace {
 
-/// A recorded motion in memory: all components of a string, the measured ones of a scene of parts.
-/// Nodes of one scene stand where they stand but for this part of its extent: the path of a string
-/// follows its loads.
+/// Distance, as a part of the extent of a scene, by which its nodes may differ between two runs:
+/// the path of a string depends on its loads.
 constexpr double samePlace = 1e-2;
 
+/// A recorded motion in memory: all components of a string, the measured ones of a scene of parts.
 struct Motion {
   explicit Motion(const std::string& folder)
       : reader(folder + "/results.h5"), shape(reader.shape("/transient/displacement")) {

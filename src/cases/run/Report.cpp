@@ -98,8 +98,8 @@ std::vector<std::string> remarksBesideEstimate(const transient::TransientReport&
   if (!(report.cutOffEnergy > muchCutOffEnergy)) return {};
   return {percent(report.cutOffEnergy) +
           " of the kinetic energy of the reduced motion is in modes above half the frequency at "
-          "which those of their parts end: beside it the estimate of the error was found from a "
-          "fifth of the error on. Raise the cut-off, or retain more nodes."};
+          "which those of their parts end: in such motions the estimate can be a fifth of the "
+          "error. Raise the cut-off, or retain more nodes."};
 }
 
 std::vector<std::string> remarks(const transient::TransientReport& report) {

@@ -104,7 +104,8 @@ class Balance {
     return factor_.factor() < 0;
   }
 
-  /// What has mass stays, but where none of its dofs alone is without.
+  /// Change of the state [m, rad]; 0 at dofs with mass, unless the mass matrix is singular in
+  /// motions of several of them.
   Vector solve(Vector force) const {
     force *= tau_ * tau_;
     factor_.solve(force.data());

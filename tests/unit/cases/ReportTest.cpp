@@ -1,32 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a run says of its estimated error.
+/// What a run says of vibration above the cut-off of its parts.
 #include "cases/run/Report.hpp"
 
 #include <gtest/gtest.h>
-#include <limits>
 #include <string>
+#include <tuple>
 
-namespace tooljoint::cases {
-namespace {
+namespace ReportTest {
 
-TEST(Remarks, tellOfAnEstimateAboveAFifthAndOfFastMotion) {
-  estimate::MotionEstimate error;
-  error.error = 0.19;
-  error.ofEverySecond = 0.18;
-  EXPECT_TRUE(remarks(error).empty());
-  error.error = 1.5;
-  error.ofEverySecond = 1.4;
-  ASSERT_EQ(remarks(error).size(), 1u);
-  EXPECT_NE(remarks(error).front().find("150 %"), std::string::npos);
-  error.error = std::numeric_limits<double>::quiet_NaN();
-  error.ofEverySecond.reset();
-  EXPECT_EQ(remarks(error).size(), 1u);
-  error.error = 0.1;
-  error.ofEverySecond = 0.01;
-  ASSERT_EQ(remarks(error).size(), 1u);
-  EXPECT_NE(remarks(error).front().find("faster than its samples"), std::string::npos);
+using namespace tooljoint;
+
+TEST(Report, WarnsOfVibrationAboveTheCutOffAlsoBesideAnEstimate) {
+  transient::TransientReport report;
+  for (const auto& [energy, alone, beside] :
+       {std::tuple{0.005, false, false}, {0.02, true, false}, {0.32, true, true}}) {
+    report.cutOffEnergy = energy;
+    EXPECT_EQ(!cases::remarks(report).empty(), alone) << energy;
+    const auto found = cases::remarksBesideEstimate(report);
+    EXPECT_EQ(!found.empty(), beside) << energy;
+    if (!beside) continue;
+    EXPECT_NE(found.front().find("32 %"), std::string::npos) << found.front();
+  }
 }
 
-}  // namespace
-}  // namespace tooljoint::cases
+}  // namespace ReportTest
