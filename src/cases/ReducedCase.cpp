@@ -2,10 +2,14 @@
 #include "cases/ReducedCase.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include "common/Constants.hpp"
+#include "common/Index.hpp"
 #include "reduction/selection/ModeSelection.hpp"
+#include "reduction/vectors/FixedInterfaceModes.hpp"
 
 namespace tooljoint::cases {
 
@@ -14,6 +18,50 @@ namespace {
 /// A motion that is faster than its samples is looked at up to so many times as often; more often
 /// than its steps it cannot be looked at.
 constexpr double mostSamples = 1024;
+
+/// Of a part without modes: both planes of bending, torsion and tension of a beam among them.
+constexpr int missingModes = 4;
+
+/// Modes of a part that its basis does not have; rows in the coordinates of the reduced part.
+std::vector<transient::MissingMode> modesBeyond(const model::Substructure& part,
+                                                const reduction::Basis& basis, double time) {
+  const auto view =
+      reduction::PartView(part).withBoundary(basis.partition.interface, basis.partition.retained);
+  reduction::ModeRequest request;
+  request.kind = reduction::ModeRequest::Kind::Count;
+  request.count = missingModes;
+  const auto found =
+      reduction::fixedInterfaceModes(view, request, "modes that the basis does not have");
+  const Sparse damping = part.model.dampingAt(time);
+  std::vector<transient::MissingMode> out;
+  for (int k = 0; k < found.kept; ++k) {
+    const double eigenvalue = found.vectors[at(k)].shown();
+    if (!(eigenvalue > 0.0)) continue;
+    const Vector shape = found.columns({k}, part.model.size());
+    out.push_back({std::sqrt(eigenvalue), shape.dot(damping * shape),
+                   basis.vectors.sparse().transpose() * Vector(part.model.mass * shape)});
+  }
+  return out;
+}
+
+/// Of all parts; rows in the coordinates of the coupled model.
+std::vector<transient::MissingMode> missingOf(const std::vector<model::Substructure>& parts,
+                                              const coupling::Synthesis& synthesis, double time) {
+  std::map<const reduction::Basis*, std::vector<transient::MissingMode>> known;
+  std::vector<transient::MissingMode> out;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& reduced = synthesis.parts[p];
+    const bool physical = reduced.modes == 0 && !reduced.derivedInterface;
+    if (!physical || reduced.report.interior == 0) continue;
+    const auto [place, isNew] = known.try_emplace(reduced.basis.get());
+    if (isNew) place->second = modesBeyond(parts[p], *reduced.basis, time);
+    for (auto mode : place->second) {
+      mode.row = synthesis.coupled.maps[p].transpose() * mode.row;
+      out.push_back(std::move(mode));
+    }
+  }
+  return out;
+}
 
 estimate::MotionOptions motionOptions(const RestingCase& rest) {
   estimate::MotionOptions options;
@@ -39,7 +87,8 @@ double ReducedCase::watchInterval(const Case& one) const {
 }
 
 ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress) {
-  ReducedCase out{rest.parts(), {}};
+  ReducedCase out;
+  out.unreduced = rest.parts();
   const auto& parts = out.unreduced.parts;
   double& sampling = out.sampling;
   const auto probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
@@ -56,6 +105,9 @@ ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress) {
     }
   };
   out.outcome = estimate::synthesise(parts, one.reduction(), probe, out.unreduced.options);
+  if (one.moves())
+    out.missing =
+        missingOf(parts, out.outcome.synthesis, one.transient().get<double>("Start Time"));
   return out;
 }
 

@@ -15,6 +15,8 @@ struct ReducedCase {
   coupling::ResolvedCoupling unreduced;  ///< the parts before the reduction, and what joins them
   estimate::Outcome outcome;
   double sampling = 0.0;  ///< of the motion that chose the modes [s]; 0: none did
+  /// Of a case that moves, the first fixed-interface modes of each part that has none in its basis.
+  std::vector<transient::MissingMode> missing;
 
   const std::vector<reduction::ReducedSubstructure>& parts() const {
     return outcome.synthesis.parts;

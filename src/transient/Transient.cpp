@@ -121,6 +121,7 @@ class Run {
     report.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     report.samples = sampler_.count();
     if (cutOffEnergy_) report.cutOffEnergy = cutOffEnergy_->share();
+    if (missing_) report.missingEnergy = missing_->share();
     report.hasEnergy = options_.ledger;
     if (options_.ledger) report.energy = ledger_.account(model_, state_);
     report.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
@@ -154,6 +155,7 @@ class Run {
     integrator_->prepare(model_, window, state_);
     if (anew) takeMemory(*point);
     if (!hooks_.cutOffs.empty()) cutOffEnergy_.emplace(model_, hooks_.cutOffs);
+    if (!hooks_.missing.empty()) missing_.emplace(model_, hooks_.missing, state_);
     if (integrator_->equalStep() > 0)
       stepError_.emplace(model_, *integrator_, make(), window, state_);
     else
@@ -247,6 +249,7 @@ class Run {
     if (options_.ledger) ledger_.restore(model_, integrator_->ledgerStride(), memory);
     if (stepError_) stepError_->restore(memory);
     if (cutOffEnergy_) cutOffEnergy_->restore(memory);
+    if (missing_) missing_->restore(memory);
     if (memory != end)
       throw FileError(
           "The checkpoint holds another amount of memory than this program reads. Go on with the "
@@ -332,6 +335,7 @@ class Run {
     if (options_.ledger) ledger_.save(point.memory);
     if (stepError_) stepError_->save(point.memory);
     if (cutOffEnergy_) cutOffEnergy_->save(point.memory);
+    if (missing_) missing_->save(point.memory);
     if (share_) {
       const auto mine = std::move(point.memory);
       RankShare::gatherArrays(mine, point.memory, point.shares);
@@ -362,7 +366,9 @@ class Run {
       if (watcher_) watcher_->step(state_, next_);
       if (laws_) laws_->look(state_.t, next_.t);
       const bool sampled = sampler_.count() > before;
+      if (missing_) missing_->step(state_, next_);
       if (sampled && cutOffEnergy_) cutOffEnergy_->look(next_);
+      if (sampled && missing_) missing_->look(next_);
       const bool refused = options_.ledger && sampled && ledger_.isDue() &&
                            energy_.refuses(ledger_.look(model_, next_));
       std::swap(state_, next_);
@@ -440,6 +446,7 @@ class Run {
   std::optional<StepError> stepError_;  ///< of equal steps
   std::optional<LawWatch> laws_;        ///< of others
   std::optional<CutOffEnergy> cutOffEnergy_;
+  std::optional<MissingModes> missing_;
   std::optional<double> judged_;  ///< what it comes to at the end
   State state_, next_;
   long evaluationsBefore_ = 0;

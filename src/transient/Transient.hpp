@@ -16,6 +16,7 @@
 #include "transient/Integrator.hpp"
 #include "transient/TransientParameters.hpp"
 #include "transient/accuracy/EnergyLedger.hpp"
+#include "transient/verdict/MissingModes.hpp"
 
 namespace tooljoint::transient {
 
@@ -49,6 +50,7 @@ struct TransientReport {
   double realTimeFactor = 0;  ///< simulated seconds per second of wall time
   double stepError = 0;       ///< of equal steps (StepVerdict.hpp), 0 where it is not known
   double cutOffEnergy = 0;    ///< CutOffEnergy.hpp
+  double missingEnergy = 0;   ///< MissingModes.hpp
   bool hasEnergy = false;
   EnergyAccount energy;
 };
@@ -65,6 +67,8 @@ struct RunHooks {
   /// Of a reduced model: the frequencies [rad/s] at which the modes of each part end, infinite
   /// where none is missing. With them the report has a cutOffEnergy.
   std::vector<double> cutOffs;
+  /// Of a reduced model: modes of parts without modes. With them the report has a missingEnergy.
+  std::vector<MissingMode> missing;
   /// Receives the motion too, at multiples of an interval of its own [s]; not in a run that goes on
   /// from a checkpoint.
   SampleSink* watcher = nullptr;

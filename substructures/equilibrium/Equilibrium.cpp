@@ -96,6 +96,13 @@ class Stages {
     request.what = "the static equilibrium (" + name + ")";
     request.tolerance = std::max(options_.tolerance, tolerance);
     request.maxIterations = options_.maxIterations;
+    if (options_.mostIterations > 0) {
+      const int left = options_.mostIterations - report_.iterations;
+      if (left <= 0)
+        throw ConvergenceError(complaint(request.tolerance) + "That takes more than " +
+                               std::to_string(options_.mostIterations) + " iterations together.");
+      request.maxIterations = std::min(request.maxIterations, left);
+    }
     request.search = search;
     const model::SolveOutcome outcome = solve_(problem_, x, request);
     add({name, outcome.iterations, outcome.residual});

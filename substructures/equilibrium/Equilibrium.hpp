@@ -53,6 +53,7 @@ struct StaticOptions {
   bool geometricStiffness = true;
   double tolerance = 1e-9;         ///< on the largest scaled residual
   int maxIterations = 200;         ///< per stage
+  int mostIterations = 0;          ///< of all stages together; 0: no limit. Not in the deck
   double lateralStepLimit = 0.05;  ///< [m], `Continuation`
   int frictionSteps = 4;           ///< `Continuation`
   UnstableRule unstable = UnstableRule::Warn;

@@ -139,6 +139,7 @@ void summarise(const transient::TransientReport& report, bool reduced, io::Summa
   summary.set("transient.real_time_factor", report.realTimeFactor);
   if (report.stepError > 0) summary.set("transient.step_error", report.stepError);
   if (reduced) summary.set("transient.cut_off_energy", report.cutOffEnergy);
+  if (reduced) summary.set("transient.missing_energy", report.missingEnergy);
   if (report.hasEnergy) summary.set("transient.energy_residual", report.energy.residual());
 }
 

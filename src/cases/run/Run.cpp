@@ -145,6 +145,7 @@ class Run {
   transient::RunHooks hooks() const {
     transient::RunHooks out;
     out.cutOffs = reduced_.cutOffs();
+    out.missing = reduced_.missing;
     return out;
   }
 

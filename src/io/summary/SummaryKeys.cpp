@@ -110,6 +110,7 @@ const std::vector<std::string>& documentedKeys() {
       "transient.bit_speed_rpm.mean",
       "transient.step_error",
       "transient.cut_off_energy",
+      "transient.missing_energy",
       "transient.energy_residual",
       "transient.max_penetration",
       "transient.max_displacement",

@@ -17,6 +17,15 @@ namespace tooljoint::drillstring {
 
 using namespace beam::nodal;
 
+namespace {
+
+/// Newton iterations for an operation, from the string without friction and by the whole way again:
+/// twice what the slowest operation of strings that do not buckle takes. Strings that buckle have
+/// no state near the one without friction, and 3000 iterations do not find one.
+constexpr int mostIterations = 200;
+
+}  // namespace
+
 StiffString::StiffString(const Scene& scene, double bit)
     : scene_(hungAt(scene, bit)),
       path_(bendIntoWell(scene_)),
@@ -25,6 +34,7 @@ StiffString::StiffString(const Scene& scene, double bit)
       points_(scene_.contactPoints.slidingFast()) {
   frictionless_ =
       equilibrium::solveStatic(input({}), scene_.statics, staticSolver(scene_)).displacement;
+  scene_.statics.mostIterations = mostIterations;
 }
 
 equilibrium::StaticInput StiffString::input(const softstring::Operation& operation) const {

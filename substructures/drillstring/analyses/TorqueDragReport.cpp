@@ -58,13 +58,27 @@ std::string beside(double stiff, double soft) {
   return (text == "-0.0" || text == "+0.0" ? "0.0" : text) + " %";
 }
 
+/// Why the stiff string has no result, where the soft one tells.
+std::string reason(const TorqueDragRow& row, const StiffLoads& stiff) {
+  const auto buckled = [](const Margin& margin, const char* limit) {
+    return fmt::format(
+        "Its compression at {} is {:.1f} times the {} limit (soft string): a string that buckles "
+        "has no state near the one without friction. `tooljoint buckling` follows short strings.",
+        text(margin.depth, "m", 0), 1.0 / margin.factor, limit);
+  };
+  if (row.lockUpDepth >= 0.0) return "The soft string locks up.";
+  if (row.helical.factor < 1.0) return buckled(row.helical, "helical");
+  if (row.sinusoidal.factor < 1.0) return buckled(row.sinusoidal, "sinusoidal");
+  return stiff.failure;
+}
+
 void printStiff(const Scene& scene, const TorqueDragProfile& profile,
                 const softstring::TorqueDragSettings& settings) {
   const TorqueDragRow& row = profile.row;
   const StiffLoads& stiff = *profile.stiff;
   if (!stiff.found())
     return log::warn(fmt::format("{} with the bit at {}: the stiff string has no result. {}",
-                                 row.operation, text(row.bit, "m", 0), stiff.failure));
+                                 row.operation, text(row.bit, "m", 0), reason(row, stiff)));
   const double hookLoad = stiff.hookLoad + settings.blockWeight;
   log::info(fmt::format(
       "{:<18}{:>13}{:>9}{:>15}{:>9}{:>9}{:>14}{:>8}", row.operation, text(hookLoad, "kN", 1),

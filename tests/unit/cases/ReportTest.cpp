@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace ReportTest {
 
@@ -21,6 +22,17 @@ TEST(Report, WarnsOfVibrationAboveTheCutOffAlsoBesideAnEstimate) {
     EXPECT_EQ(!found.empty(), beside) << energy;
     if (!beside) continue;
     EXPECT_NE(found.front().find("32 %"), std::string::npos) << found.front();
+  }
+}
+
+TEST(Report, WarnsOfModesThatAPartDoesNotHave) {
+  transient::TransientReport report;
+  for (const auto& [energy, warned] : {std::pair{0.005, false}, {0.03, true}}) {
+    report.missingEnergy = energy;
+    const auto found = cases::remarks(report);
+    ASSERT_EQ(!found.empty(), warned) << energy;
+    if (!warned) continue;
+    EXPECT_NE(found.front().find("3 %"), std::string::npos) << found.front();
   }
 }
 

@@ -395,6 +395,25 @@ TEST(Transient, saysWhatPartOfTheEnergyIsWhereModesEnd) {
   EXPECT_EQ(integrate(model, options("RK4", 0.1, 1e-4, 1e-3), samples).cutOffEnergy, 0.0);
 }
 
+/// A boundary that swings with q = A cos(W t) drives a missing mode of frequency w, which is at
+/// rest at first, to eta = l W^2 A / (w^2 - W^2) (cos W t - cos w t).
+TEST(Transient, saysWhatEnergyMissingModesWouldHave) {
+  const double mass = 2, frequency = 20, higher = 60, row = 0.7;
+  const auto model = oscillator(mass, 0, mass * frequency * frequency, 0.3, 0);
+  const double squares = higher * higher - frequency * frequency;
+  const double expected =
+      std::pow(row * frequency / squares, 2) * (frequency * frequency + higher * higher) / mass;
+  for (const char* integrator : {"RK4", "Generalized-alpha"}) {
+    RunHooks hooks;
+    hooks.missing = {{higher, 0.0, Vector::Constant(1, row)},
+                     {higher, 1e4 * higher, Vector::Constant(1, row)}};  // damped: it rests
+    Keep samples;
+    const double end = 20 * constants::pi / frequency;
+    const auto report = integrate(model, options(integrator, end, 1e-4, 1e-3), samples, hooks);
+    EXPECT_NEAR(report.missingEnergy, expected, 0.01 * expected) << integrator;
+  }
+}
+
 // Interrupt
 // -------------------------------------------------------------------------------------------------
 

@@ -4,8 +4,10 @@
 /// section 5.2); docs/validation.md explains the differences the tolerances allow for.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "common/Constants.hpp"
+#include "common/Error.hpp"
 #include "tests/support/Scenes.hpp"
 
 namespace ReferenceStaticTest {
@@ -76,6 +78,23 @@ TEST(ReferenceStatic, BothRecipesFindTheSameState) {
   };
   const Vector expected = state("Continuation");
   EXPECT_LE((state("Source") - expected).norm(), 1e-11 * expected.norm());
+}
+
+TEST(ReferenceStatic, EndsAfterTheIterationsThatAllStagesMayTakeTogether) {
+  auto scene = reference();
+  const int needed = sourcePrestress().state.report.iterations;
+  scene.statics.mostIterations = needed;
+  EXPECT_EQ(drillstring::solveStatic(scene).state.report.iterations, needed);
+  scene.statics.mostIterations = needed / 2;
+  try {
+    drillstring::solveStatic(scene);
+    FAIL();
+  } catch (const ConvergenceError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("more than " + std::to_string(needed / 2) + " iterations together"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(ReferenceStatic, TheFullTangentBalancesTheTorque) {
