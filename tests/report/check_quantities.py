@@ -194,6 +194,22 @@ def torques():
         expect("so has the mean torque on bit", [(one[1], one[2].partition("; ")[2]) for one in row] == [("2.00 kN m", "1.50 kN m to 2.50 kN m; positive against the rotation")], row)
 
 
+def touching():
+    """Tool joints on the wall all along, but for a stretch without contact: the picture is white there and nowhere else."""
+    s = np.arange(241) * 4.7244  # two elements a joint of pipe
+    middles, joints = 0.5 * (s[1:] + s[:-1]), np.arange(241) % 2 == 1
+    radius = np.where(joints, 0.0841, 0.0635)
+    lifted = (s > 500) & (s < 560)
+    picture = figures.contact_picture(s, middles, radius, np.where(joints & ~lifted, 1e3, 0.0)[None, :])
+    white = (np.flatnonzero(picture[:, 0] == 0) + 0.5) * s[-1] / len(picture)
+    expect("tool joints that touch leave no white rows between them", len(white) > 2 and white.min() > 495 and white.max() < 565, white)
+    picture = figures.contact_picture(s, middles, np.full(241, 0.0841), np.where(np.arange(241) % 4 == 0, 1e3, 0.0)[None, :])
+    expect("without tool joints each node counts", len(picture) == figures.PICTURE_ROWS and (picture == 0).any())
+    few = slice(0, 12)
+    picture = figures.contact_picture(s[few], middles[:11], radius[few], np.where(joints[few], 1e3, 0.0)[None, :])
+    expect("a short string shows its pipe bodies", len(picture) == figures.PICTURE_ROWS and 0.3 < (picture == 0).mean() < 0.7, (picture == 0).mean())
+
+
 def pictures():
     plots.use_style()
     made, axes = plots.figure()
@@ -302,7 +318,7 @@ def released():
 
 
 def main():
-    for part in (stresses, released, motions, sides, rounding, whirls, torques, pictures, units, scenes, judged, mapped, view):
+    for part in (stresses, released, motions, sides, rounding, whirls, torques, touching, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 

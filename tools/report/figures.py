@@ -9,6 +9,8 @@ from report.quantities import fixed
 
 BLUE, ORANGE, GREEN = COLOURS[:3]
 PICTURE_ROWS = 240  # of contact forces over time and depth
+JOINT = 15.0  # [m]: longer than a joint of drill pipe (API range 3, with its tool joint)
+RESOLVED = 8  # rows of the picture for each joint of pipe: then the pipe body between its tool joints is seen on its own
 STRETCHES = 100  # of a profile that changes from element to element; longer than a joint of pipe
 FLOOR = 1e-8  # of the largest value of a spectrum, where its picture ends
 DOWN_TO = f"drawn down to {plots.plain(FLOOR)} of the largest value"
@@ -147,6 +149,26 @@ def surface(run):
     return found
 
 
+def joint_length(s, radius):
+    """Largest distance [m] of neighbouring nodes that touch first, wider than the nodes beside them; 0 without such a pattern of tool joints."""
+    above, own, below = radius[:-2], radius[1:-1], radius[2:]
+    apart = np.diff(s[1:-1][(own >= above) & (own >= below) & (own > np.minimum(above, below))])
+    return max(apart[apart <= JOINT], default=0.0)
+
+
+def contact_picture(s, middles, radius, force):
+    """Contact force over depth (rows, equal stretches) and time: the largest of the nodes whose stretch of the string is in a row.
+
+    Pipe bodies between tool joints seldom touch. A row that is finer than a joint of pipe, but too coarse to show it, would hold a pipe body here and
+    a tool joint there: it is made as long as a joint."""
+    rows, joint = PICTURE_ROWS, joint_length(s, radius)
+    if joint * rows < RESOLVED * (s[-1] - s[0]):
+        rows = min(rows, int((s[-1] - s[0]) / joint)) if joint > 0 else rows
+    edges = np.linspace(s[0], s[-1], rows + 1)
+    first, last = np.searchsorted(middles, edges[:-1], side="right"), np.searchsorted(middles, edges[1:], side="left")
+    return np.array([force[:, a:b + 1].max(axis=1) for a, b in zip(first, last)])
+
+
 def contact(run, found):
     if found.force is None or not found.largest.max() > 0:
         return []
@@ -155,16 +177,13 @@ def contact(run, found):
     if not run.moves:
         return shares
     made, axes = plots.figure(plots.WIDE, 3.6)
-    # Rows of the picture are equal stretches of depth: the largest force of the nodes whose stretch of the string is in each.
-    ends, edges = run.middles, np.linspace(s[0], s[-1], PICTURE_ROWS + 1)
-    first, last = np.searchsorted(ends, edges[:-1], side="right"), np.searchsorted(ends, edges[1:], side="left")
-    picture = np.array([found.force[:, a:b + 1].max(axis=1) for a, b in zip(first, last)])
+    picture = contact_picture(s, run.middles, run.get("/model/contact_radius"), found.force)
     shown = axes.imshow(np.ma.masked_equal(picture / 1e3, 0), aspect="auto", cmap=plots.MAP,
                         extent=(found.time[0], found.time[-1], s[-1], s[0]), interpolation="nearest")
     axes.grid(False)
     axes.set_xlabel("time [s]"), axes.set_ylabel("measured depth [m]")
     made.colorbar(shown, ax=axes, label="contact force [kN]")
-    return [Figure("contact", made, "Contact force over the motion, the largest of each stretch of depth; white: no contact.", True), *shares]
+    return [Figure("contact", made, f"Contact force over the motion, the largest of each {(s[-1] - s[0]) / len(picture):.2g} m of depth; white: no contact.", True), *shares]
 
 
 def contact_shares(run, found):
