@@ -194,6 +194,15 @@ def torques():
         expect("so has the mean torque on bit", [(one[1], one[2].partition("; ")[2]) for one in row] == [("2.00 kN m", "1.50 kN m to 2.50 kN m; positive against the rotation")], row)
 
 
+def torques_at_rest():
+    """The static torque has the sign of the surface torque, whichever way the string turns."""
+    for sense in (1, -1):
+        bar = Bar(torque=-sense * 2e3)  # resists a rotation of this sense
+        bar.summary = {"static": {"surface_torque": 2e3, "top_torque": -sense * 2e3}}
+        bar.value = lambda path, bar=bar: results.Run.value(bar, path)
+        near("the static torque is against the rotation", results.static_torque(bar, results.static_sense(bar)), np.full(10, 2e3))
+
+
 def touching():
     """Tool joints on the wall all along, but for a stretch without contact: the picture is white there and nowhere else."""
     s = np.arange(241) * 4.7244  # two elements a joint of pipe
@@ -318,7 +327,7 @@ def released():
 
 
 def main():
-    for part in (stresses, released, motions, sides, rounding, whirls, torques, touching, pictures, units, scenes, judged, mapped, view):
+    for part in (stresses, released, motions, sides, rounding, whirls, torques, torques_at_rest, touching, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 

@@ -204,17 +204,20 @@ def string_numbers(folder, text):
 
 def strings(chromium):
     """Runs of a string: 20 s of motion with the tables of other commands beside it, and at rest."""
-    run("string", STRING, "--set", "Transient/End Time=20", "--set", "Transient/Sampling Interval=0.005")
-    tooljoint("torque-drag", STRING, "--output", "string", "--set", "Torque and Drag/Depths={40, 42}")
+    run("string", STRING, "--set", "Transient/End Time=20", "--set", "Transient/Sampling Interval=0.005", "--set", "Torque and Drag/Depths={40, 42}", "--set", "Torque and Drag/After Run=true")
     tooljoint("modes", STRING, "--output", "string", "--count", "6")
     path, text = page("string", "string", RUN | {"hook-load", "surface-torque", "buckling-1", "mode-errors"})
     string_numbers("string", text)
+    expect("string: the static torque has the sign of the surface torque", "Static torque, positive against the rotation." in text)
+    expect("string: with torque and drag it names no command for it", "tooljoint torque-drag" not in text)
     expect("string: the deck has its overrides", re.search(r"<td[^>]*>End Time</td><td>20</td>", text) is not None)
     if chromium:
         look("string", path, chromium)
     run("rest", STRING, "--without", "Transient")
     path, text = page("string at rest", "rest", WITHOUT_MOTION)
     expect("string at rest: no motion is made up", "orbit-1" not in figures(text) and "time" not in scene_of(text))
+    command = f"tooljoint torque-drag {STRING} --output rest --without Transient"
+    expect("string at rest: it says what adds torque and drag", f"<code>{command}</code>" in text, re.findall("tooljoint torque-drag.{60}", text))
     if chromium:
         look("string at rest", path, chromium, moves=False)
 

@@ -49,6 +49,7 @@ def well(run):
 
 def static_profiles(run):
     limits = run.s[0], run.s[-1]
+    sense = results.static_sense(run)
     found = []
 
     def add(name, label, caption, draw):
@@ -56,9 +57,9 @@ def static_profiles(run):
         draw(axes)
         found.append(Figure(name, made, caption))
 
-    def forces(path, colour):
+    def forces(values, colour):
         def draw(axes):
-            axes.plot(run.get(path) / 1e3, run.middles, color=colour, linewidth=1.3)
+            axes.plot(values / 1e3, run.middles, color=colour, linewidth=1.3)
             axes.axvline(0, color=GREY, linewidth=0.6)
         return draw
 
@@ -73,8 +74,8 @@ def static_profiles(run):
         axes.set_xlim(left=0)
         plots.legend_above(axes, 2)
 
-    add("axial", "effective axial force [kN]", "Static axial force; tension is positive.", forces("/static/axial_force", ORANGE))
-    add("torque", "torque [kN m]", "Static torque about the axis.", forces("/static/torque", GREEN))
+    add("axial", "effective axial force [kN]", "Static axial force; tension is positive.", forces(run.get("/static/axial_force"), ORANGE))
+    add("torque", "torque [kN m]", f"Static torque, {results.AGAINST[sense]}.", forces(results.static_torque(run, sense), GREEN))
     add("side", "side force [kN]", "Static contact force of each node.", side)
     add("radial", "lateral displacement [mm]", "Static distance from the axis of the well, and the clearance.", radial)
     stress = results.von_mises(run, run.get("/static/displacement"))

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Section of torque and drag: hook loads, torques, tension with the loads at which the string buckles."""
 import math
+import shlex
+from html import escape
 
 import plots
 from plots import COLOURS, GREY
-from report import tables
+from report import deck, tables
 from report.figures import Figure
 from report.files import numbers, read_table
 from report.page import cards
@@ -146,6 +148,16 @@ def headline(results):
     if results.value("torque_drag.locked_up"):
         found.append(("Locked up", plain(results.value("torque_drag.locked_up")), "", "combinations of operation and depth", True))
     return cards(found) if found else ""
+
+
+def invitation(run, scene):
+    """The command that adds torque, drag and buckling limits to the page of a run without them; "" where the deck lacks what they need."""
+    if (run.folder / "torque_drag.csv").is_file() or deck.value(scene, "Contact/Friction/Dynamic") is None or "Loads" not in scene:
+        return ""
+    edits = [edit for edit in run.attribute("overrides").splitlines() if edit]
+    switches = [part for edit in edits for part in (("--without", edit[1:]) if edit.startswith("!") else ("--set", edit))]
+    command = shlex.join(["tooljoint", "torque-drag", run.attribute("deck_file"), "--output", str(run.folder), *switches])
+    return f'<p class="remark no-print">Torque, drag and buckling limits on this page: <code>{escape(command)}</code>, or <code>Torque and Drag/After Run</code> in the deck.</p>'
 
 
 def add(page, folder):
