@@ -177,7 +177,7 @@ def contact(run, found):
     shares = contact_shares(run, found)
     if not run.moves:
         return shares
-    made, axes = plots.figure(plots.WIDE, 3.6)
+    made, axes = plots.figure(plots.WIDE, 3.2)
     picture = contact_picture(s, run.middles, run.get("/model/contact_radius"), found.force)
     shown = axes.imshow(np.ma.masked_equal(picture / 1e3, 0), aspect="auto", cmap=plots.MAP,
                         extent=(found.time[0], found.time[-1], s[-1], s[0]), interpolation="nearest")
@@ -259,7 +259,7 @@ def orbits(run, motion, chosen):
 
 
 def frequency_axes(label):
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     axes.set_yscale("log")
     axes.set_xlabel("frequency [Hz]"), axes.set_ylabel(label)
     return made, axes

@@ -23,7 +23,7 @@ def state_name(row):
 
 def along_assembly(name, label, caption, states, value):
     """A line for each state; `value` of a row of bha_profile.csv."""
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     for number, (state, own) in enumerate(states.items()):
         axes.plot(numbers(own, "from_bit"), [value(row) for row in own], color=COLOURS[number % len(COLOURS)], linewidth=1.2, label=state)
     if max(map(abs, axes.dataLim.intervaly)) < ROUNDING:
@@ -81,7 +81,7 @@ def add_bha(page, folder):
 
 def against_weight(name, label, caption, rows, lines, scale):
     """Columns of buckling.csv against the weight on bit; jumps are gaps."""
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     for number, (column, legend) in enumerate(lines):
         for branch in sorted(set(numbers(rows, "branch"))):
             own = [row for row in rows if row["branch"] == branch]
@@ -94,7 +94,7 @@ def against_weight(name, label, caption, rows, lines, scale):
 
 def buckled_shape(rows):
     """The last state to both sides of the hole."""
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     for number, (column, legend) in enumerate((("deflection_high", "to the high side"), ("deflection_right", "to the right side"))):
         axes.plot(numbers(rows, "depth"), [1e3 * x for x in numbers(rows, column)], color=COLOURS[number], linewidth=1.2, label=legend)
     axes.set_xlabel("depth [m]"), axes.set_ylabel("deflection [mm]")

@@ -73,7 +73,7 @@ def tensions(profiles):
     found = []
     for number, (limits, members) in enumerate(groups, 1):
         depth = numbers(members[0][1], "depth")
-        made, axes = plots.figure(plots.WIDE, 4.2)
+        made, axes = plots.figure(plots.WIDE, 3.6)
         for operation, rows, colour in members:
             axes.plot(thousandth(rows, "tension"), numbers(rows, "depth"), color=colour, linewidth=1.3, label=operation)
         for name, dashes in (("sinusoidal", "--"), ("helical", ":")):
@@ -95,7 +95,7 @@ def broomsticks(folder, rows):
     found = []
     frictions = sorted({row["friction"] for row in broom})
     for value, label, title in QUANTITIES:
-        made, axes = plots.figure(plots.WIDE, 4.2)
+        made, axes = plots.figure(plots.WIDE, 3.6)
         axes.set_xlabel(label)
         plots.depth_axis(axes, (0, max(numbers(broom + measured + rows, "bit_depth"))), "depth of the bit")
         for number, (operation, own) in enumerate(by_operation(broom).items()):

@@ -26,7 +26,7 @@ STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "
          "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "svg.fonttype": "none", "svg.hashsalt": "tooljoint", "figure.dpi": 100, "savefig.dpi": 150,
          "legend.frameon": False}
 SLENDER = 2.9  # width of a plot of one column in a report [inch]
-WIDE = 6.2
+WIDE = 4.8
 PAD = 3.0  # of matplotlib's constrained layout, above a title [pt]
 
 
