@@ -219,6 +219,17 @@ def touching():
     expect("a short string shows its pipe bodies", len(picture) == figures.PICTURE_ROWS and 0.3 < (picture == 0).mean() < 0.7, (picture == 0).mean())
 
 
+def many_nodes():
+    """Five kilometres of nodes are a few hundred lines, with the largest of them."""
+    s, values = np.linspace(0, 5000, 5001), np.zeros(5001)
+    values[[777, 4321]] = 9.0, 7.0
+    made, axes = plots.figure()
+    figures.bars(axes, s, values, "black")
+    lines = axes.collections[0].get_segments()
+    expect("bars keep the largest values of many nodes", len(lines) <= figures.MOST_BARS and sorted(line[1][0] for line in lines)[-2:] == [7.0, 9.0], len(lines))
+    plots.plt.close(made)
+
+
 def pictures():
     plots.use_style()
     made, axes = plots.figure()
@@ -327,7 +338,7 @@ def released():
 
 
 def main():
-    for part in (stresses, released, motions, sides, rounding, whirls, torques, torques_at_rest, touching, pictures, units, scenes, judged, mapped, view):
+    for part in (stresses, released, motions, sides, rounding, whirls, torques, torques_at_rest, touching, many_nodes, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 

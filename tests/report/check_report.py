@@ -32,9 +32,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 from checks import TIME_FACTOR, expect, finish, tooljoint  # noqa: E402
 from opened import look  # noqa: E402
+from pictured import compare  # noqa: E402
 
 STRING, FRAME, STUDY, MAP = (str(ROOT / path) for path in ("tests/effects/scene.xml", "xml/frame.xml", "tests/study/study.xml", "xml/map_helical_170m.xml"))
 EFFECTS = ROOT / "tests" / "effects"
+STRESS = str(ROOT / "xml/stress_170m.xml")
 LARGEST, SECONDS = 5_000_000, 10.0
 NAMESPACES = ("http://www.w3.org/",)
 RUN = {"section", "map", "axial", "torque", "side", "radial", "stress", "curvature", "bit-speed", "torques", "hook-loads", "contact", "duty", "largest", "rms", "twist", "orbit-1", "lateral-spectrum",
@@ -134,10 +136,11 @@ def strings(chromium):
     expect("string: the deck has its overrides", re.search(r"<td[^>]*>End Time</td><td>20</td>", text) is not None)
     if chromium:
         look("string", path, chromium)
-    run("rest", STRING, "--without", "Transient")
+    run("rest", STRESS, "--without", "Transient")
     path, text = page("string at rest", "rest", WITHOUT_MOTION)
     expect("string at rest: no motion is made up", "orbit-1" not in figures(text) and "time" not in scene_of(text))
-    command = f"tooljoint torque-drag {STRING} --output rest --without Transient"
+    compare("report_motion.png", text, motion=False)
+    command = f"tooljoint torque-drag {STRESS} --output rest --without Transient"
     expect("string at rest: it says what adds torque and drag", f"<code>{command}</code>" in text, re.findall("tooljoint torque-drag.{60}", text))
     if chromium:
         look("string at rest", path, chromium, moves=False)
@@ -168,8 +171,9 @@ def old_results():
 
 
 def parts(chromium):
-    run("parts", FRAME, "--set", "Transient/End Time=0.5")
+    run("parts", FRAME)
     path, text = page("parts", "parts", {"nodes-1", "mover-1", "spectrum-m"})
+    compare("report_parts.png", text)
     scene = scene_of(text)
     links, position = numbers(scene["links"]).astype(int), numbers(scene["position"])
     lengths = np.linalg.norm(position[links[:, 0]] - position[links[:, 1]], axis=1)
@@ -282,7 +286,9 @@ def analyses(chromium):
     expect("torque-drag: a broomstick names operations and friction", all(f">{name}<" in broom for name in ("Trip out", "Drill rotating", "friction 0.1", "friction 0.3")) and "measured" not in broom)
     margins = [value for value in cells(text, 5) if value != "-"]
     expect("torque-drag: margins have two decimals", margins and all(re.fullmatch(r"\d+\.\d\d", value) for value in margins), margins)
-    text, summary = analysis(chromium, "Bottom-hole assembly", "bha", str(EFFECTS / "bottom_hole.xml"), {"bha-high", "bha-right", "bha-moment"})
+    text, summary = analysis(chromium, "Bottom-hole assembly", "bha", str(ROOT / "xml/bha_motor_1500m.xml"), {"bha-high", "bha-right", "bha-moment"},
+                             *[part for name, values in (("Weight On Bit", "120 kN"), ("Inclination", "45 deg"), ("Tool Face", "0 deg")) for part in ("--set", f"Bottom-Hole Assembly/{name}={{{values}}}")])
+    compare("report_bha.png", text)
     expect("bha: headline figures in both units", all(f'<div class="name">{name}</div>' in text for name in ("Side force, high side", "Tangency", "Unstable states")) and "klbf)" in text and " lbf<" in text)
     marked = sum("UNSTABLE" in state for state in cells(text, 0))
     expect("bha: unstable states are marked", marked == sum(not row["stable"] for row in summary["bha"]["rows"]) and card("Unstable states", marked) in text, marked)

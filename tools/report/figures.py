@@ -12,6 +12,7 @@ PICTURE_ROWS = 240  # of contact forces over time and depth
 JOINT = 15.0  # [m]: longer than a joint of drill pipe (API range 3, with its tool joint)
 RESOLVED = 8  # rows of the picture for each joint of pipe: then the pipe body between its tool joints is seen on its own
 STRETCHES = 100  # of a profile that changes from element to element; longer than a joint of pipe
+MOST_BARS = 400  # of nodes along a profile
 FLOOR = 1e-8  # of the largest value of a spectrum, where its picture ends
 DOWN_TO = f"drawn down to {plots.plain(FLOOR)} of the largest value"
 EVEN = 1e-3  # of its size: a quantity that changes less is a line, not a picture of rounding
@@ -65,7 +66,7 @@ def static_profiles(run):
 
     def side(axes):
         force = run.get("/static/normal_force") / 1e3
-        axes.hlines(run.s, 0, force, color=BLUE, linewidth=1.2)
+        bars(axes, run.s, force, BLUE, 1.2)
         axes.set_xlim(left=0, right=max(1.08 * force.max(), 1e-3))
 
     def radial(axes):
@@ -95,6 +96,13 @@ def draw_clearance(axes, s, clearance):
     axes.fill_betweenx(depth, 0, wide, step="mid", color="#ececec", linewidth=0, label="largest clearance" if changes else "clearance")
     if changes:
         axes.fill_betweenx(depth, 0, narrow, step="mid", color="#d2d2d2", linewidth=0, label="least clearance")
+
+
+def bars(axes, depth, values, colour, width=1.1):
+    """A line from zero for each node; of many nodes the largest of each stretch, which is no wider on the page than a line."""
+    if len(depth) > MOST_BARS:
+        depth, _, values = plots.stretches(depth, values, MOST_BARS)
+    axes.hlines(depth, 0, values, color=colour, linewidth=width)
 
 
 def banded(axes, values, depth, colour):
@@ -179,7 +187,7 @@ def contact(run, found):
         return shares
     made, axes = plots.figure(plots.WIDE, 3.2)
     picture = contact_picture(s, run.middles, run.get("/model/contact_radius"), found.force)
-    shown = axes.imshow(np.ma.masked_equal(picture / 1e3, 0), aspect="auto", cmap=plots.MAP,
+    shown = axes.imshow(np.ma.masked_less_equal(picture / 1e3, 0), aspect="auto", cmap=plots.MAP,
                         extent=(found.time[0], found.time[-1], s[-1], s[0]), interpolation="nearest")
     axes.grid(False)
     axes.set_xlabel("time [s]"), axes.set_ylabel("measured depth [m]")
@@ -191,11 +199,11 @@ def contact_shares(run, found):
     """Of the recorded nodes."""
     s, limits = run.s[run.recorded], (run.s[0], run.s[-1])
     made, axes = plots.profile("share of time in contact [%]", limits)
-    axes.hlines(s, 0, 100 * found.duty, color=BLUE, linewidth=1.1)
+    bars(axes, s, 100 * found.duty, BLUE)
     axes.set_xlim(0, 100)
     duty = Figure("duty", made, "Share of the second half of the motion in contact.")
     made, axes = plots.profile("largest contact force [kN]", limits)
-    axes.hlines(s, 0, found.largest / 1e3, color=ORANGE, linewidth=1.1)
+    bars(axes, s, found.largest / 1e3, ORANGE)
     axes.set_xlim(left=0)
     return [duty, Figure("largest", made, "Largest contact force of each node in the motion.")]
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reports of analyses: torque-drag, bha, buckling, campbell, response, modes."""
 import math
+import os
 
 import plots
 from plots import COLOURS, rotating
@@ -31,6 +32,14 @@ def along_assembly(name, label, caption, states, value):
     axes.set_xlabel("distance from the bit [m]"), axes.set_ylabel(label)
     plots.legend_above(axes, 2, -0.25)
     return Figure(name, made, caption, True)
+
+
+def without_common(states):
+    """What the names of all states begin with, for a caption, and the states by the rest of their names."""
+    names = [name.split(", ") for name in states]
+    count = len(os.path.commonprefix([parts[:-1] for parts in names])) if len(names) > 1 else 0
+    common = ", ".join(names[0][:count]) if count else ""
+    return f", {common}" if common else "", {", ".join(parts[count:]): own for parts, own in zip(names, states.values())}
 
 
 def unstable(row):
@@ -66,7 +75,8 @@ def add_bha(page, folder):
     for row in read_table(folder / "bha_profile.csv"):
         if row["weight_on_bit"] >= largest and row["inclination"] == rows[0]["inclination"]:
             states.setdefault(names[row["weight_on_bit"], row["inclination"], row["mode"], row["tool_face"]], []).append(row)
-    found = [along_assembly("bha-high", "to the high side [mm]", "Deflection of the assembly from the axis of the hole.", states, lambda row: 1e3 * row["deflection_high"]),
+    common, states = without_common(states)
+    found = [along_assembly("bha-high", "to the high side [mm]", f"Deflection of the assembly from the axis of the hole{common}.", states, lambda row: 1e3 * row["deflection_high"]),
              along_assembly("bha-right", "to the right side [mm]", "The same to the right, looking down the hole.", states, lambda row: 1e3 * row["deflection_right"]),
              along_assembly("bha-moment", "bending moment [kN m]", "Bending moment.", states, lambda row: math.hypot(row["moment_high"], row["moment_right"]) / 1e3)]
     degree = 180 / math.pi
