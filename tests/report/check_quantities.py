@@ -219,6 +219,13 @@ def touching():
     expect("a short string shows its pipe bodies", len(picture) == figures.PICTURE_ROWS and 0.3 < (picture == 0).mean() < 0.7, (picture == 0).mean())
 
 
+def recorded():
+    """The table of docs/report.md keeps what reports promise: at most 10 s and 5 MB for 20 s of motion."""
+    rows = re.findall(r"^\| (?:`tooljoint new`|(xml/\S+)) \| (\d+) \| (\d+) \| \d+ MB \| (\S+) s \| (\S+) s \| (\S+) MB \|$", (ROOT / "docs/report.md").read_text(encoding="utf-8"), re.M)
+    expect("docs/report.md has times and sizes of reports of decks that are there", len(rows) >= 5 and all((ROOT / row[0]).exists() for row in rows), rows)
+    expect("none is longer or larger than it may be", all(0 < float(cpu) <= float(wall) <= 10 and 0 < float(size) < 5 for *_, cpu, wall, size in rows), rows)
+
+
 def many_nodes():
     """Five kilometres of nodes are a few hundred lines, with the largest of them."""
     s, values = np.linspace(0, 5000, 5001), np.zeros(5001)
@@ -338,7 +345,7 @@ def released():
 
 
 def main():
-    for part in (stresses, released, motions, sides, rounding, whirls, torques, torques_at_rest, touching, many_nodes, pictures, units, scenes, judged, mapped, view):
+    for part in (stresses, released, motions, sides, rounding, whirls, torques, torques_at_rest, touching, recorded, many_nodes, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 
