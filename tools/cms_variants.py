@@ -24,6 +24,7 @@ import time
 sys.dont_write_bytecode = True  # no traces beside the script
 import plot_study  # noqa: E402
 import plots  # noqa: E402
+import redraw_studies  # noqa: E402
 
 os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are not needed
 
@@ -139,9 +140,7 @@ def failures(study):
 
 def figure(study, name):
     plots.use_style()
-    drawn = plot_study.draw_bases(study)
-    drawn.savefig(PROJECT / f"docs/figures/{name}.png", dpi=110, bbox_inches="tight")
-    plots.plt.close(drawn)
+    redraw_studies.save_small(plot_study.draw_bases(study), PROJECT / f"docs/figures/{name}.png")
 
 
 def frequency_ratios(run):

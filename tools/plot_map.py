@@ -90,7 +90,7 @@ def lines(axes, x, y, grid, value):
     if even:
         # dark on the light half of the colours
         drawn = axes.contour(x, y, masked, levels=even, colors=["white" if level < (low + high) / 2 else "black" for level in even], linewidths=0.7)
-        axes.clabel(drawn, fontsize=7, fmt=plots.tick)
+        axes.clabel(drawn, fontsize=8, fmt=plots.tick)
     levels = [level for level in limits(value) if low < level < high]
     if levels:
         axes.contour(x, y, masked, levels=levels, colors=UNSAFE, linewidths=1.8)
@@ -130,7 +130,7 @@ def draw(made, value, rest):
     pick = lambda grid: grid[(slice(None), slice(None), *rest)][np.ix_(*order)]  # noqa: E731
     grid, failed = pick(made.grid[value["name"]]), pick(made.failed)
     x, y = first["places"][order[0]], second["places"][order[1]]
-    picture, axes = plots.figure(plots.WIDE, 4.2)
+    picture, axes = plots.figure(plots.WIDE, 3.6)
     axes.grid(False)
     if np.isfinite(grid).any():
         whole = made.grid[value["name"]]

@@ -15,7 +15,7 @@ try:
 
     import plots
     from plots import COLOURS, GREY, MARKERS, RPM, Labels, headline, label, logarithmic, panels, percent, plt, shades
-    from report import files, results
+    from report import deck, files, results
 except ImportError as missing:
     sys.exit(f"{missing}: plot_study.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
@@ -34,6 +34,10 @@ class Run:
     def number(self, name):
         text = self.row[name]
         return float(text) if text else math.nan
+
+    def spread(self):
+        """How much longer the longest of its repeats took, as a share; 0 of a single one."""
+        return float(self.row.get("cpu_spread") or 0.0)
 
     def curve(self, name):
         return self.group[name][:] if self.group is not None and name in self.group else np.array([])
@@ -63,6 +67,10 @@ class Study:
 
     def machine(self):
         return self.attribute("machine", "")
+
+    def conditions(self):
+        """Of the scene, as the deck has them."""
+        return deck.conditions(deck.read(self.attribute("deck_text", ""), self.attribute("overrides", "")))
 
     def window(self):
         return float(self.attribute("window_begin")), float(self.attribute("window_end"))
@@ -98,7 +106,7 @@ def draw_speed(study):
     logarithmic(axes.xaxis), logarithmic(axes.yaxis, percent)
     axes.set_xlabel(label("CPU time per simulated second", "s"))
     axes.set_ylabel(f"vibration error, {study.window()[0]:g} to {study.window()[1]:g} s")
-    note = [study.machine(), "solid: full model, dashed: reduced"]
+    note = [study.conditions(), study.machine(), "solid: full model, dashed: reduced", "bands: to the longest of the repeats" if any(run.spread() > 0 for run in study.methods) else ""]
     if study.failed:
         names = ", ".join(run.label for run in study.failed)
         note.append(f"failed, not shown: {names}" if len(names) < 50 else f"{len(study.failed)} failed, not shown")
@@ -110,6 +118,11 @@ def draw_speed(study):
             x, y = [r.number("cpu_per_simulated_s") for r in drawn[name]], [r.number("vibration_error") for r in drawn[name]]
             lines[name], = axes.plot(x, y, marker=study.marker[name], markersize=5, linewidth=1.6, color=study.colour[name], linestyle="--" if drawn[name][0].reduced else "-",
                                      markeredgecolor="white", markeredgewidth=0.6, zorder=3)
+            slowest = [cpu * (1 + run.spread()) for cpu, run in zip(x, drawn[name])]
+            if len(x) > 1:
+                plots.error_band(axes, y, x, slowest, study.colour[name], sideways=True)
+            else:
+                axes.hlines(y, x, slowest, color=study.colour[name], alpha=0.4, linewidth=4, zorder=0)
     labels = Labels(axes)
     if own > 0:
         axes.axhspan(low, own, color=PALE, alpha=0.6, linewidth=0, zorder=0)
@@ -243,7 +256,7 @@ def draw_bases(study):
             axes.axhline(own, color=GREY, linewidth=0.8, linestyle="--", label="error of the reference")
     found = {label: handle for axes in grid.flat for handle, label in zip(*axes.get_legend_handles_labels())}
     figure.legend(found.values(), found.keys(), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=4, fontsize=8)
-    headline(figure, f"Bases: {study.attribute('deck_name', '')}", f"{study.window()[0]:g} to {study.window()[1]:g} s; {study.machine()}")
+    headline(figure, f"Bases: {study.attribute('deck_name', '')}", "; ".join(filter(None, (study.conditions(), f"{study.window()[0]:g} to {study.window()[1]:g} s", study.machine()))))
     return figure
 
 

@@ -66,6 +66,10 @@ deck::ListSpec torqueDragParameters() {
             "Pressure of the mud inside the string over that in the annulus, at the surface: part "
             "of the margin to yield. Without it what the friction of Mud/Flow Rate takes down the "
             "string and up the annulus, so that no pressure is left at the bit.");
+  list.boolean(
+      "After Run", false,
+      "Computes this at the end of `tooljoint run`, too: its report shows torque, drag and "
+      "buckling limits beside the motion.");
   list.choice(
       "Stiff String", std::string("Deepest Bit"), {"None", "Deepest Bit", "All Depths"},
       "Depths at which the string with bending stiffness, clearance and contact (Static) is "
@@ -113,6 +117,7 @@ TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list) {
   settings.torqueUncertainty = list.get<double>("Torque Uncertainty");
   if (list.isParameter("Broomstick"))
     settings.broomstick = list.get<Teuchos::Array<double>>("Broomstick").toVector();
+  settings.afterRun = list.get<bool>("After Run");
   settings.helix = list.get<bool>("Helical Contact");
   return settings;
 }

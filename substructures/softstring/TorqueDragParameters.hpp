@@ -33,6 +33,7 @@ struct TorqueDragSettings {
   std::optional<std::string> measured;  ///< table of measurements to fit friction to
   double hookLoadUncertainty = 0.0, torqueUncertainty = 0.0;  ///< of a measured value [N], [N m]
   std::vector<double> broomstick;  ///< friction coefficients of whole-hole curves
+  bool afterRun = false;           ///< computed at the end of a run, too
   bool helix = true;               ///< side force of a string buckled into a helix
 };
 

@@ -19,10 +19,15 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish  # noqa: E402
+from pictured import compare  # noqa: E402
 
 PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 SHORT = {"study": ["Study/End Time=0.03", "Study/Window=0.015", "Study/Repeats=1", "Study/Pictures=false"],
          "run": ["Transient/End Time=1"], "map": ["Transient/End Time=0.1", "Map/Grid/speed/Count=2"]}
+
+# Pictures of reports -> the reports of the page that they show
+PICTURED = {"docs/tutorial-first-string.md": dict.fromkeys(("tutorial_report.png", "report_string.png"), "results/first/report.html"),
+            "docs/tutorial-own-parts.md": {"tutorial_parts.png": "results/parts/report.html"}}
 
 
 def block():
@@ -72,7 +77,9 @@ def check_page(folder, page):
     """The blocks of a tutorial. A mark in the output tells what the commands before a block of text have printed."""
     blocks = re.findall(r"^```(sh|text)\n(.*?)^```$", (PROJECT / page).read_text(encoding="utf-8"), re.M | re.S)
     commands = [text for kind, text in blocks if kind == "sh"]
-    script = "".join(f"{text}echo '@@ {number}'\n" for number, text in enumerate(commands, 1))
+    reports = sorted(set(PICTURED.get(page, {}).values()))
+    keep = "".join(f"[ ! -f {report} ] || cp {report} {report}.kept\n" for report in reports)  # a later command takes it away where reports are off
+    script = "".join(f"{text}{keep}echo '@@ {number}'\n" for number, text in enumerate(commands, 1))
     done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     count = len(re.findall(r"^@@ \d+$", done.stdout, re.M))
     expect("every command of the page succeeds", commands and done.returncode == 0 and count == len(commands),
@@ -87,6 +94,8 @@ def check_page(folder, page):
             shown += 1
             expect(f"the commands print: {line.strip()}", " ".join(line.split()) in printed, f"not in: {printed[:1500]}")
     expect("the page shows what they print", shown > 0)
+    for picture, report in PICTURED.get(page, {}).items():
+        compare(picture, (folder / f"{report}.kept").read_text(encoding="utf-8"))
 
 
 def main():

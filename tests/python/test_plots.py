@@ -19,6 +19,7 @@ SOURCE = pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"])
 sys.path.insert(0, str(SOURCE / "tools"))
 import plot_results  # noqa: E402
 import plot_study  # noqa: E402
+import redraw_studies  # noqa: E402
 
 DECK = """<ParameterList name="well"><ParameterList name="Loads"><Parameter name="Weight On Bit" type="double" value="40000"/></ParameterList></ParameterList>"""
 # Machado, Oliveira and Fernandes (2009), severity 1, on linear RGB.
@@ -272,16 +273,19 @@ class Response(Style):
         self.assertTrue(1e-4 < low < 1e-3 and 2e-3 < high < 1e-2, (low, high))
 
 
+DECK = '<ParameterList name="well"><ParameterList name="Loads"><Parameter name="Weight On Bit" type="string" value="40 kN"/></ParameterList></ParameterList>'
+
+
 class Studies(Style):
     def study(self, count):
         """A study of `count` methods of nearly the same speed and error."""
         folder = pathlib.Path(f"study_{count}")
         folder.mkdir(exist_ok=True)
-        head = "line,label,kind,model,sweep,status,vibration_error,cpu_per_simulated_s [s],reduced_dofs,modes,frequency_error,setup_cpu [s]"
-        rows = [f'"method {i}, with a long name","method {i}, with a long name, Step {step} ms",method,full,,done,{step ** 2 * (1e-3 + 1e-5 * i)},{0.1 / step},100,,,' for i in range(count) for step in (1, 2)]
+        head = "line,label,kind,model,sweep,status,vibration_error,cpu_per_simulated_s [s],cpu_spread,reduced_dofs,modes,frequency_error,setup_cpu [s]"
+        rows = [f'"method {i}, with a long name","method {i}, with a long name, Step {step} ms",method,full,,done,{step ** 2 * (1e-3 + 1e-5 * i)},{0.1 / step},0.5,100,,,' for i in range(count) for step in (1, 2)]
         (folder / "study.csv").write_text("\n".join([head, *rows, ""]), encoding="utf-8")
         with h5py.File(folder / "study.h5", "w") as file:
-            file.attrs.update({"machine": "a machine", "deck_name": "well", "self_error": 1e-5, "window_begin": 0.0, "window_end": 2.0})
+            file.attrs.update({"machine": "a machine", "deck_name": "well", "self_error": 1e-5, "window_begin": 0.0, "window_end": 2.0, "deck_text": DECK})
             whole = string(file, moves=False)
             file["profile/s"], file["profile/radius"], file["profile/clearance"] = whole["/model/s"][:], np.full(21, 0.01), np.full(21, 0.03)
             for name in ("normal_force", "axial_force", "torque"):
@@ -293,7 +297,19 @@ class Studies(Style):
             made = plot_study.draw_speed(self.study(count))
             self.check(made)
             self.assertEqual(made.axes[0].get_legend() is not None, legend)
-            self.assertTrue(re.search(r"a machine", made.texts[1].get_text()))
+            self.assertTrue(re.search(r"WOB 40 kN; a machine.*bands: to the longest of the repeats", made.texts[1].get_text(), re.S))
+            bands = [band.get_paths()[0].vertices[:, 0] for band in made.axes[0].collections if band.get_paths()]
+            self.assertEqual(sum(abs(x.max() - 0.15) < 1e-9 and abs(x.min() - 0.05) < 1e-9 for x in bands), count, "a line has no band to 1.5 times its time")
+
+    def test_figures_of_record_are_drawn_from_tables(self):
+        made = redraw_studies.speed("stress")
+        self.check(made)
+        self.assertIn("WOB 10 kN", made.texts[1].get_text())
+        self.assertEqual(made.axes[0].get_ylabel(), "vibration error, 0 to 3 s")
+        made = redraw_studies.variants("frame")
+        self.assertEqual([axes.get_ylabel() for axes in made.axes], 2 * ["vibration error of the motion"] + 2 * ["largest error of 20 frequencies"])
+        shown = dict(zip([line.get_label() for line in made.axes[1].lines], [line.get_xydata()[0].tolist() for line in made.axes[1].lines]))
+        self.assertEqual(shown["Guyan"], [30, 0.037])
 
     def test_profiles_of_the_static_state(self):
         made = plot_study.draw_static(self.study(2))

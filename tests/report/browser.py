@@ -113,12 +113,16 @@ class Browser:
         return found
 
     def picture(self, path, whole=False, media=None, element=None):
-        """A screenshot as PNG, of the window, the whole page, or the element of a selector."""
+        """A screenshot as PNG, of the window, the whole page, or all elements of a selector."""
         if media:
             self.call("Emulation.setEmulatedMedia", media=media)
         clip = {}
         if element:
-            box = self.value(f"(b => ({{x: b.x + scrollX, y: b.y + scrollY, width: b.width, height: b.height}}))(document.querySelector({json.dumps(element)}).getBoundingClientRect())")
+            box = self.value(f"""(() => {{
+                const boxes = [...document.querySelectorAll({json.dumps(element)})].map((one) => one.getBoundingClientRect());
+                const left = Math.min(...boxes.map((b) => b.left)), top = Math.min(...boxes.map((b) => b.top));
+                return {{x: left + scrollX, y: top + scrollY, width: Math.max(...boxes.map((b) => b.right)) - left, height: Math.max(...boxes.map((b) => b.bottom)) - top}};
+            }})()""")
             clip = {"clip": {**box, "scale": 1}}
         shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole or bool(element), **clip)
         path.write_bytes(base64.b64decode(shot["data"]))

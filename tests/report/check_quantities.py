@@ -194,6 +194,49 @@ def torques():
         expect("so has the mean torque on bit", [(one[1], one[2].partition("; ")[2]) for one in row] == [("2.00 kN m", "1.50 kN m to 2.50 kN m; positive against the rotation")], row)
 
 
+def torques_at_rest():
+    """The static torque has the sign of the surface torque, whichever way the string turns."""
+    for sense in (1, -1):
+        bar = Bar(torque=-sense * 2e3)  # resists a rotation of this sense
+        bar.summary = {"static": {"surface_torque": 2e3, "top_torque": -sense * 2e3}}
+        bar.value = lambda path, bar=bar: results.Run.value(bar, path)
+        near("the static torque is against the rotation", results.static_torque(bar, results.static_sense(bar)), np.full(10, 2e3))
+
+
+def touching():
+    """Tool joints on the wall all along, but for a stretch without contact: the picture is white there and nowhere else."""
+    s = np.arange(241) * 4.7244  # two elements a joint of pipe
+    middles, joints = 0.5 * (s[1:] + s[:-1]), np.arange(241) % 2 == 1
+    radius = np.where(joints, 0.0841, 0.0635)
+    lifted = (s > 500) & (s < 560)
+    picture = figures.contact_picture(s, middles, radius, np.where(joints & ~lifted, 1e3, 0.0)[None, :])
+    white = (np.flatnonzero(picture[:, 0] == 0) + 0.5) * s[-1] / len(picture)
+    expect("tool joints that touch leave no white rows between them", len(white) > 2 and white.min() > 495 and white.max() < 565, white)
+    picture = figures.contact_picture(s, middles, np.full(241, 0.0841), np.where(np.arange(241) % 4 == 0, 1e3, 0.0)[None, :])
+    expect("without tool joints each node counts", len(picture) == figures.PICTURE_ROWS and (picture == 0).any())
+    few = slice(0, 12)
+    picture = figures.contact_picture(s[few], middles[:11], radius[few], np.where(joints[few], 1e3, 0.0)[None, :])
+    expect("a short string shows its pipe bodies", len(picture) == figures.PICTURE_ROWS and 0.3 < (picture == 0).mean() < 0.7, (picture == 0).mean())
+
+
+def recorded():
+    """The table of docs/report.md keeps what reports promise: at most 10 s and 5 MB for 20 s of motion."""
+    rows = re.findall(r"^\| (?:`tooljoint new`|(xml/\S+)) \| (\d+) \| (\d+) \| \d+ MB \| (\S+) s \| (\S+) s \| (\S+) MB \|$", (ROOT / "docs/report.md").read_text(encoding="utf-8"), re.M)
+    expect("docs/report.md has times and sizes of reports of decks that are there", len(rows) >= 5 and all((ROOT / row[0]).exists() for row in rows), rows)
+    expect("none is longer or larger than it may be", all(0 < float(cpu) <= float(wall) <= 10 and 0 < float(size) < 5 for *_, cpu, wall, size in rows), rows)
+
+
+def many_nodes():
+    """Five kilometres of nodes are a few hundred lines, with the largest of them."""
+    s, values = np.linspace(0, 5000, 5001), np.zeros(5001)
+    values[[777, 4321]] = 9.0, 7.0
+    made, axes = plots.figure()
+    figures.bars(axes, s, values, "black")
+    lines = axes.collections[0].get_segments()
+    expect("bars keep the largest values of many nodes", len(lines) <= figures.MOST_BARS and sorted(line[1][0] for line in lines)[-2:] == [7.0, 9.0], len(lines))
+    plots.plt.close(made)
+
+
 def pictures():
     plots.use_style()
     made, axes = plots.figure()
@@ -302,7 +345,7 @@ def released():
 
 
 def main():
-    for part in (stresses, released, motions, sides, rounding, whirls, torques, pictures, units, scenes, judged, mapped, view):
+    for part in (stresses, released, motions, sides, rounding, whirls, torques, torques_at_rest, touching, recorded, many_nodes, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 

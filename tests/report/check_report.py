@@ -4,7 +4,7 @@
 
 Each page has its figures, says nothing wrong on the console, asks nothing of a network, fits into 400 px, is below 5 MB, and its 3-D view is
 drawn and moves with its slider. The numbers in it are those of the results. What cannot be reported on ends with a sentence and exit code 5.
-"pages" are those of a string, of parts, of a study and of a map; without Chromium they are only read. "folders" are those of runs that leave less, failed,
+"pages" are those of a string, of parts, of a study, of a map and of each analysis; without Chromium they are only read. "folders" are those of runs that leave less, failed,
 were interrupted or damaged, and the end of a run.
 """
 import base64
@@ -31,51 +31,17 @@ import browser
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 from checks import TIME_FACTOR, expect, finish, tooljoint  # noqa: E402
+from opened import look  # noqa: E402
+from pictured import compare  # noqa: E402
 
 STRING, FRAME, STUDY, MAP = (str(ROOT / path) for path in ("tests/effects/scene.xml", "xml/frame.xml", "tests/study/study.xml", "xml/map_helical_170m.xml"))
 EFFECTS = ROOT / "tests" / "effects"
+STRESS = str(ROOT / "xml/stress_170m.xml")
 LARGEST, SECONDS = 5_000_000, 10.0
 NAMESPACES = ("http://www.w3.org/",)
 RUN = {"section", "map", "axial", "torque", "side", "radial", "stress", "curvature", "bit-speed", "torques", "hook-loads", "contact", "duty", "largest", "rms", "twist", "orbit-1", "lateral-spectrum",
        "bit-spectrum"}
 WITHOUT_MOTION = {"section", "map", "axial", "torque", "side", "radial", "stress", "curvature"}
-PIXELS = """(() => {
-  const view = document.querySelector("#view canvas"), copy = document.createElement("canvas");
-  copy.width = view.width; copy.height = view.height;
-  const context = copy.getContext("2d");
-  context.drawImage(view, 0, 0);
-  const pixels = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer), counts = new Map();
-  let sum = 0;
-  for (let i = 0; i < pixels.length; ++i) { counts.set(pixels[i], (counts.get(pixels[i]) || 0) + 1); sum = (sum * 31 + pixels[i]) >>> 0; }
-  return {colours: counts.size, drawn: 1 - Math.max(...counts.values()) / pixels.length, sum: sum};
-})()"""
-
-# Texts of plots that are cut off, or that lie on another one; slanted texts have boxes larger than themselves and are not compared.
-TEXTS = """[...document.querySelectorAll("figure svg")].flatMap((svg) => {
-  const frame = svg.getBoundingClientRect(), faults = [];
-  const boxes = [...svg.querySelectorAll("text")].map((t) => [t.textContent, t.getBoundingClientRect(), /rotate\\(-(?!0|90)/.test(t.getAttribute("transform") || "")]);
-  boxes.forEach(([text, box, slanted], i) => {
-    if (box.left < frame.left - 2 || box.right > frame.right + 2 || box.top < frame.top - 2 || box.bottom > frame.bottom + 2) faults.push("cut: " + text);
-    for (const [other, second, slanted2] of boxes.slice(i + 1))
-      if (!slanted && !slanted2 && Math.min(box.right, second.right) - Math.max(box.left, second.left) > 2 &&
-          Math.min(box.bottom, second.bottom) - Math.max(box.top, second.top) > 3) faults.push(text + " on " + other);
-  });
-  return faults.map((fault) => svg.closest("figure").id + ": " + fault);
-})"""
-
-
-# Texts of the axes in space that lie on one another or outside of the picture.
-AXES = """(() => {
-  const view = document.getElementById("view"), texts = view.labels(), canvas = view.querySelector("canvas");
-  const faults = texts.filter((a) => Math.max(-a.left, a.right) > canvas.clientWidth / 2 || Math.max(-a.low, a.high) > canvas.clientHeight / 2).map((a) => "cut: " + a.text);
-  texts.forEach((a, i) => texts.slice(i + 1).forEach((b) => { if (a.left < b.right && a.right > b.left && a.low < b.high && a.high > b.low) faults.push(a.text + " on " + b.text); }));
-  return faults;
-})()"""
-NAMES = 'document.getElementById("view").labels().map((one) => one.text).filter((text) => text.endsWith("[m]")).length'
-WHEEL = """(() => {
-  for (let i = 0; i < 8; ++i) document.querySelector("#view canvas").dispatchEvent(new WheelEvent("wheel", {deltaY: %d, bubbles: true, cancelable: true}));
-})()"""
-
 
 def run(folder, deck, *arguments):
     shutil.rmtree(folder, ignore_errors=True)
@@ -113,49 +79,6 @@ def page(title, folder, wanted, seconds=SECONDS):
     expect(f"{title}: no address outside", not outside, sorted(outside)[:5])
     expect(f"{title}: no number is missing", not re.search(r">\s*(nan|inf|None)\b", text), re.findall(r".{40}>\s*(?:nan|inf|None)\b", text)[:3])
     return path, text
-
-
-def look(title, path, chromium, view=True, moves=True):
-    """Opens a page at two widths."""
-    for width in (1280, 400):
-        chromium.open(path, width)
-        across = chromium.value("document.scrollingElement.scrollWidth")
-        expect(f"{title}, {width} px: nothing stands out on the right", across <= width, across)
-        if view and width == 1280:
-            expect(f"{title}: the view says it is drawn", chromium.value("document.body.dataset.view") == "drawn")
-            rest = chromium.value(PIXELS)
-            expect(f"{title}: the canvas is drawn", rest["colours"] > 20 and 0.003 < rest["drawn"] < 0.9, rest)
-            if moves:
-                chromium.value('(() => { const s = document.getElementById("view-slider"); s.value = s.max; s.dispatchEvent(new Event("input")); })()')
-                last = chromium.value(PIXELS)
-                shown = chromium.value('document.getElementById("view-time").textContent')
-                expect(f"{title}: the slider moves the picture", last["sum"] != rest["sum"] and shown.endswith(" s"), shown)
-                chromium.value('document.getElementById("view-rest").click()')
-                expect(f"{title}: and back to rest", chromium.value(PIXELS)["sum"] == rest["sum"])
-            if chromium.value('document.getElementById("view-field").length') > 1:
-                chromium.value('(() => { const f = document.getElementById("view-field"); f.value = 1; f.dispatchEvent(new Event("change")); })()')
-                expect(f"{title}: another colour field is another picture", chromium.value(PIXELS)["sum"] != rest["sum"])
-        if view:
-            expect(f"{title}, {width} px: the axes in space have their names", chromium.value(NAMES) == 3, chromium.value(NAMES))
-            for zoom in (0, 100, -100, -100):  # as it opens, farther away, nearer
-                if zoom:
-                    chromium.value(WHEEL % zoom)
-                faults = chromium.value(AXES)
-                expect(f"{title}, {width} px: no text of the axes in space is cut off or lies on another", not faults, faults)
-        small = chromium.value("""[...document.querySelectorAll("figure")].filter((f) => f.querySelector("svg").getBoundingClientRect().height < 60).map((f) => f.id)""")
-        expect(f"{title}, {width} px: figures have a size", not small, small)
-        wide = chromium.value("""[...document.querySelectorAll(".card, .notes li")].filter((card) => card.scrollWidth > card.clientWidth).map((card) => card.textContent)""")
-        expect(f"{title}, {width} px: figures fit into their cards", not wide, wide)
-        texts = chromium.value(TEXTS)
-        expect(f"{title}, {width} px: no text of a plot is cut off or lies on another", not texts, texts[:8])
-        expect(f"{title}, {width} px: the console is empty", not chromium.faults(), chromium.faults())
-    if "bit-speed" in figures(path.read_text(encoding="utf-8")):
-        chromium.call("Emulation.setEmulatedMedia", media="print")
-        tops = chromium.value('["bit-speed", "torques"].map((name) => document.getElementById(name)).filter((one) => one).map((one) => one.getBoundingClientRect().top)')
-        chromium.call("Emulation.setEmulatedMedia", media="")
-        expect(f"{title}: two wide figures fill a row in print", len(set(tops)) == 1, tops)
-    pages = len(base64.b64decode(chromium.call("Page.printToPDF", preferCSSPageSize=True)["data"]))
-    expect(f"{title}: it prints", pages > 20_000, pages)
 
 
 def numbers(entry):
@@ -204,17 +127,21 @@ def string_numbers(folder, text):
 
 def strings(chromium):
     """Runs of a string: 20 s of motion with the tables of other commands beside it, and at rest."""
-    run("string", STRING, "--set", "Transient/End Time=20", "--set", "Transient/Sampling Interval=0.005")
-    tooljoint("torque-drag", STRING, "--output", "string", "--set", "Torque and Drag/Depths={40, 42}")
+    run("string", STRING, "--set", "Transient/End Time=20", "--set", "Transient/Sampling Interval=0.005", "--set", "Torque and Drag/Depths={40, 42}", "--set", "Torque and Drag/After Run=true")
     tooljoint("modes", STRING, "--output", "string", "--count", "6")
     path, text = page("string", "string", RUN | {"hook-load", "surface-torque", "buckling-1", "mode-errors"})
     string_numbers("string", text)
+    expect("string: the static torque has the sign of the surface torque", "Static torque, positive against the rotation." in text)
+    expect("string: with torque and drag it names no command for it", "tooljoint torque-drag" not in text)
     expect("string: the deck has its overrides", re.search(r"<td[^>]*>End Time</td><td>20</td>", text) is not None)
     if chromium:
         look("string", path, chromium)
-    run("rest", STRING, "--without", "Transient")
+    run("rest", STRESS, "--without", "Transient")
     path, text = page("string at rest", "rest", WITHOUT_MOTION)
     expect("string at rest: no motion is made up", "orbit-1" not in figures(text) and "time" not in scene_of(text))
+    compare("report_motion.png", text, motion=False)
+    command = f"tooljoint torque-drag {STRESS} --output rest --without Transient"
+    expect("string at rest: it says what adds torque and drag", f"<code>{command}</code>" in text, re.findall("tooljoint torque-drag.{60}", text))
     if chromium:
         look("string at rest", path, chromium, moves=False)
 
@@ -244,8 +171,9 @@ def old_results():
 
 
 def parts(chromium):
-    run("parts", FRAME, "--set", "Transient/End Time=0.5")
+    run("parts", FRAME)
     path, text = page("parts", "parts", {"nodes-1", "mover-1", "spectrum-m"})
+    compare("report_parts.png", text)
     scene = scene_of(text)
     links, position = numbers(scene["links"]).astype(int), numbers(scene["position"])
     lengths = np.linalg.norm(position[links[:, 0]] - position[links[:, 1]], axis=1)
@@ -316,13 +244,15 @@ def maps(chromium):
         refuse(what, "map", "map/summary.json is not that of a map that has ended")
 
 
-def analysis(title, command, deck, wanted, *arguments):
+def analysis(chromium, title, command, deck, wanted, *arguments):
     """The report of an analysis: what it is of, warnings first, headline figures before the sections, the deck; its text and its summary, {} where there is none."""
     folder = f"analysis_{command}"
     shutil.rmtree(folder, ignore_errors=True)
     done = tooljoint(command, deck, "--output", folder, *arguments)
     expect(f"{command} succeeds", done.returncode == 0, done.stderr[-300:])
-    _, text = page(command, folder, wanted)
+    report_page, text = page(command, folder, wanted)
+    if chromium:
+        look(command, report_page, chromium, view=False)
     path = pathlib.Path(folder, "summary.json")
     summary = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
     expect(f"{command}: the title says what it is", f"<h1>{title}: " in text, re.findall("<h1>.*?</h1>", text))
@@ -345,8 +275,8 @@ def cells(text, column):
     return [re.findall(r"<td[^>]*>(.*?)</td>", row)[column] for row in rows[1:]]
 
 
-def analyses():
-    text, summary = analysis("Torque and drag", "torque-drag", STRING, {"hook-load", "surface-torque", "buckling-1", "broomstick-hook-load"}, "--set", "Torque and Drag/Depths={40, 42}",
+def analyses(chromium):
+    text, summary = analysis(chromium, "Torque and drag", "torque-drag", STRING, {"hook-load", "surface-torque", "buckling-1", "broomstick-hook-load"}, "--set", "Torque and Drag/Depths={40, 42}",
                              "--set", "Torque and Drag/Broomstick={0.1, 0.3}", "--set", "Torque and Drag/Yield Strength=931 MPa")
     rows = summary["torque_drag"]["rows"]
     expect("torque-drag: its largest hook load", card("Largest hook load", f"{max(row['hook_load'] for row in rows) / 1e3:.1f} kN") in text)
@@ -356,18 +286,20 @@ def analyses():
     expect("torque-drag: a broomstick names operations and friction", all(f">{name}<" in broom for name in ("Trip out", "Drill rotating", "friction 0.1", "friction 0.3")) and "measured" not in broom)
     margins = [value for value in cells(text, 5) if value != "-"]
     expect("torque-drag: margins have two decimals", margins and all(re.fullmatch(r"\d+\.\d\d", value) for value in margins), margins)
-    text, summary = analysis("Bottom-hole assembly", "bha", str(EFFECTS / "bottom_hole.xml"), {"bha-high", "bha-right", "bha-moment"})
+    text, summary = analysis(chromium, "Bottom-hole assembly", "bha", str(ROOT / "xml/bha_motor_1500m.xml"), {"bha-high", "bha-right", "bha-moment"},
+                             *[part for name, values in (("Weight On Bit", "120 kN"), ("Inclination", "45 deg"), ("Tool Face", "0 deg")) for part in ("--set", f"Bottom-Hole Assembly/{name}={{{values}}}")])
+    compare("report_bha.png", text)
     expect("bha: headline figures in both units", all(f'<div class="name">{name}</div>' in text for name in ("Side force, high side", "Tangency", "Unstable states")) and "klbf)" in text and " lbf<" in text)
     marked = sum("UNSTABLE" in state for state in cells(text, 0))
     expect("bha: unstable states are marked", marked == sum(not row["stable"] for row in summary["bha"]["rows"]) and card("Unstable states", marked) in text, marked)
-    text, summary = analysis("Buckling", "buckling", str(EFFECTS / "buckling.xml"), {"buckling-path", "buckling-contact", "buckling-shape"})
+    text, summary = analysis(chromium, "Buckling", "buckling", str(EFFECTS / "buckling.xml"), {"buckling-path", "buckling-contact", "buckling-shape"})
     expect("buckling: its last weight on bit", card("Last weight on bit", f"{summary['buckling']['last_weight_on_bit'] / 1e3:.1f} kN") in text)
-    text, summary = analysis("Campbell diagram", "campbell", STRING, {"campbell", "campbell-shapes"}, "--set", "Campbell/Highest Speed=200 rpm", "--set", "Campbell/Modes=4", "--set", "Campbell/Points=5")
+    text, summary = analysis(chromium, "Campbell diagram", "campbell", STRING, {"campbell", "campbell-shapes"}, "--set", "Campbell/Highest Speed=200 rpm", "--set", "Campbell/Modes=4", "--set", "Campbell/Points=5")
     ratios = [one["damping"] for one in summary["campbell"]["crossings"]]
     expect("campbell: the diagram stands before the critical speeds", 0 < text.index('<figure id="campbell"') < text.index(f"<summary>{len(ratios)} critical speeds"))
     expect("campbell: damping ratios have four decimals, negative ones are marked", cells(text, 4) == [f"{ratio:.4f}" + (" UNSTABLE" if ratio < -1e-9 else "") for ratio in ratios], cells(text, 4)[:3])
-    analysis("Harmonic response", "response", str(EFFECTS / "rotor.xml"), {"response"})
-    text, _ = analysis("Modes", "modes", STRING, {"modes-frequencies", "damped-modes-frequencies", "mode-damping", "mode-errors", "mode-shapes"}, "--count", "6")
+    analysis(chromium, "Harmonic response", "response", str(EFFECTS / "rotor.xml"), {"response"})
+    text, _ = analysis(chromium, "Modes", "modes", STRING, {"modes-frequencies", "damped-modes-frequencies", "mode-damping", "mode-errors", "mode-shapes"}, "--count", "6")
     expect("modes: frequencies have the same decimals", len({len(value.partition(".")[2]) for value in cells(text, 1)}) == 1 and max(map(len, cells(text, 1))) <= 7, cells(text, 1))
     expect("modes: the lowest frequency", '<div class="name">Lowest frequency</div>' in text)
 
@@ -394,7 +326,7 @@ def end_of_run():
     os.environ["TOOLJOINT_REPORT"] = "off"
     run("ended", STRING)
     expect("TOOLJOINT_REPORT=off: no report", not path.exists())
-    done = tooljoint("report", "analysis_bha", "--output", "two.html", ranks=2)
+    done = tooljoint("report", "full", "--output", "two.html", ranks=2)
     expect("two ranks write one report", done.returncode == 0 and pathlib.Path("two.html").is_file() and done.stdout.count("report  ") == 1, done.stderr)
     done = tooljoint("report", "nowhere", ranks=2)
     expect("and end alike", done.returncode == 5 and done.stderr.count("is no folder") == 1, f"({done.returncode}) {done.stderr}")
@@ -428,7 +360,7 @@ def refusals():
     refuse("no summary", "damaged", "damaged/summary.json cannot be read")
     pathlib.Path("damaged/results.h5").rename("damaged/results.h5.part")
     refuse("a run that has not ended", "damaged", "results of a run that has not ended")
-    refuse("a file that cannot be written", "analysis_bha", "cannot be written", "--output", "nowhere/page.html")
+    refuse("a file that cannot be written", "full", "cannot be written", "--output", "nowhere/page.html")
     done = tooljoint("report")
     expect("no folder named: exit code 1", done.returncode == 1 and "DIR" in done.stderr, done.stderr)
 
@@ -464,13 +396,13 @@ def pages():
     else:
         chromium = browser.Browser(120 * TIME_FACTOR)
     with chromium as opened:
-        for part in (strings, parts, studies, maps):
+        for part in (strings, parts, studies, maps, analyses):
             part(opened)
 
 
 def main():
     os.environ["TOOLJOINT_REPORT"] = "off"
-    for part in [pages] if sys.argv[3] == "pages" else [lesser_strings, analyses, old_results, end_of_run, refusals, failed, interrupted]:
+    for part in [pages] if sys.argv[3] == "pages" else [lesser_strings, old_results, end_of_run, refusals, failed, interrupted]:
         part()
     return finish()
 

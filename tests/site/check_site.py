@@ -6,6 +6,7 @@ Every link within the site leads to a file and an anchor that are there, every p
 stands in the navigation of the first. In Chromium, where it is installed, a page has no errors and its theme switch works. Links to other hosts are not opened (target `docs-linkcheck`).
 """
 import html.parser
+import json
 import pathlib
 import shutil
 import subprocess
@@ -16,6 +17,7 @@ TESTS = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TESTS / "support"), str(TESTS / "report")]
 import browser  # noqa: E402
 from checks import expect, finish  # noqa: E402
+from pictured import RECORD  # noqa: E402
 
 GENERATED = {"index.html", "genindex.html", "search.html"}  # of Sphinx, or the way to the first page
 LARGEST_PICTURE = 150_000  # bytes; pictures are read over slow lines and stay in the repository for good
@@ -109,6 +111,10 @@ def main():
     expect("every page stands in the navigation", not outside, ", ".join(outside))
     large = [path for kind in ("tutorial_*", "report_*") for path in (project / "docs/figures").glob(kind) if path.stat().st_size > LARGEST_PICTURE]
     expect("pictures of reports are small", not large, ", ".join(path.name for path in large))
+    recorded = json.loads(RECORD.read_text(encoding="utf-8"))
+    shown = {path.name for kind in ("tutorial_*.png", "report_*.png") for path in (project / "docs/figures").glob(kind)}
+    expect("each picture of a report has its figures on record", shown == set(recorded), f"{sorted(shown ^ set(recorded))}")
+    expect("the reports in README.md and of a motion have no warning", all(recorded[name]["notes"] == ["No warnings; all checks are met."] for name in ("report_string.png", "report_motion.png")))
     if browser.program():
         clicked(site / "docs/index.html")
     return finish()

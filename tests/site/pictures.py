@@ -2,29 +2,42 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of reports for the documents (target `docs-pictures`): pictures.py PROGRAM WORK FIGURES
 
-Runs scenes and photographs the tops of their reports, and sections of those of analyses, in a headless Chromium.
+Runs scenes and photographs the tops of their reports, and sections of those of analyses, in a headless Chromium. The key figures of the reports go into
+reports.json beside the pictures, with which tests compare what they run.
 """
+import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
 from PIL import Image
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "report"))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1] / name) for name in ("report", "support")]
 from browser import Browser  # noqa: E402
+from pictured import RECORD, figures_of  # noqa: E402
 
 PROGRAM, WORK, FIGURES = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 XML = pathlib.Path(__file__).resolve().parents[2] / "xml"
 TALL, WIDE = (900, 1100), (1280, 1130)  # pixels: readable on the page, and small
-# Folder -> (command, deck beside the work folder or of the project, picture, its size)
+# Folder -> (command, deck beside the work folder or of the project)
 SCENES = {
-    "string": ("run", "first/first.xml", "tutorial_report.png", TALL),
-    "parts": ("run", "parts.xml", "tutorial_parts.png", TALL),
-    "build_hold": ("run", XML / "build_hold_1400m.xml", "report_string.png", WIDE),
-    "frame": ("run", XML / "frame.xml", "report_parts.png", WIDE),
-    "bha_motor_1500m": ("bha", XML / "bha_motor_1500m.xml", "report_bha.png", WIDE),
+    "string": ("run", "first/first.xml"),
+    "parts": ("run", "parts.xml"),
+    "frame": ("run", XML / "frame.xml"),
+    "stress": ("run", XML / "stress_170m.xml"),
+    "bha_motor_1500m": ("bha", XML / "bha_motor_1500m.xml"),
+}
+# Picture -> (folder, size of the window, its sections; without any the top of the page)
+REPORTS = {
+    "tutorial_report.png": ("string", TALL, None),
+    "tutorial_parts.png": ("parts", TALL, None),
+    "report_string.png": ("string", WIDE, None),
+    "report_parts.png": ("frame", WIDE, None),
+    "report_motion.png": ("stress", WIDE, "#orbits, #spectra"),
+    "report_bha.png": ("bha_motor_1500m", WIDE, None),
 }
 # Section of a report -> (folder, command, deck, overrides); its plots are the picture drilling_SECTION.png.
 FRICTIONS = "Torque and Drag/Broomstick={0.1, 0.2, 0.3, 0.4}"
@@ -63,19 +76,24 @@ def with_response(scene, file):
 
 def main():
     WORK.mkdir(parents=True, exist_ok=True)
-    if not (WORK / "first").exists():
-        run("new", "first")
+    shutil.rmtree(WORK / "first", ignore_errors=True)
+    run("new", "first")
     template("parts", "parts.xml")
     template("part", "bar.json")
     with_response("helical_170m.xml", "response.xml")
-    for folder, (command, deck, _, _) in SCENES.items():
+    for folder, (command, deck) in SCENES.items():
         run(command, str(deck), "--output", folder)
+        run("report", folder)
+    record = {}
     with Browser() as browser:
-        for folder, (_, _, picture, size) in SCENES.items():
-            run("report", folder)
-            browser.open(WORK / folder / "report.html", *size).picture(FIGURES / picture)
+        for picture, (folder, size, sections) in REPORTS.items():
+            page = WORK / folder / "report.html"
+            browser.open(page, *size).picture(FIGURES / picture, element=sections)
             small(FIGURES / picture)
+            command, deck = SCENES[folder]
+            record[picture] = {"command": command, "deck": str(deck).replace(f"{XML.parent}/", ""), **figures_of(page.read_text(encoding="utf-8"))}
             print(f"{FIGURES / picture}: {(FIGURES / picture).stat().st_size} bytes")
+        RECORD.write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
         for section, (folder, command, deck, overrides) in SECTIONS.items():
             run(command, str(deck), "--output", folder, *[f"--set={one}" for one in overrides])
             run("report", folder)

@@ -129,8 +129,9 @@ def words():
     verbose = tooljoint(*run("verbose", "--verbose", "--set", "Transient/End Time=0.05", "--set", "Output/Report=false"))
     expect("--verbose prints the counters of the motion and the memory", verbose.returncode == 0 and "counters    steps " in verbose.stdout and "memory  " in verbose.stdout,
            verbose.stdout[-800:])
-    usual = tooljoint(*run("usual", "--set", "Transient/End Time=0.05", "--set", "Output/Report=false"))
+    usual = tooljoint(*run("usual", "--without", "Reduction", "--without", "Substructures", "--set", "Transient/End Time=0.05", "--set", "Output/Report=false"))
     expect("which nobody else sees", usual.returncode == 0 and "counters    " not in usual.stdout)
+    expect("a full model has torque and drag next, in the folder of the run", re.search(r"^next        tooljoint torque-drag \S+ (\\\n +)?--output usual ", usual.stdout, re.M) is not None, usual.stdout[-600:])
     both = tooljoint(*run("both", "--quiet", "--verbose"))
     expect("both exclude each other", both.returncode == 1 and "--quiet" in both.stderr, both.stderr)
     alone = tooljoint()

@@ -9,7 +9,10 @@ from report.quantities import fixed
 
 BLUE, ORANGE, GREEN = COLOURS[:3]
 PICTURE_ROWS = 240  # of contact forces over time and depth
+JOINT = 15.0  # [m]: longer than a joint of drill pipe (API range 3, with its tool joint)
+RESOLVED = 8  # rows of the picture for each joint of pipe: then the pipe body between its tool joints is seen on its own
 STRETCHES = 100  # of a profile that changes from element to element; longer than a joint of pipe
+MOST_BARS = 400  # of nodes along a profile
 FLOOR = 1e-8  # of the largest value of a spectrum, where its picture ends
 DOWN_TO = f"drawn down to {plots.plain(FLOOR)} of the largest value"
 EVEN = 1e-3  # of its size: a quantity that changes less is a line, not a picture of rounding
@@ -47,6 +50,7 @@ def well(run):
 
 def static_profiles(run):
     limits = run.s[0], run.s[-1]
+    sense = results.static_sense(run)
     found = []
 
     def add(name, label, caption, draw):
@@ -54,15 +58,15 @@ def static_profiles(run):
         draw(axes)
         found.append(Figure(name, made, caption))
 
-    def forces(path, colour):
+    def forces(values, colour):
         def draw(axes):
-            axes.plot(run.get(path) / 1e3, run.middles, color=colour, linewidth=1.3)
+            axes.plot(values / 1e3, run.middles, color=colour, linewidth=1.3)
             axes.axvline(0, color=GREY, linewidth=0.6)
         return draw
 
     def side(axes):
         force = run.get("/static/normal_force") / 1e3
-        axes.hlines(run.s, 0, force, color=BLUE, linewidth=1.2)
+        bars(axes, run.s, force, BLUE, 1.2)
         axes.set_xlim(left=0, right=max(1.08 * force.max(), 1e-3))
 
     def radial(axes):
@@ -71,8 +75,8 @@ def static_profiles(run):
         axes.set_xlim(left=0)
         plots.legend_above(axes, 2)
 
-    add("axial", "effective axial force [kN]", "Static axial force; tension is positive.", forces("/static/axial_force", ORANGE))
-    add("torque", "torque [kN m]", "Static torque about the axis.", forces("/static/torque", GREEN))
+    add("axial", "effective axial force [kN]", "Static axial force; tension is positive.", forces(run.get("/static/axial_force"), ORANGE))
+    add("torque", "torque [kN m]", f"Static torque, {results.AGAINST[sense]}.", forces(results.static_torque(run, sense), GREEN))
     add("side", "side force [kN]", "Static contact force of each node.", side)
     add("radial", "lateral displacement [mm]", "Static distance from the axis of the well, and the clearance.", radial)
     stress = results.von_mises(run, run.get("/static/displacement"))
@@ -92,6 +96,13 @@ def draw_clearance(axes, s, clearance):
     axes.fill_betweenx(depth, 0, wide, step="mid", color="#ececec", linewidth=0, label="largest clearance" if changes else "clearance")
     if changes:
         axes.fill_betweenx(depth, 0, narrow, step="mid", color="#d2d2d2", linewidth=0, label="least clearance")
+
+
+def bars(axes, depth, values, colour, width=1.1):
+    """A line from zero for each node; of many nodes the largest of each stretch, which is no wider on the page than a line."""
+    if len(depth) > MOST_BARS:
+        depth, _, values = plots.stretches(depth, values, MOST_BARS)
+    axes.hlines(depth, 0, values, color=colour, linewidth=width)
 
 
 def banded(axes, values, depth, colour):
@@ -147,6 +158,26 @@ def surface(run):
     return found
 
 
+def joint_length(s, radius):
+    """Largest distance [m] of neighbouring nodes that touch first, wider than the nodes beside them; 0 without such a pattern of tool joints."""
+    above, own, below = radius[:-2], radius[1:-1], radius[2:]
+    apart = np.diff(s[1:-1][(own >= above) & (own >= below) & (own > np.minimum(above, below))])
+    return max(apart[apart <= JOINT], default=0.0)
+
+
+def contact_picture(s, middles, radius, force):
+    """Contact force over depth (rows, equal stretches) and time: the largest of the nodes whose stretch of the string is in a row.
+
+    Pipe bodies between tool joints seldom touch. A row that is finer than a joint of pipe, but too coarse to show it, would hold a pipe body here and
+    a tool joint there: it is made as long as a joint."""
+    rows, joint = PICTURE_ROWS, joint_length(s, radius)
+    if joint * rows < RESOLVED * (s[-1] - s[0]):
+        rows = min(rows, int((s[-1] - s[0]) / joint)) if joint > 0 else rows
+    edges = np.linspace(s[0], s[-1], rows + 1)
+    first, last = np.searchsorted(middles, edges[:-1], side="right"), np.searchsorted(middles, edges[1:], side="left")
+    return np.array([force[:, a:b + 1].max(axis=1) for a, b in zip(first, last)])
+
+
 def contact(run, found):
     if found.force is None or not found.largest.max() > 0:
         return []
@@ -154,28 +185,25 @@ def contact(run, found):
     shares = contact_shares(run, found)
     if not run.moves:
         return shares
-    made, axes = plots.figure(plots.WIDE, 3.6)
-    # Rows of the picture are equal stretches of depth: the largest force of the nodes whose stretch of the string is in each.
-    ends, edges = run.middles, np.linspace(s[0], s[-1], PICTURE_ROWS + 1)
-    first, last = np.searchsorted(ends, edges[:-1], side="right"), np.searchsorted(ends, edges[1:], side="left")
-    picture = np.array([found.force[:, a:b + 1].max(axis=1) for a, b in zip(first, last)])
-    shown = axes.imshow(np.ma.masked_equal(picture / 1e3, 0), aspect="auto", cmap=plots.MAP,
+    made, axes = plots.figure(plots.WIDE, 3.2)
+    picture = contact_picture(s, run.middles, run.get("/model/contact_radius"), found.force)
+    shown = axes.imshow(np.ma.masked_less_equal(picture / 1e3, 0), aspect="auto", cmap=plots.MAP,
                         extent=(found.time[0], found.time[-1], s[-1], s[0]), interpolation="nearest")
     axes.grid(False)
     axes.set_xlabel("time [s]"), axes.set_ylabel("measured depth [m]")
     made.colorbar(shown, ax=axes, label="contact force [kN]")
-    return [Figure("contact", made, "Contact force over the motion, the largest of each stretch of depth; white: no contact.", True), *shares]
+    return [Figure("contact", made, f"Contact force over the motion, the largest of each {(s[-1] - s[0]) / len(picture):.2g} m of depth; white: no contact.", True), *shares]
 
 
 def contact_shares(run, found):
     """Of the recorded nodes."""
     s, limits = run.s[run.recorded], (run.s[0], run.s[-1])
     made, axes = plots.profile("share of time in contact [%]", limits)
-    axes.hlines(s, 0, 100 * found.duty, color=BLUE, linewidth=1.1)
+    bars(axes, s, 100 * found.duty, BLUE)
     axes.set_xlim(0, 100)
     duty = Figure("duty", made, "Share of the second half of the motion in contact.")
     made, axes = plots.profile("largest contact force [kN]", limits)
-    axes.hlines(s, 0, found.largest / 1e3, color=ORANGE, linewidth=1.1)
+    bars(axes, s, found.largest / 1e3, ORANGE)
     axes.set_xlim(left=0)
     return [duty, Figure("largest", made, "Largest contact force of each node in the motion.")]
 
@@ -239,7 +267,7 @@ def orbits(run, motion, chosen):
 
 
 def frequency_axes(label):
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     axes.set_yscale("log")
     axes.set_xlabel("frequency [Hz]"), axes.set_ylabel(label)
     return made, axes

@@ -50,7 +50,7 @@ def displacements(run):
     for c, name, unit in components(run):
         if not np.abs(np.stack([low[:, c], high[:, c]])).max() > 0:
             continue
-        made, axes = plots.figure(plots.WIDE, 2.2)
+        made, axes = plots.figure(plots.WIDE, 2.0)
         if run.records:
             axes.fill_between(row, low[:, c], high[:, c], step="mid", color=COLOURS[5], alpha=0.5, linewidth=0, label="range of the motion")
         axes.plot(row, start[:, c], ".", color="black", markersize=3, label="start")

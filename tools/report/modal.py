@@ -42,7 +42,7 @@ def whole_numbers(axes):
 
 def modes_figure(name, rows, columns, label, caption, zero=False):
     """Columns of a full and of a reduced model, a mark for each mode; none where all are missing or 0."""
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     for column, text, marker, colour in columns:
         if column in rows[0] and any(value for value in numbers(rows, column) if math.isfinite(value)):
             axes.plot(numbers(rows, "mode"), numbers(rows, column), marker, color=colour, markersize=5, markerfacecolor="none", label=text)
@@ -63,7 +63,7 @@ def errors_figure(rows):
     made_of = [row for row in rows if isinstance(row.get("error"), float) and row["error"] != 0]
     if not made_of:
         return []
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     axes.set_yscale("log")
     axes.plot(numbers(made_of, "mode"), [abs(x) for x in numbers(made_of, "error")], "o", color=COLOURS[0], markersize=4, label="error")
     estimated = [row for row in made_of if isinstance(row.get("estimate"), float) and row["estimate"] > 0]

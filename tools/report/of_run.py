@@ -59,7 +59,7 @@ def string_sections(page, run):
         page.view(*scene3d.of_string(run))
         page.plots("well", "Well", figures.well(run))
     with page.section(run.path):
-        page.plots("static", "Static state", figures.static_profiles(run))
+        page.plots("static", "Static state", figures.static_profiles(run), after=torque_drag.invitation(run, frame.scene_of(run)))
     with page.section(run.folder / "torque_drag.csv"):
         torque_drag.add(page, run.folder)
     with page.section(run.path):

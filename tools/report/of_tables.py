@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reports of analyses: torque-drag, bha, buckling, campbell, response, modes."""
 import math
+import os
 
 import plots
 from plots import COLOURS, rotating
@@ -23,7 +24,7 @@ def state_name(row):
 
 def along_assembly(name, label, caption, states, value):
     """A line for each state; `value` of a row of bha_profile.csv."""
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     for number, (state, own) in enumerate(states.items()):
         axes.plot(numbers(own, "from_bit"), [value(row) for row in own], color=COLOURS[number % len(COLOURS)], linewidth=1.2, label=state)
     if max(map(abs, axes.dataLim.intervaly)) < ROUNDING:
@@ -31,6 +32,14 @@ def along_assembly(name, label, caption, states, value):
     axes.set_xlabel("distance from the bit [m]"), axes.set_ylabel(label)
     plots.legend_above(axes, 2, -0.25)
     return Figure(name, made, caption, True)
+
+
+def without_common(states):
+    """What the names of all states begin with, for a caption, and the states by the rest of their names."""
+    names = [name.split(", ") for name in states]
+    count = len(os.path.commonprefix([parts[:-1] for parts in names])) if len(names) > 1 else 0
+    common = ", ".join(names[0][:count]) if count else ""
+    return f", {common}" if common else "", {", ".join(parts[count:]): own for parts, own in zip(names, states.values())}
 
 
 def unstable(row):
@@ -66,7 +75,8 @@ def add_bha(page, folder):
     for row in read_table(folder / "bha_profile.csv"):
         if row["weight_on_bit"] >= largest and row["inclination"] == rows[0]["inclination"]:
             states.setdefault(names[row["weight_on_bit"], row["inclination"], row["mode"], row["tool_face"]], []).append(row)
-    found = [along_assembly("bha-high", "to the high side [mm]", "Deflection of the assembly from the axis of the hole.", states, lambda row: 1e3 * row["deflection_high"]),
+    common, states = without_common(states)
+    found = [along_assembly("bha-high", "to the high side [mm]", f"Deflection of the assembly from the axis of the hole{common}.", states, lambda row: 1e3 * row["deflection_high"]),
              along_assembly("bha-right", "to the right side [mm]", "The same to the right, looking down the hole.", states, lambda row: 1e3 * row["deflection_right"]),
              along_assembly("bha-moment", "bending moment [kN m]", "Bending moment.", states, lambda row: math.hypot(row["moment_high"], row["moment_right"]) / 1e3)]
     degree = 180 / math.pi
@@ -81,7 +91,7 @@ def add_bha(page, folder):
 
 def against_weight(name, label, caption, rows, lines, scale):
     """Columns of buckling.csv against the weight on bit; jumps are gaps."""
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     for number, (column, legend) in enumerate(lines):
         for branch in sorted(set(numbers(rows, "branch"))):
             own = [row for row in rows if row["branch"] == branch]
@@ -94,7 +104,7 @@ def against_weight(name, label, caption, rows, lines, scale):
 
 def buckled_shape(rows):
     """The last state to both sides of the hole."""
-    made, axes = plots.figure(plots.WIDE, 2.8)
+    made, axes = plots.figure(plots.WIDE, 2.4)
     for number, (column, legend) in enumerate((("deflection_high", "to the high side"), ("deflection_right", "to the right side"))):
         axes.plot(numbers(rows, "depth"), [1e3 * x for x in numbers(rows, column)], color=COLOURS[number], linewidth=1.2, label=legend)
     axes.set_xlabel("depth [m]"), axes.set_ylabel("deflection [mm]")

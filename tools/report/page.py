@@ -2,7 +2,9 @@
 """Puts sections into one HTML file that needs nothing but itself."""
 import contextlib
 import json
+import math
 import pathlib
+import re
 import string
 from html import escape
 
@@ -11,6 +13,7 @@ from report.files import Unreadable, reading
 WEB = pathlib.Path(__file__).resolve().parent / "web"
 THREE = pathlib.Path("/usr/share/javascript/three")  # of the Debian package libjs-three
 VIEWER = ("three.min.js", "examples/js/controls/OrbitControls.js")
+LEAST_TEXT = 8.5  # [px] of a plot on a narrow screen, which scrolls a plot sideways that needs more room
 LICENCE = """three.js, (c) 2010-2019 three.js authors. Permission is hereby granted, free of charge, to any person obtaining a copy of this software and
 associated documentation files (the "Software"), to deal in the Software without restriction, including without limitation the rights to use, copy, modify, merge,
 publish, distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the Software is furnished to do so, subject to the following
@@ -82,8 +85,8 @@ class Page:
         forces = '<label><input id="view-forces" type="checkbox" checked> contact forces</label>' if is_string else ""
         scale = "lateral scale" if is_string else "displacements"
         turn = "Drag to turn, roll or pinch to zoom, drag with the right button to move."
-        what = " Bore, pipe and lateral displacements are enlarged by the lateral scale, lengths along the well are true." if is_string else ""
-        self.add("space", "In space", template("view.html", scale=scale, forces=forces, note=escape(f"{turn}{what} {note}")))
+        what = "Bore, pipe and lateral displacements are enlarged by the lateral scale, lengths along the well are true." if is_string else ""
+        self.add("space", "In space", template("view.html", scale=scale, forces=forces, turn=escape(turn), note=escape(f"{what} {note}".strip())))
         scene = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")  # no name in it ends the script
         self.scripts += [f"<script>/* {LICENCE} */\n{library}</script>", f"<script>const SCENE = {scene};</script>",
                          f"<script>{(WEB / 'viewer.js').read_text(encoding='utf-8')}</script>"]
@@ -98,8 +101,15 @@ class Page:
                         footer=escape(self.footer), scripts="\n".join(self.scripts))
 
 
+def least_width(svg):
+    """Width [px] at which the smallest text of a plot has LEAST_TEXT."""
+    width = float(re.search(r'viewBox="\S+ \S+ (\S+) ', svg).group(1))
+    sizes = [float(size) for size in re.findall(r"font(?:-size)?: ([\d.]+)px", svg)]
+    return math.ceil(LEAST_TEXT / min(sizes) * width) if sizes else 0
+
+
 def figure_html(figure):
-    return (f'<figure id="{figure.name}" class="{figure.size}"><div class="scrolled" role="img" aria-label="{escape(figure.caption)}">{figure.svg}</div>'
+    return (f'<figure id="{figure.name}" class="{figure.size}" style="--least: {least_width(figure.svg)}px"><div class="scrolled" role="img" aria-label="{escape(figure.caption)}">{figure.svg}</div>'
             f"<figcaption>{escape(figure.caption)}</figcaption></figure>")
 
 

@@ -182,6 +182,17 @@ def von_mises(run, displacement):
     return np.sqrt(axial ** 2 + 3 * (torque * R / J) ** 2)
 
 
+def static_sense(run):
+    """Sense of the rotation of the state at rest: -1 where the surface torque of the summary has the sign of the torque in the first element, to the left."""
+    surface, top = run.value("static.surface_torque"), run.value("static.top_torque")
+    return -1 if surface and top and surface * top > 0 else 1
+
+
+def static_torque(run, sense):
+    """Torque of the elements at rest [N m], positive against the rotation, as the surface torque."""
+    return -sense * run.get("/static/torque")
+
+
 def lateral(run, displacement):
     """Distance of the nodes from the axis of the well [m]."""
     return np.hypot(displacement[..., 0], displacement[..., 1])

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Section of torque and drag: hook loads, torques, tension with the loads at which the string buckles."""
 import math
+import shlex
+from html import escape
 
 import plots
 from plots import COLOURS, GREY
-from report import tables
+from report import deck, tables
 from report.figures import Figure
 from report.files import numbers, read_table
 from report.page import cards
@@ -71,7 +73,7 @@ def tensions(profiles):
     found = []
     for number, (limits, members) in enumerate(groups, 1):
         depth = numbers(members[0][1], "depth")
-        made, axes = plots.figure(plots.WIDE, 4.2)
+        made, axes = plots.figure(plots.WIDE, 3.6)
         for operation, rows, colour in members:
             axes.plot(thousandth(rows, "tension"), numbers(rows, "depth"), color=colour, linewidth=1.3, label=operation)
         for name, dashes in (("sinusoidal", "--"), ("helical", ":")):
@@ -93,7 +95,7 @@ def broomsticks(folder, rows):
     found = []
     frictions = sorted({row["friction"] for row in broom})
     for value, label, title in QUANTITIES:
-        made, axes = plots.figure(plots.WIDE, 4.2)
+        made, axes = plots.figure(plots.WIDE, 3.6)
         axes.set_xlabel(label)
         plots.depth_axis(axes, (0, max(numbers(broom + measured + rows, "bit_depth"))), "depth of the bit")
         for number, (operation, own) in enumerate(by_operation(broom).items()):
@@ -146,6 +148,16 @@ def headline(results):
     if results.value("torque_drag.locked_up"):
         found.append(("Locked up", plain(results.value("torque_drag.locked_up")), "", "combinations of operation and depth", True))
     return cards(found) if found else ""
+
+
+def invitation(run, scene):
+    """The command that adds torque, drag and buckling limits to the page of a run without them; "" where the deck lacks what they need."""
+    if (run.folder / "torque_drag.csv").is_file() or deck.value(scene, "Contact/Friction/Dynamic") is None or "Loads" not in scene:
+        return ""
+    edits = [edit for edit in run.attribute("overrides").splitlines() if edit]
+    switches = [part for edit in edits for part in (("--without", edit[1:]) if edit.startswith("!") else ("--set", edit))]
+    command = shlex.join(["tooljoint", "torque-drag", run.attribute("deck_file"), "--output", str(run.folder), *switches])
+    return f'<p class="remark no-print">Torque, drag and buckling limits on this page: <code>{escape(command)}</code>, or <code>Torque and Drag/After Run</code> in the deck.</p>'
 
 
 def add(page, folder):

@@ -26,7 +26,7 @@ STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "
          "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "svg.fonttype": "none", "svg.hashsalt": "tooljoint", "figure.dpi": 100, "savefig.dpi": 150,
          "legend.frameon": False}
 SLENDER = 2.9  # width of a plot of one column in a report [inch]
-WIDE = 6.2
+WIDE = 4.8
 PAD = 3.0  # of matplotlib's constrained layout, above a title [pt]
 
 
@@ -186,6 +186,6 @@ def log_log(axes: Any, x: Callable[..., str] = plain, y: Callable[..., str] = pl
     logarithmic(axes.yaxis, y)
 
 
-def error_band(axes: Any, x: Any, low: Any, high: Any, colour: str = GREY, text: str | None = None) -> None:
-    """What is uncertain about a curve, pale behind it: between `low` and `high` at each `x`."""
-    axes.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=0, label=text)
+def error_band(axes: Any, x: Any, low: Any, high: Any, colour: str = GREY, text: str | None = None, sideways: bool = False) -> None:
+    """What is uncertain about a curve, pale behind it: between `low` and `high` at each `x`; `sideways`: at each y, where the abscissa is uncertain."""
+    (axes.fill_betweenx if sideways else axes.fill_between)(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=0, label=text)

@@ -220,7 +220,15 @@ std::vector<std::string> next(const Json& summary, const std::string& folder,
   if (ratio && *ratio < 1.0)
     return {"tooljoint run " + file + " --output " + full + cases::fullModelSwitches(deck),
             "tooljoint compare " + shown + " " + full};
-  return {"tooljoint paraview " + shown};
+  std::vector<std::string> more;
+  // the report then shows torque, drag and buckling limits as well
+  if (number(summary, "/static/top_torque") &&
+      !summary.at("/torque_drag/rows"_json_pointer).is_array() && deck.gives("Contact/Friction") &&
+      deck.gives("Loads"))
+    more.push_back("tooljoint torque-drag " + file + " --output " + shown +
+                   cases::overrideSwitches(deck));
+  more.push_back("tooljoint paraview " + shown);
+  return more;
 }
 
 /// Times of the stages and counters of the motion, of --verbose.

@@ -149,12 +149,17 @@ typename std::vector<T>::const_iterator repeated(const std::vector<T>& values) {
 
 }  // namespace
 
-softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
+softstring::TorqueDragSettings torqueDragList(const Scene& scene) {
   const auto spec = softstring::torqueDragParameters();
   softstring::TorqueDragSettings settings;
   const bool given = scene.list().isSublist(spec.name());
   deck::withDefaults(spec, given ? scene.list().sublist(spec.name()) : Teuchos::ParameterList(),
                      [&](const auto& list) { settings = softstring::readTorqueDrag(list); });
+  return settings;
+}
+
+softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
+  auto settings = torqueDragList(scene);
   if (settings.depths.empty())
     for (int i = 1; i <= settings.count; ++i)
       settings.depths.push_back(scene.string.length() * i / settings.count);

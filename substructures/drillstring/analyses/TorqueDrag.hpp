@@ -42,7 +42,10 @@ struct TorqueDragProfile {
   std::optional<StiffLoads> stiff = std::nullopt;  ///< none: not computed at this depth
 };
 
-/// The deck's list `Torque and Drag`, its defaults where the deck has none, with all depths.
+/// The deck's list `Torque and Drag` as it stands there, its defaults where the deck has none.
+softstring::TorqueDragSettings torqueDragList(const Scene& scene);
+
+/// The same with all depths.
 /// DeckError: a depth is below the deck's bit.
 softstring::TorqueDragSettings torqueDragSettings(const Scene& scene);
 
@@ -80,7 +83,13 @@ std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFo
 /// Prints the tables of the deepest bit and writes torque_drag.csv (a row for each depth and
 /// operation), torque_drag_profile.csv and torque_drag_stiff_profile.csv (along the string, at the
 /// deepest bit), those of the calibration, torque_drag.h5 and summary.json. \param fresh depths
-/// that are kept from before are forgotten. Collective.
-void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, bool fresh);
+/// that are kept from before are forgotten. \param announced the case has been announced.
+/// Collective.
+void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, bool fresh,
+                      bool announced = false);
+
+/// True where the deck has torque and drag computed at the end of a run (`After Run`). DeckError:
+/// it cannot be computed.
+bool torqueDragAfterRun(const DrillstringCase& one);
 
 }  // namespace tooljoint::drillstring

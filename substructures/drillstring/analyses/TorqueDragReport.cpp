@@ -138,7 +138,15 @@ void print(const Scene& scene, const std::vector<TorqueDragProfile>& profiles,
 
 }  // namespace
 
-void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, bool fresh) {
+bool torqueDragAfterRun(const DrillstringCase& one) {
+  if (!torqueDragList(one.scene()).afterRun) return false;
+  softModel(one.scene());
+  calibrationOf(one.scene(), torqueDragSettings(one.scene()));
+  return true;
+}
+
+void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, bool fresh,
+                      bool announced) {
   const Scene& scene = one.scene();
   const auto settings = torqueDragSettings(scene);
   cases::AnalysisFiles files(one, folder, "torque_drag", cases::Beside::Results);
@@ -146,7 +154,7 @@ void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, boo
   CalibrationResults calibration;
   files.complete(
       [&] {
-        cases::announce(one);
+        if (!announced) cases::announce(one);
         calibration = calibrationOf(scene, settings);  // its faults before the long work
         profiles = torqueDrag(scene, {one, files.folder().folder(), fresh});
         print(scene, profiles, settings);

@@ -275,7 +275,7 @@
   const byId = (id) => document.getElementById(id);
   const number = (value) => value.toPrecision(3).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
   function showTime() {
-    byId("view-time").textContent = state.sample < 0 ? "at rest" : data.time.at(state.sample).toFixed(3) + " s";
+    byId("view-time").textContent = byId("view-legend-time").textContent = state.sample < 0 ? "at rest" : data.time.at(state.sample).toFixed(3) + " s";
   }
   function setSample(sample) {
     state.sample = sample;
@@ -291,11 +291,12 @@
   }
   function showKey() {
     const f = fields[state.field];
-    byId("view-key").hidden = !f;
+    byId("view-key").hidden = byId("view-legend").hidden = !f;
     if (!f) return;
     const stops = SCENE.colours.filter((_, i) => i % 7 === 0).map((c) => "rgb(" + c.map((x) => Math.round(255 * x)).join(",") + ")");
-    byId("view-bar").style.background = "linear-gradient(to right," + stops.join(",") + ")";
-    byId("view-most").textContent = number(f.largest) + " " + f.unit;
+    for (const bar of document.querySelectorAll(".bar")) bar.style.background = "linear-gradient(to right," + stops.join(",") + ")";
+    byId("view-most").textContent = byId("view-legend-most").textContent = number(f.largest) + " " + f.unit;
+    byId("view-legend-field").textContent = f.label;
   }
   function look(target, distance) {
     controls.target.copy(target);
