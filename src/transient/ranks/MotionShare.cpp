@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"
 #include "model/laws/StatefulPointLaw.hpp"
@@ -27,16 +28,27 @@ std::unique_ptr<RankShare> shareOf(const model::SecondOrderModel& model,
   const bool wanted = options.ranks == RankUse::Divide ||
                       (options.ranks == RankUse::Automatic && model.size() >= fewestToDivide);
   if (!wanted || parallel::size() == 1) return nullptr;
-  if (!integrator.dividesAmongRanks() || hasPointStates(model)) {
-    if (options.ranks == RankUse::Divide)
-      log::warn("The motion is computed by all ranks alike: " +
-                (hasPointStates(model)
-                     ? std::string("a point law has states.")
-                     : "the integrator \"" + options.integrator + "\" does not divide it."));
+  const bool isDemanded = options.ranks == RankUse::Divide;
+  if (!integrator.dividesAmongRanks()) {
+    const std::string why =
+        "the integrator \"" + options.integrator + "\" does not divide a motion";
+    if (isDemanded)
+      throw DeckError("Transient/Ranks is \"Divide\", but " + why +
+                      " among ranks. Use \"Generalized-alpha\", \"RK4\" or \"RK4 adaptive\", or "
+                      "leave Ranks \"Automatic\".");
+    log::info("ranks       all compute the same motion: " + why);
+    return nullptr;
+  }
+  if (hasPointStates(model)) {
+    const std::string why = "a point law has states";
+    if (isDemanded)
+      log::warn("The motion is computed by all ranks alike: " + why + ".");
+    else
+      log::info("ranks       all compute the same motion: " + why);
     return nullptr;
   }
   auto share = RankShare::of(model);
-  if (!share && options.ranks == RankUse::Divide)
+  if (!share && isDemanded)
     log::warn("The motion is computed by all ranks alike: the model cannot be cut into " +
               std::to_string(parallel::size()) + " pieces.");
   return share;

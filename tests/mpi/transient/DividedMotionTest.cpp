@@ -7,6 +7,7 @@
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
+#include "tests/support/ErrorText.hpp"
 #include "tests/unit/transient/StatefulModels.hpp"
 #include "transient/compiled/MassFactor.hpp"
 #include "transient/ranks/RankShare.hpp"
@@ -351,6 +352,16 @@ TEST(DividedMotion, IsComputedByAllAlikeWhereItCannotBeDivided) {
   auto states = shapes()[0].second;
   addStatefulLaws(states);
   EXPECT_EQ(integrate(states, divided(), samples).ranks, 1);
+}
+
+TEST(DividedMotion, IsRefusedByIntegratorsThatCannot) {
+  if (parallel::size() == 1) GTEST_SKIP() << "nothing is divided";
+  auto wanted = divided();
+  wanted.integrator = "SUNDIALS CVODE";
+  Keep samples;
+  const auto text = errorText([&] { integrate(shapes()[0].second, wanted, samples); });
+  if (text.find("built without SUNDIALS") != std::string::npos) GTEST_SKIP() << text;
+  EXPECT_NE(text.find("does not divide a motion among ranks"), std::string::npos) << text;
 }
 
 }  // namespace DividedMotionTest
