@@ -185,9 +185,9 @@ def followed():
 
 
 def documented():
-    """The table of docs/drilling.md about xml/buckling_100m.xml is what the program says."""
+    """The table of docs/guide/buckling.md about xml/buckling_100m.xml is what the program says."""
     root = pathlib.Path(__file__).resolve().parents[2]
-    text = (root / "docs/drilling.md").read_text(encoding="utf-8")
+    text = (root / "docs/guide/buckling.md").read_text(encoding="utf-8")
     section = text[text.index("`xml/buckling_100m.xml` is a 5 in drill pipe"):]
     section = section[:section.index("It jumps to helices")]
     table = [line.split("|")[1:-1] for line in section.splitlines() if line.startswith("| ") and line[2].isdigit()]
@@ -200,7 +200,7 @@ def documented():
         state = min(states, key=lambda one, weight=float(shown[0]): abs(1e-3 * one["weight_on_bit"] - weight))
         for (key, scale), text in zip(columns, shown):
             bound = 1.5 * 10**-len(text.partition(".")[2])
-            expect(f"docs/drilling.md, {shown[0]} kN: {key} {text}", abs(scale * (state[key] or 0.0) - float(text)) <= bound, state[key])
+            expect(f"docs/guide/buckling.md, {shown[0]} kN: {key} {text}", abs(scale * (state[key] or 0.0) - float(text)) <= bound, state[key])
 
 
 def refused(what, sentence, code, *arguments):

@@ -20,7 +20,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import TIME_FACTOR, expect, finish  # noqa: E402
 
 PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-RUN = ("docs/drilling.md", "docs/report.md", "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md", "docs/guide/coupling.md", "docs/guide/troubleshooting.md",
+RUN = (*[f"docs/guide/{page}.md" for page in ("torque-drag", "buckling", "bottom-hole-assembly", "bit-and-top-drive", "critical-speeds", "figures-of-merit", "measured-logs", "maps")], "docs/report.md", "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md", "docs/guide/coupling.md", "docs/guide/troubleshooting.md",
        "docs/guide/studies.md")
 CHECKED = "docs/validation.md"
 SHORT = {"run": ["Transient/End Time=0.02"], "study": ["Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"],

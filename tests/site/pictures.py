@@ -54,8 +54,8 @@ def template(name, file):
 
 
 def with_response(scene, file):
-    """The scene with the list Response that docs/drilling.md shows."""
-    text = (FIGURES.parent / "drilling.md").read_text(encoding="utf-8")
+    """The scene with the list Response that docs/guide/critical-speeds.md shows."""
+    text = (FIGURES.parent / "guide/critical-speeds.md").read_text(encoding="utf-8")
     shown = next(block for block in re.findall(r"```xml\n(.*?)```", text, re.DOTALL) if 'name="Response"' in block)
     head, end, _ = (XML / scene).read_text(encoding="utf-8").rpartition("</ParameterList>")
     (WORK / file).write_text((head + shown + end).replace('"components/', f'"{XML}/components/'), encoding="utf-8")
