@@ -124,8 +124,15 @@ void addDeckOptions(CLI::App& command, Options& options, Output output,
                 ? "folder for the results (default: results/<name of the deck>" + suffix + ")"
                 : "folder for the tables (default: none are written)")
         ->type_name("DIR");
-  if (output == Output::Always)
-    command.add_flag("--quiet,-q", options.quiet, "print warnings and errors only");
+  command.add_flag("--quiet,-q", options.quiet, "print warnings and errors only");
+}
+
+/// More lines, of a command that ends with a screen.
+void addVerbose(CLI::App& command, Options& options) {
+  command
+      .add_flag("--verbose,-v", options.verbose,
+                "print the times of the stages, counters and memory, too")
+      ->excludes("--quiet");
 }
 
 /// Reads the command line; an exit code where nothing is left to do (help, or an error that has
@@ -178,6 +185,7 @@ void addStudies(CLI::App& program, Options& options, std::function<void()>& comm
   auto* study = program.add_subcommand(
       "study", "speed against error: the runs of the deck's Study list against its reference run");
   addDeckOptions(*study, options, Output::Always, "_study");
+  addVerbose(*study, options);
   addRowOptions(*study, options, "\"reference\", or its number (the commands of --plan)");
   study
       ->add_option(
@@ -189,6 +197,7 @@ void addStudies(CLI::App& program, Options& options, std::function<void()>& comm
   auto* map = program.add_subcommand(
       "map", "figures over a grid of parameters: the deck's Map list as table and coloured maps");
   addDeckOptions(*map, options, Output::Always, "_map");
+  addVerbose(*map, options);
   addRowOptions(*map, options, "its number in map.csv (the commands of --plan)");
   map->callback([&] { command = [&] { tooljoint::app::map(options); }; });
 }
@@ -205,6 +214,7 @@ void addReport(CLI::App& program, Options& options, std::function<void()>& comma
       ->required();
   report->add_option("--output,-o", options.output, "file to write (default: DIR/report.html)")
       ->type_name("FILE");
+  report->add_flag("--quiet,-q", options.quiet, "print warnings and errors only");
   report->callback(
       [&] { command = [&] { tooljoint::app::report(options.reported, options.output); }; });
 }
@@ -232,10 +242,7 @@ void addRun(CLI::App& program, Options& options, std::function<void()>& command)
   auto* runCommand = program.add_subcommand(
       "run", "path, static state, reduction, transient: from deck to results");
   addDeckOptions(*runCommand, options, Output::Always);
-  runCommand
-      ->add_flag("--verbose,-v", options.verbose,
-                 "print the times of the stages and the counters of the motion, too")
-      ->excludes("--quiet");
+  addVerbose(*runCommand, options);
   runCommand->add_option("--restart", options.restart, "folder of an interrupted run to go on from")
       ->type_name("DIR");
   runCommand->callback([&] { command = [&] { tooljoint::app::run(options); }; });
@@ -254,6 +261,7 @@ void addLooks(CLI::App& program, Options& options, std::function<void()>& comman
   auto* modesCommand = program.add_subcommand(
       "modes", "eigenfrequencies and damping of the full and the coupled model; bases on request");
   addDeckOptions(*modesCommand, options, Output::Wanted);
+  addVerbose(*modesCommand, options);
   modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
       ->check(aboveZero);
   modesCommand->add_flag("--coupled", options.coupledOnly,
@@ -283,6 +291,7 @@ void addAnalysis(CLI::App& program, Options& options, std::function<void()>& com
   std::string suffix = std::string("_") + analysis.name;
   std::replace(suffix.begin(), suffix.end(), '-', '_');
   addDeckOptions(*added, options, Output::Always, suffix);
+  addVerbose(*added, options);
   added->add_flag(
       "--fresh", options.fresh,
       std::string("forget the ") + analysis.steps + " an earlier command left in the folder");

@@ -16,6 +16,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from beam_theory import Beam  # noqa: E402
 from checks import expect, finish, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
 SOURCES = pathlib.Path(sys.argv[3])
 BORE, OUTER, INNER, YOUNG, DENSITY, GRAVITY = 0.108, 0.08, 0.036, 2.1e11, 7850.0, 9.81
@@ -85,6 +86,7 @@ def run(file, *settings, folder=None, ranks=1):
     folder = folder or "out_" + pathlib.Path(file).stem
     done = tooljoint("bha", file, "--output", folder, *(part for one in settings for part in ("--set", one)), ranks=ranks)
     expect(f"bha of {file} ends well {settings}", done.returncode == 0, done.stderr)
+    expect_screen(done, folder, "bha")
     found = rows(folder, "bha.csv")
     for name in ("contacts", "profile"):
         lines = rows(folder, f"bha_{name}.csv")

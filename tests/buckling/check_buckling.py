@@ -12,6 +12,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
 SOURCES = pathlib.Path(sys.argv[3])
 BORE, OUTER, INNER, YOUNG, DENSITY, GRAVITY = 0.1, 0.05, 0.04, 2.1e11, 7850.0, 9.81
@@ -62,6 +63,7 @@ def run(file, *settings, folder=None, ranks=1):
     folder = folder or "out_" + pathlib.Path(file).stem
     done = tooljoint("buckling", file, "--output", folder, *(part for one in settings for part in ("--set", one)), ranks=ranks)
     expect(f"buckling of {file} ends well {settings}", done.returncode == 0, done.stderr)
+    expect_screen(done, folder, "buckling")
     found = rows(folder)
     expect("weights of a branch grow", all(a["weight_on_bit"] < b["weight_on_bit"] for a, b in zip(found, found[1:])))
     return found, summary(folder)

@@ -12,6 +12,7 @@ import xml.etree.ElementTree as xml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
 FOOT = 0.3048  # m
 SHORT = ("--set", "Transient/End Time=0.05")
@@ -54,7 +55,7 @@ def wells():
     """`template well` and the deck of `new` are one well; its hook load is that of torque and drag."""
     text = printed("well.xml", "well")
     expect("template well: a page, of tubulars of the library", "fill*5 in stand" in text and len(text.splitlines()) < 70, str(len(text.splitlines())))
-    alone = runs("well.xml")
+    alone = runs("well.xml", "--set", "Transient/End Time=5", "--set", "Transient/Progress=false")
     said = " ".join(tooljoint("check", "well.xml").stdout.split())
     stations = [float(number) for number in re.search(r'"\{([\d., ]+)\}"', text)[1].split(",")]
     depth, vertical, length = stations[-3] * FOOT, tvd(stations) * FOOT, 8 * 9.45 + 0.35  # collars and bit
@@ -75,7 +76,8 @@ def wells():
     folder = runs("my_well/my_well.xml", *SHORT)
     loads = [s["static"]["hook_load"] for s in (alone, folder) if s]
     expect("both wells have one hook load", len(loads) == 2 and abs(loads[0] / loads[1] - 1) < 1e-9, str(loads))
-    done = tooljoint("torque-drag", "well.xml", "--output", "drag")
+    done = tooljoint("torque-drag", "well.xml", "--output", "drag", "--verbose")
+    expect("torque-drag --verbose: its wall time", "\nwall time   " in done.stdout, done.stdout[-400:])
     with open("drag/torque_drag.csv", encoding="utf-8") as file:
         rows = [{name.split(" [")[0]: value for name, value in row.items()} for row in csv.DictReader(file)]
     deepest = max(float(row["bit_depth"]) for row in rows)
@@ -102,15 +104,17 @@ def parts():
     printed("parts.xml", "parts")
     runs("parts.xml", *SHORT)
     done = tooljoint("modes", "parts.xml", "--count", "3", "--output", "parts_modes")
+    expect_screen(done, "parts_modes", "modes")
     with open("parts_modes/modes.csv", encoding="utf-8") as file:
         first = float(next(csv.DictReader(file))["full [Hz]"])
     exact = 2 * math.sqrt(1e6) * math.sin(math.pi / 32) / (2 * math.pi)
     expect("parts: the first frequency is that of eight springs", done.returncode == 0 and abs(first / exact - 1) < 1e-9, f"{first} {exact}")
     printed("bar.json", "part")
     files = [f"--set=Parts/Imported/{part}/File=bar.json" for part in ("first", "second")]
-    done = tooljoint("modes", "parts.xml", "--count", "3", "--output", "file_modes", *files)
-    expect("parts: those of bar.json are the same", done.returncode == 0 and pathlib.Path("file_modes/modes.csv").read_text() == pathlib.Path("parts_modes/modes.csv").read_text(),
-           done.stderr)
+    named = tooljoint("modes", "parts.xml", "--count", "3", "--output", "file_modes", "--quiet", *files)
+    expect("modes --quiet prints nothing", named.stdout == "", named.stdout)
+    expect("parts: those of bar.json are the same", named.returncode == 0 and pathlib.Path("file_modes/modes.csv").read_text() == pathlib.Path("parts_modes/modes.csv").read_text(),
+           named.stderr)
     beside = tooljoint("check", "parts.xml", "--set", 'Parts/Imported/first/File={"format": "tooljoint part 1", "components": ["u"], "dofs": [[1, "u"]], "mass": "M.mtx", "stiffness": [[1]]}')
     expect("parts: a part in the deck has no files beside it", beside.returncode == 2 and 'names the file "M.mtx", but stands in no folder' in beside.stderr, beside.stderr)
     asked = tooljoint("modes", "parts.xml", "--count", "3", "--bases")

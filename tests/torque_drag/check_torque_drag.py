@@ -18,6 +18,7 @@ import h5py
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
 SOURCES = pathlib.Path(sys.argv[3])
 DECK = str(SOURCES / "xml/build_hold_1400m.xml")
@@ -33,6 +34,7 @@ def run(folder, *settings, ranks=1, deck=DECK):
     arguments = [part for setting in settings for part in ("--set", setting)]
     done = tooljoint("torque-drag", deck, "--output", folder, *arguments, ranks=ranks)
     expect(f"torque-drag ends well {settings}", done.returncode == 0, done.stderr)
+    expect_screen(done, folder, "torque_drag")
     return rows(folder)
 
 
