@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "app/commands/Commands.hpp"
+#include "app/text/FirstWords.hpp"
 #include "app/text/ManualPages.hpp"
 #include "app/text/UnknownWords.hpp"
 #include "common/Error.hpp"
@@ -417,20 +418,6 @@ void addTexts(CLI::App& program, Texts& texts, std::function<void()>& command) {
   newCommand->callback([&] { command = [&] { tooljoint::app::newFolder(texts.folder); }; });
 }
 
-/// What the program says without a command.
-constexpr const char* firstWords =
-    "Tooljoint: component mode synthesis, and the drillstring simulator built on it.\n\n"
-    "Begin with a folder of your own:\n\n"
-    "  tooljoint new my_well           a deck that runs, its survey and a README\n"
-    "  cd my_well\n"
-    "  tooljoint check my_well.xml     what is modelled\n"
-    "  tooljoint run my_well.xml       static state and motion, into results/my_well\n"
-    "  xdg-open results/my_well/report.html    figures, plots and the motion in a browser\n\n"
-    "or with a deck to edit:\n\n"
-    "  tooljoint template well > mine.xml\n\n"
-    "tooljoint --help lists the commands, tooljoint COMMAND --help what each takes, and\n"
-    "tooljoint doc the parameters of a deck.\n";
-
 int run(int argc, char** argv) {
   namespace app = tooljoint::app;
   CLI::App program{
@@ -465,7 +452,7 @@ int run(int argc, char** argv) {
     return code(ExitCode::Done);
   }
   if (!command) {
-    say(std::cerr, firstWords);
+    say(std::cerr, app::firstWords);
     return code(ExitCode::Usage);
   }
   std::vector<std::string> edits;

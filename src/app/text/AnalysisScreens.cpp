@@ -16,6 +16,7 @@
 #include "common/Text.hpp"
 #include "common/report/Detail.hpp"
 #include "common/report/Log.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/TextFile.hpp"
 
 namespace tooljoint::app {
@@ -31,6 +32,15 @@ std::string text(const screen::Json& row, const char* key) {
 }
 
 std::string percent(double share) { return brief(100.0 * share, 3) + " %"; }
+
+/// SI values, "1 to 2 kN", in the unit that they are printed in.
+std::string inUnit(const std::vector<double>& values, const std::string& unit, int digits) {
+  const deck::PrintedUnit printed(unit);
+  std::string out;
+  for (const double value : values)
+    out += (out.empty() ? "" : " to ") + brief(printed(value), digits);
+  return printed.name().empty() ? out : out + " " + printed.name();
+}
 
 /// A row and its number of this key; none where all are null. `better(a, b)`: a is to be shown.
 struct Extreme {
@@ -141,7 +151,7 @@ void ofResponse(const screen::Json& summary) {
   line("points", fixed(*number(summary, "/response/points"), 0),
        fixed(*number(summary, "/response/dofs"), 0) + " dofs");
   if (peak.row != nullptr)
-    line("largest peak", brief(peak.value, 4) + " " + text(*peak.row, "unit"),
+    line("largest peak", inUnit({peak.value}, text(*peak.row, "unit"), 4),
          text(*peak.row, "output") + " at " + fixed(peak.row->at("speed_rpm"), 1) + " rpm, " +
              fixed(peak.row->at("hz"), 3) + " Hz");
   if (const auto moment = number(summary, "/response/bending_moment"))
@@ -210,10 +220,9 @@ void ofMap(const screen::Json& summary) {
     if (!value.at("min").is_number()) continue;
     const bool judged =
         value.at("unsafe_above").is_number() || value.at("unsafe_below").is_number();
-    const auto unit = text(value, "unit");
     line(text(value, "name"),
-         brief(value.at("min"), 3) + " to " + brief(value.at("max"), 3) +
-             (unit.empty() ? "" : " " + unit),
+         inUnit({value.at("min").get<double>(), value.at("max").get<double>()}, text(value, "unit"),
+                3),
          judged ? std::to_string(value.at("unsafe").get<long>()) + " of " +
                       std::to_string(value.at("known").get<long>()) + " points unsafe"
                 : "");
