@@ -149,6 +149,10 @@ def check_words():
             spelled(command, name, known)
         count += len(commands)
     expect("the pages have commands", count > 100, count)
+    made = re.search(r"Every table and figure of record.*?\nendif", (PROJECT / "cmake/DeveloperTools.cmake").read_text(encoding="utf-8"), re.S)[0]
+    written = {tool.stem for tool in PROJECT.glob("tools/*.py") if re.search(r"writes? docs/|rewrites (the tables|tables and figures) of docs/|rewrites docs/", tool.read_text(encoding="utf-8"))}
+    absent = [name for name in written | {"docs-pictures", "update-docs", "hard-cases", "strategies"} if not re.search(rf"[( ]({name}|{name.replace('_', '-')})[ )]", made)]
+    expect("the target records makes what tools write into docs/", len(written) > 4 and not absent, f"{absent} {sorted(written)}")
 
 
 def main():

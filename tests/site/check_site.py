@@ -119,8 +119,12 @@ def main():
     expect(f"the {sum(len(page.links) for page in pages.values())} links of {len(pages)} pages lead somewhere", not wrong, "\n".join(wrong))
     outside = unlisted(pages, site / "docs/index.html")
     expect("every page stands in the navigation", not outside, ", ".join(outside))
-    large = [path for kind in ("tutorial_*", "report_*") for path in (project / "docs/figures").glob(kind) if path.stat().st_size > LARGEST_PICTURE]
-    expect("pictures of reports are small", not large, ", ".join(path.name for path in large))
+    figures = sorted((project / "docs/figures").iterdir())
+    large = [path.name for path in figures if path.stat().st_size > LARGEST_PICTURE]
+    expect("figures are small", figures and not large, ", ".join(large))
+    written = "".join(path.read_text(encoding="utf-8") for path in [*(project / "docs").rglob("*.md"), project / "README.md"])
+    unseen = [path.name for path in figures if f"figures/{path.name}" not in written]
+    expect("every figure is on a page", not unseen, ", ".join(unseen))
     if (build / "python/tooljoint/__init__.py").exists():
         documented(build / "python", pages, site / "docs/api")
     if browser.program():
