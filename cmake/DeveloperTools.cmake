@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Targets for developers: `cms-variants` runs all bases anew and rewrites docs/cms-variants.md, `format` rewrites the sources with clang-format, `tidy` runs clang-tidy (in a build of its own, over the sources that are compiled together), `mutants` runs the mutation check of tools/mutants in a copy of the sources.
+# Targets for developers: `cms-variants` runs all bases anew and rewrites docs/cms-variants.md, `records` writes all tables and figures of record, `format` rewrites the sources with clang-format, `tidy` runs clang-tidy (in a build of its own, over the sources that are compiled together), `mutants` runs the mutation check of tools/mutants in a copy of the sources.
 find_program(CLANG_FORMAT clang-format)
 if(CLANG_FORMAT)
   file(GLOB_RECURSE formatted CONFIGURE_DEPENDS src/*.[ch]pp substructures/*.[ch]pp tests/*.[ch]pp examples/*.[ch]pp benchmarks/*.[ch]pp)
@@ -31,6 +31,24 @@ find_program(PYTHON3_FOR_FIGURES NAMES /usr/bin/python3 python3)
 if(PYTHON3_FOR_FIGURES)
   add_custom_target(cms-variants COMMAND ${PYTHON3_FOR_FIGURES} ${PROJECT_SOURCE_DIR}/tools/cms_variants.py --program $<TARGET_FILE:tooljoint>
     --work ${PROJECT_BINARY_DIR}/cms_variants --fresh DEPENDS tooljoint USES_TERMINAL VERBATIM)
+endif()
+
+# Every table and figure of record, one after the other so that times are those of one run; hours. Runs that are in the build folder already
+# are not repeated by the tools that keep them.
+if(PYTHON3_FOR_FIGURES AND (BUILD_TESTING OR NOT DEFINED BUILD_TESTING))
+  set(records COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR})  # the benchmarks, too
+  foreach(target update-docs docs-pictures cms-variants hard-cases strategies)
+    list(APPEND records COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target ${target})
+  endforeach()
+  foreach(tool validation step_accuracy speed_against_error scale)
+    set(more)
+    if(tool STREQUAL speed_against_error)
+      set(more --benchmarks ${PROJECT_BINARY_DIR}/benchmarks)
+    endif()
+    list(APPEND records COMMAND ${PYTHON3_FOR_FIGURES} ${PROJECT_SOURCE_DIR}/tools/${tool}.py --program $<TARGET_FILE:tooljoint>
+      --work ${PROJECT_BINARY_DIR}/records/${tool} ${more})
+  endforeach()
+  add_custom_target(records ${records} DEPENDS tooljoint USES_TERMINAL VERBATIM)
 endif()
 
 find_program(PYTHON3_FOR_MUTANTS NAMES /usr/bin/python3 python3)

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The files of xml/templates as texts in the program: generated/Templates.cpp defines templateFiles() of src/app/text/Templates.hpp.
-file(GLOB template_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/xml/templates/*.*)
-set(TEMPLATE_TEXTS)
-foreach(file ${template_files})
-  get_filename_component(name ${file} NAME)
-  file(READ ${file} text)
-  string(APPEND TEMPLATE_TEXTS "      {\"${name}\", R\"~(${text})~\"},\n")
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-endforeach()
-configure_file(${PROJECT_SOURCE_DIR}/cmake/Templates.cpp.in ${PROJECT_BINARY_DIR}/generated/Templates.cpp @ONLY)
-target_sources(tooljoint PRIVATE ${PROJECT_BINARY_DIR}/generated/Templates.cpp)
+# Files as texts in the libraries and the program: xml/templates as templateFiles() of src/app/text/Templates.hpp, xml/components as
+# componentLibraries() of substructures/drillstring/assembly/Libraries.hpp.
+
+# tooljoint_texts(TARGET NAME KEY FILES...): cmake/NAME.cpp.in with the FILES as TEXTS, each under its KEY (NAME, NAME_WE), is a source of TARGET.
+function(tooljoint_texts target name key)
+  set(TEXTS)
+  foreach(file ${ARGN})
+    get_filename_component(called ${file} ${key})
+    file(READ ${file} text)
+    string(APPEND TEXTS "      {\"${called}\", R\"~(${text})~\"},\n")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  endforeach()
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/${name}.cpp.in ${PROJECT_BINARY_DIR}/generated/${name}.cpp @ONLY)
+  target_sources(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated/${name}.cpp)
+endfunction()

@@ -6,8 +6,10 @@ and on a repository page.
 """
 import pathlib
 import re
+import sys
 
 PROJECT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(PROJECT / "docs"))
 
 project = "Tooljoint"
 author = "The Tooljoint authors"
@@ -16,7 +18,8 @@ release = re.search(r"project\(Tooljoint VERSION (\S+)", (PROJECT / "CMakeLists.
 root_doc = "docs/index"
 include_patterns = ["docs/**.md", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/*/README.md"]
 exclude_patterns = ["build", "results", ".*", "src", "substructures", "tests", "tools", "xml"]
-extensions = ["myst_parser", "sphinx.ext.mathjax", "breathe"]
+extensions = ["myst_parser", "sphinx.ext.mathjax", "breathe", "python_reference"]
+add_module_names = False
 
 myst_heading_anchors = 5
 myst_enable_extensions = ["dollarmath", "amsmath"]

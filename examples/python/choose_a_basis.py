@@ -3,6 +3,7 @@
 """Choose a basis: how many coordinates does each reduction method need for the lowest ten frequencies of a beam of three parts, and does the
 error estimate, which does not know the full model, tell the same? A method written here in a few lines takes part.
 """
+# %% Definitions
 import common  # beside this script
 import numpy as np
 import tooljoint as tj
@@ -34,40 +35,39 @@ def beam_of_parts(elements):
     return parts
 
 
-def main():
-    options = common.options(__doc__)
-    parts = beam_of_parts(10 if options.short else 30)
-    methods = ["Guyan", "Craig-Bampton", "Rubin", "Krylov", "Inverse Steps"]
-    counts = (2, 4, 8) if options.short else (2, 4, 6, 8, 12, 16)
-    full = tj.couple(parts)
-    figure, (left, right) = common.figure(2)
-    for method in methods:
-        sizes, errors, estimates = [], [], []
-        for count in counts:
-            synthesis = tj.synthesise(parts, method, modes=count)
-            rows = tj.compare_modes(synthesis, 10)
-            sizes.append(len(synthesis.model))
-            # a mode of the full model that the reduced one has not
-            errors.append(max(1.0 if row["error"] is None else abs(row["error"]) for row in rows))
-            known = [row["estimate"] for row in rows if row["estimate"] is not None]  # not of every basis
-            estimates.append(max(known, default=np.nan))
-        line, = left.semilogy(sizes, errors, "o-", label=method)
-        right.loglog(errors, estimates, "o", color=line.get_color(), label=method)
-        print(f"{method:14}", *(f"{size:3}: {error:.1e}" for size, error in zip(sizes, errors)))
-        assert errors[-1] < errors[0], f"{method}: more modes are not better: {errors}"
-    bounds = right.get_xlim()
-    right.loglog(bounds, bounds, color="0.8", zorder=0)
-    left.set(title=f"Ten frequencies of {len(full)} dofs", xlabel="Coordinates", ylabel="Largest relative error")
-    right.set(title="The estimate does not know the full model", xlabel="Error", ylabel="Estimated error")
-    left.legend()
-    common.save(figure, options, "choose_a_basis")
+# %% Options and parts
+options = common.options(__doc__)
+parts = beam_of_parts(10 if options.short else 30)
+methods = ["Guyan", "Craig-Bampton", "Rubin", "Krylov", "Inverse Steps"]
+counts = (2, 4, 8) if options.short else (2, 4, 6, 8, 12, 16)
 
-    chosen = tj.synthesise(parts, "Craig-Bampton", frequency_tolerance=1e-4, estimated_frequencies=10)
-    kept = ", ".join(f"{part.modes} of {part.name}" for part in chosen.parts)
-    worst = max(row["error"] for row in tj.compare_modes(chosen, 10))
-    print(f"A tolerance of 1e-4 keeps {kept}: error {worst:.1e}.")
-    assert worst < 1e-4
+# %% Errors and estimates of each method
+full = tj.couple(parts)
+figure, (left, right) = common.figure(2)
+for method in methods:
+    sizes, errors, estimates = [], [], []
+    for count in counts:
+        synthesis = tj.synthesise(parts, method, modes=count)
+        rows = tj.compare_modes(synthesis, 10)
+        sizes.append(len(synthesis.model))
+        # a mode of the full model that the reduced one has not
+        errors.append(max(1.0 if row["error"] is None else abs(row["error"]) for row in rows))
+        known = [row["estimate"] for row in rows if row["estimate"] is not None]  # not of every basis
+        estimates.append(max(known, default=np.nan))
+    line, = left.semilogy(sizes, errors, "o-", label=method)
+    right.loglog(errors, estimates, "o", color=line.get_color(), label=method)
+    print(f"{method:14}", *(f"{size:3}: {error:.1e}" for size, error in zip(sizes, errors)))
+    assert errors[-1] < errors[0], f"{method}: more modes are not better: {errors}"
+bounds = right.get_xlim()
+right.loglog(bounds, bounds, color="0.8", zorder=0)
+left.set(title=f"Ten frequencies of {len(full)} dofs", xlabel="Coordinates", ylabel="Largest relative error")
+right.set(title="The estimate does not know the full model", xlabel="Error", ylabel="Estimated error")
+left.legend()
+common.save(figure, options, "choose_a_basis")
 
-
-if __name__ == "__main__":
-    main()
+# %% A tolerance chooses the modes
+chosen = tj.synthesise(parts, "Craig-Bampton", frequency_tolerance=1e-4, estimated_frequencies=10)
+kept = ", ".join(f"{part.modes} of {part.name}" for part in chosen.parts)
+worst = max(row["error"] for row in tj.compare_modes(chosen, 10))
+print(f"A tolerance of 1e-4 keeps {kept}: error {worst:.1e}.")
+assert worst < 1e-4

@@ -2,6 +2,7 @@
 """What the examples share: their options, figures, and plane beam elements."""
 import argparse
 import pathlib
+import sys
 
 import numpy as np
 import scipy.sparse as sparse
@@ -13,7 +14,7 @@ def options(text):
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--short", action="store_true", help="a coarse model and few runs: seconds")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("results/python"), help="folder of figures and results (default: results/python)")
-    given = parser.parse_args()
+    given = parser.parse_args([] if "ipykernel" in sys.modules else None)  # the words of a notebook's kernel are not ours
     given.output.mkdir(parents=True, exist_ok=True)
     return given
 

@@ -8,6 +8,7 @@
       |       |           while a guy rope, a law written here, holds the corner 3.
       1       2
 """
+# %% Definitions
 import common  # beside this script
 import numpy as np
 import tooljoint as tj
@@ -36,53 +37,51 @@ def member(name, elements):
     return part, nodes, (c, s)
 
 
-def main():
-    options = common.options(__doc__)
-    elements = 6 if options.short else 20
-    parts = [member(name, elements)[0] for name in MEMBERS]
-    full, reduced = tj.couple(parts), tj.synthesise(parts, "Craig-Bampton", modes=6)
-    comparison = tj.compare_modes(reduced, 8)
-    for row in comparison:
-        print(f"{row['full_hz']:9.4f} Hz   error {row['error']:8.1e}   estimate {row['estimate']:8.1e}   MAC {row['mac']:.6f}")
-    worst = max(row["error"] for row in comparison)
-    assert 0 <= worst < 1e-3, f"the reduced frame is wrong by {worst:.1e}"
+# %% Parts, full and reduced
+options = common.options(__doc__)
+elements = 6 if options.short else 20
+parts = [member(name, elements)[0] for name in MEMBERS]
+full, reduced = tj.couple(parts), tj.synthesise(parts, "Craig-Bampton", modes=6)
+comparison = tj.compare_modes(reduced, 8)
+for row in comparison:
+    print(f"{row['full_hz']:9.4f} Hz   error {row['error']:8.1e}   estimate {row['estimate']:8.1e}   MAC {row['mac']:.6f}")
+worst = max(row["error"] for row in comparison)
+assert 0 <= worst < 1e-3, f"the reduced frame is wrong by {worst:.1e}"
 
-    corner = [reduced.model.position(3, component) for component in ("u", "v")]
-    push = np.zeros(len(reduced.model))
-    push[reduced.model.position(5, "u")] = 20e3
-    end = 0.3 if options.short else 1.5
-    motions = {}
-    for rope in (False, True):
-        model = reduced.model.copy()
-        model.add_load(push, "shaker near the lowest mode", lambda t: np.sin(2 * np.pi * 3.0 * t))
-        model.add_damping(1e-4 * model.stiffness())
-        if rope:
-            model.add_points("guy", tj.law("Guy Rope", stiffness="20 kN/mm", damping=2e3), np.eye(len(model))[corner], nodes=[3])
-        motions["with the rope" if rope else "free"] = tj.integrate(model, end, step="0.5 ms", sampling_interval="2.5 ms")
+# %% Motions with and without the rope
+corner = [reduced.model.position(3, component) for component in ("u", "v")]
+push = np.zeros(len(reduced.model))
+push[reduced.model.position(5, "u")] = 20e3
+end = 0.3 if options.short else 1.5
+motions = {}
+for rope in (False, True):
+    model = reduced.model.copy()
+    model.add_load(push, "shaker near the lowest mode", lambda t: np.sin(2 * np.pi * 3.0 * t))
+    model.add_damping(1e-4 * model.stiffness())
+    if rope:
+        model.add_points("guy", tj.law("Guy Rope", stiffness="20 kN/mm", damping=2e3), np.eye(len(model))[corner], nodes=[3])
+    motions["with the rope" if rope else "free"] = tj.integrate(model, end, step="0.5 ms", sampling_interval="2.5 ms")
 
-    figure, (shapes, history) = common.figure(2)
-    modes = tj.modes(reduced, 2)
-    recovered = (reduced.model.recovery @ modes.shapes).reshape(-1, 3, 2)
-    place = {node: i for i, node in enumerate(reduced.model.recovery_nodes)}
-    for name in MEMBERS:
-        _, nodes, _ = member(name, elements)
-        nodes = nodes[::3]
-        straight = np.linspace(CORNERS[nodes[0]], CORNERS[nodes[-1]], len(nodes))
-        shapes.plot(*straight.T, color="0.8")
-        for k, colour in ((0, "C0"), (1, "C1")):
-            moved = straight + [recovered[place[node], :2, k] / abs(recovered[:, :2, k]).max() if node in place else (0, 0) for node in nodes]
-            shapes.plot(*moved.T, color=colour, label=f"{modes.frequency[k]:.2f} Hz" if name == "tie beam" else None)
-    shapes.set(title="Two lowest modes, reduced", aspect="equal", xlabel="x [m]", ylabel="y [m]")
-    shapes.legend()
-    for name, motion in motions.items():
-        history.plot(motion.time, 1e3 * motion.at(5, "u"), label=name)
-    history.set(title="The apex, shaken", xlabel=motion.time.label, ylabel="Displacement u [mm]")
-    history.legend()
-    common.save(figure, options, "frame_of_parts")
-    free, held = (abs(motion.at(3, "u")).max() for motion in motions.values())
-    print(f"The rope reduces the largest displacement of its corner from {1e3 * free:.2f} mm to {1e3 * held:.2f} mm.")
-    assert held < free
-
-
-if __name__ == "__main__":
-    main()
+# %% Shapes and histories
+figure, (shapes, history) = common.figure(2)
+modes = tj.modes(reduced, 2)
+recovered = (reduced.model.recovery @ modes.shapes).reshape(-1, 3, 2)
+place = {node: i for i, node in enumerate(reduced.model.recovery_nodes)}
+for name in MEMBERS:
+    _, nodes, _ = member(name, elements)
+    nodes = nodes[::3]
+    straight = np.linspace(CORNERS[nodes[0]], CORNERS[nodes[-1]], len(nodes))
+    shapes.plot(*straight.T, color="0.8")
+    for k, colour in ((0, "C0"), (1, "C1")):
+        moved = straight + [recovered[place[node], :2, k] / abs(recovered[:, :2, k]).max() if node in place else (0, 0) for node in nodes]
+        shapes.plot(*moved.T, color=colour, label=f"{modes.frequency[k]:.2f} Hz" if name == "tie beam" else None)
+shapes.set(title="Two lowest modes, reduced", aspect="equal", xlabel="x [m]", ylabel="y [m]")
+shapes.legend()
+for name, motion in motions.items():
+    history.plot(motion.time, 1e3 * motion.at(5, "u"), label=name)
+history.set(title="The apex, shaken", xlabel=motion.time.label, ylabel="Displacement u [mm]")
+history.legend()
+common.save(figure, options, "frame_of_parts")
+free, held = (abs(motion.at(3, "u")).max() for motion in motions.values())
+print(f"The rope reduces the largest displacement of its corner from {1e3 * free:.2f} mm to {1e3 * held:.2f} mm.")
+assert held < free

@@ -4,6 +4,7 @@
 
 Its tip answers a harmonic force; the reduced model is compared with the full one over the frequency, and with scipy alone at some of them.
 """
+# %% Definitions
 import common  # beside this script
 import numpy as np
 import scipy.sparse.linalg
@@ -59,41 +60,40 @@ def response(model, tip, frequencies):
     return np.array([scipy.sparse.linalg.spsolve((K + 1j * w * C - w**2 * M).tocsc(), force)[tip] for w in 2 * np.pi * frequencies])
 
 
-def main():
-    options = common.options(__doc__)
-    nodes, elements, side = mesh(3 if options.short else 8)
-    upright = nodes[elements].mean(axis=1)[:, 0] < ARM
-    joined = np.intersect1d(elements[upright], elements[~upright])
-    tip = int(np.argmax(nodes[:, 0] + nodes[:, 1] * (nodes[:, 0] > SIZE - 1e-9)))  # the upper corner of the foot's end
-    parts = [part("upright", elements[upright], nodes, side, joined), part("foot", elements[~upright], nodes, side, joined, tip)]
+# %% Mesh and parts
+options = common.options(__doc__)
+nodes, elements, side = mesh(3 if options.short else 8)
+upright = nodes[elements].mean(axis=1)[:, 0] < ARM
+joined = np.intersect1d(elements[upright], elements[~upright])
+tip = int(np.argmax(nodes[:, 0] + nodes[:, 1] * (nodes[:, 0] > SIZE - 1e-9)))  # the upper corner of the foot's end
+parts = [part("upright", elements[upright], nodes, side, joined), part("foot", elements[~upright], nodes, side, joined, tip)]
 
-    full, reduced = tj.couple(parts), tj.synthesise(parts, "Craig-Bampton", cut_off_frequency="30 kHz")
-    print(f"{len(full)} dofs, reduced to {len(reduced.model)}, {len(joined) * 2} of them on the interface")
-    modes = tj.modes(full, 6)
-    rows = tj.compare_modes(reduced, 6)
-    for row, whole in zip(rows, modes.frequency):
-        print(f"{whole:10.2f} Hz   error {row['error']:8.1e}   estimate {row['estimate']:8.1e}   MAC {row['mac']:.6f}")
-    assert 0 <= max(row["error"] for row in rows) < 2e-3
+# %% Full and reduced
+full, reduced = tj.couple(parts), tj.synthesise(parts, "Craig-Bampton", cut_off_frequency="30 kHz")
+print(f"{len(full)} dofs, reduced to {len(reduced.model)}, {len(joined) * 2} of them on the interface")
+modes = tj.modes(full, 6)
+rows = tj.compare_modes(reduced, 6)
+for row, whole in zip(rows, modes.frequency):
+    print(f"{whole:10.2f} Hz   error {row['error']:8.1e}   estimate {row['estimate']:8.1e}   MAC {row['mac']:.6f}")
+assert 0 <= max(row["error"] for row in rows) < 2e-3
 
-    frequencies = np.linspace(50, 1.2 * modes.frequency[3], 60 if options.short else 300)
-    answers = {name: response(model, model.position(tip + 1, "v"), frequencies) for name, model in (("full", full), ("reduced", reduced.model))}
-    error = abs(answers["reduced"] - answers["full"]).max() / abs(answers["full"]).max()
-    print(f"largest error of the response: {error:.1e} of its largest value")
-    assert error < 0.05
+# %% Frequency response
+frequencies = np.linspace(50, 1.2 * modes.frequency[3], 60 if options.short else 300)
+answers = {name: response(model, model.position(tip + 1, "v"), frequencies) for name, model in (("full", full), ("reduced", reduced.model))}
+error = abs(answers["reduced"] - answers["full"]).max() / abs(answers["full"]).max()
+print(f"largest error of the response: {error:.1e} of its largest value")
+assert error < 0.05
 
-    figure, (drawn, curve) = common.figure(2)
-    shape = full.recovery @ modes.shapes[:, 0]
-    moved = nodes.copy()
-    moved[full.recovery_nodes - 1] += 0.06 / abs(shape).max() * shape.reshape(-1, 2)
-    for each in elements:
-        drawn.plot(*moved[np.r_[each, each[0]]].T, color="C0", linewidth=0.5)
-    drawn.set(title=f"{len(nodes)} nodes, clamped at the top", aspect="equal", xlabel="x [m]", ylabel="y [m]")
-    for name, style in (("full", "-"), ("reduced", "--")):
-        curve.semilogy(frequencies, abs(answers[name]), style, label=f"{name}, {len(full if name == 'full' else reduced.model)} dofs")
-    curve.set(title="The tip under a harmonic force", xlabel="Frequency [Hz]", ylabel="Receptance [m/N]")
-    curve.legend()
-    common.save(figure, options, "my_finite_elements")
-
-
-if __name__ == "__main__":
-    main()
+# %% Figure
+figure, (drawn, curve) = common.figure(2)
+shape = full.recovery @ modes.shapes[:, 0]
+moved = nodes.copy()
+moved[full.recovery_nodes - 1] += 0.06 / abs(shape).max() * shape.reshape(-1, 2)
+for each in elements:
+    drawn.plot(*moved[np.r_[each, each[0]]].T, color="C0", linewidth=0.5)
+drawn.set(title=f"{len(nodes)} nodes, clamped at the top", aspect="equal", xlabel="x [m]", ylabel="y [m]")
+for name, style in (("full", "-"), ("reduced", "--")):
+    curve.semilogy(frequencies, abs(answers[name]), style, label=f"{name}, {len(full if name == 'full' else reduced.model)} dofs")
+curve.set(title="The tip under a harmonic force", xlabel="Frequency [Hz]", ylabel="Receptance [m/N]")
+curve.legend()
+common.save(figure, options, "my_finite_elements")

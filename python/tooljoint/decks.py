@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import difflib
 import json
 import os
 import pathlib
@@ -13,10 +12,12 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from . import _core
-from .errors import FileError
+from .errors import DeckError, FileError
 from .lists import text_of, write
 from .results import Results
 from .variants import any_written
+
+_NOTHING = object()  # stands for no value
 
 
 class Deck:
@@ -35,7 +36,7 @@ class Deck:
     >>> deck["Transient/End Tim"]
     Traceback (most recent call last):
     ...
-    KeyError: 'The deck has no Transient/End Tim. Did you mean "End Time"?'
+    tooljoint.errors.DeckError: /frame/Transient/End Tim is not a parameter. Did you mean "End Time"? ...
     """
 
     def __init__(self, file: str | os.PathLike, set: Mapping[str, Any] | None = None, without: Iterable[str] = ()):
@@ -55,13 +56,29 @@ class Deck:
         self.overrides.append(override)
 
     def __getitem__(self, path: str) -> Any:
+        value = self._value(path)
+        if value is _NOTHING:
+            raise DeckError(self._absence(path))
+        return value
+
+    def _value(self, path):
+        """What stands at a path, given or default, or _NOTHING."""
         value = self._read.to_dict()
         for name in _pieces(path):
             if not isinstance(value, dict) or name not in value:
-                similar = difflib.get_close_matches(name, list(value) if isinstance(value, dict) else [], 1)
-                raise KeyError(f"The deck has no {path}." + (f" Did you mean \"{similar[0]}\"?" if similar else ""))
+                return _NOTHING
             value = value[name]
         return value
+
+    def _absence(self, path):
+        """Why there is nothing at a path: of a wrong name the sentence of the program."""
+        try:
+            _core.read_deck(self._source(overrides=[*self.overrides, f"{path}=0"]))
+        except DeckError as error:
+            sentence = str(error).removeprefix(f"--set {path}=0: ")
+            if " is not a parameter. " in sentence or " is not a list. " in sentence:
+                return sentence
+        return f"The deck does not give {path}, which has no default."
 
     def __setitem__(self, path: str, value: Any) -> None:
         self._change(f"{path}={text_of(value)}")
@@ -70,11 +87,7 @@ class Deck:
         self._change("!" + path)
 
     def __contains__(self, path: str) -> bool:
-        try:
-            self[path]
-        except KeyError:
-            return False
-        return True
+        return self._value(path) is not _NOTHING
 
     def add(self, path: str, values: Mapping[str, Any]) -> None:
         """Add a list with a name of your own, such as "Coupling/Point Laws/guy", where `--set` takes only names that are there. values: a

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import _core
-from .errors import DeckError
+from .errors import DeckError, UsageError
 
 
 def keyword(name: str) -> str:
@@ -105,7 +105,11 @@ def text_of(value: Any) -> str:
         return str(int(value))
     if isinstance(value, numbers.Real):
         return repr(float(value))
-    return "{" + ", ".join(text_of(each) for each in value) + "}"
+    try:
+        values = list(value)
+    except TypeError:
+        raise UsageError(f"{value!r} is no value of a deck; expected is a number, a text, a boolean or a list of them.") from None
+    return "{" + ", ".join(map(text_of, values)) + "}"
 
 
 def type_of(value: Any, kind: str = "") -> str:
@@ -123,7 +127,8 @@ def type_of(value: Any, kind: str = "") -> str:
 def _parameter(given, value, description):
     name = description["name"] if description else title(given)
     kind = description["kind"] if description else ""
-    return f"<Parameter name={_quote(name)} type={_quote(type_of(value, kind))} value={_quote(text_of(value))}/>"
+    text = text_of(value)
+    return f"<Parameter name={_quote(name)} type={_quote(type_of(value, kind))} value={_quote(text)}/>"
 
 
 def _quote(text):

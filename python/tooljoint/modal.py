@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
+from .arguments import model_of, one_of, real, whole
+from .errors import UsageError
 from .quantity import Quantity
 
 if TYPE_CHECKING:
@@ -37,19 +39,15 @@ class Modes:
         return f"<Modes: {len(self)}, {', '.join(f'{one:.6g}' for one in self.frequency[:5])}{', ...' if len(self) > 5 else ''} Hz>"
 
 
-def _model(of: HasModel) -> _core.Model:
-    return of if isinstance(of, _core.Model) else of.model
-
-
 def modes(of: HasModel, count: int) -> Modes:
-    """The `count` lowest undamped modes of a model, a part, a reduced part or a synthesis, closed contacts linear.
+    """The `count` lowest undamped modes of a model, a part, a reduced part or a synthesis, closed contacts linear. UsageError, ModelError.
 
     >>> import numpy as np, tooljoint as tj
     >>> mass = tj.part("mass", [[1.0]], [[(2 * np.pi) ** 2]])
     >>> tj.modes(mass, 1)
     <Modes: 1, 1 Hz>
     """
-    values, shapes, residuals = _core.undamped_modes(_model(of), count)
+    values, shapes, residuals = _core.undamped_modes(model_of(of, "modes"), whole(count, "modes", "count"))
     return Modes(np.sign(values) * np.sqrt(np.abs(values)) / (2 * np.pi), shapes, residuals)
 
 
@@ -61,7 +59,7 @@ def damped_modes(of: HasModel, count: int, t: float = 0.0) -> Modes:
     >>> round(float(tj.damped_modes(mass, 1).damping[0]), 12)
     0.1
     """
-    values, shapes, residuals = _core.damped_modes(_model(of), count, t)
+    values, shapes, residuals = _core.damped_modes(model_of(of, "damped_modes"), whole(count, "damped_modes", "count"), real(t, "damped_modes", "t"))
     return Modes(np.abs(values) / (2 * np.pi), shapes, residuals, values)
 
 
@@ -72,7 +70,13 @@ def mac(a: ArrayLike, b: ArrayLike, mass: MatrixLike) -> np.ndarray:
     >>> mac(np.eye(2), np.array([[1.0, 1.0], [0.0, 1.0]]), np.eye(2)).round(3).tolist()
     [[1.0, 0.5], [0.0, 0.5]]
     """
-    return _core.modal_assurance(mass, a, b)
+    try:
+        shapes = [np.asarray(each, complex) for each in (a, b)]
+    except (TypeError, ValueError):
+        shapes = []
+    if len(shapes) < 2 or any(each.ndim != 2 for each in shapes):
+        raise UsageError("mac(): expected are two arrays of shapes, dofs x modes.")
+    return _core.modal_assurance(mass, *shapes)
 
 
 def compare_modes(synthesis: _core.Synthesis, count: int, full: HasModel | None = None, t: float | None = None) -> list[dict[str, Any]]:
@@ -80,10 +84,13 @@ def compare_modes(synthesis: _core.Synthesis, count: int, full: HasModel | None 
     of the frequency) and estimate (of the error, without the full model; None where the basis has none); None where no coupled mode
     corresponds. full: the model to compare with; by default the unreduced parts, coupled. t: compare damped modes at that time instead.
     """
-    return _core.compare_modes(synthesis, count, t, full if full is None else _model(full))
+    call = "compare_modes"
+    time = None if t is None else real(t, call, "t")
+    return _core.compare_modes(one_of(synthesis, ("Synthesis",), call, "synthesis"), whole(count, call, "count"), time, None if full is None else model_of(full, call))
 
 
 def estimate_frequencies(synthesis: _core.Synthesis, count: int) -> list[dict[str, Any]]:
     """Estimated relative errors of the lowest coupled frequencies, without the full model: a list of dicts with frequency_hz, error,
     by_part (what the truncated modes of each part contribute) and definite (False: modes are missing below this frequency)."""
-    return _core.estimate_frequencies(synthesis, count)
+    call = "estimate_frequencies"
+    return _core.estimate_frequencies(one_of(synthesis, ("Synthesis",), call, "synthesis"), whole(count, call, "count"))

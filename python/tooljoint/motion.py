@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
+from .arguments import model_of
 from .errors import ModelError
 from .lists import checked, describe, placed
-from .modal import _model
 from .quantity import Quantity
 
 if TYPE_CHECKING:
@@ -73,5 +73,5 @@ def integrate(of: HasModel, end_time: float | str, *, integrator: str = "General
     ([1.0, 0.0, -1.0], 'm')
     """
     values = placed(describe("Transient"), {"integrator": integrator, "end_time": end_time, "progress": False, **parameters}, [integrator])
-    model = _model(of)
+    model = model_of(of, "integrate")
     return Motion(model, *_core.integrate(model, checked("Transient", values)))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from . import _core
+from .arguments import list_of, real
 from .errors import ModelError, UsageError
 from .lists import checked, describe, placed
 
@@ -85,7 +86,7 @@ def write_part(part: _core.Part, path: str | os.PathLike, interfaces: Mapping[st
     if not isinstance(part, _core.Part):
         raise UsageError(f"write_part() takes a Part, not {part!r}. Of a reduced part, write part(name, model.mass, model.stiffness(), ...) of its model.")
     sets = {"interface": part.interface} if interfaces is None else interfaces
-    _core.write_part(part, str(path), {name: list(map(int, dofs)) for name, dofs in sets.items() if len(list(dofs))}, dict(positions or {}))
+    _core.write_part(part, str(path), {name: found for name, dofs in sets.items() if (found := _whole(dofs, f'the interface "{name}"'))}, dict(positions or {}))
 
 
 def read_part(path: str | os.PathLike, name: str = "part", laws: dict[str, Any] | None = None) -> _core.Part:
@@ -94,7 +95,7 @@ def read_part(path: str | os.PathLike, name: str = "part", laws: dict[str, Any] 
     laws: of every law of time that terms of the file name, its function of the time [s], or a number: `laws={"Omega": 12.5}`.
     Point laws, which a file cannot hold, are warned of.
     """
-    functions = {law: value if callable(value) else (lambda t, value=float(value): value) for law, value in (laws or {}).items()}
+    functions = {law: value if callable(value) else (lambda t, value=real(value, "read_part", law): value) for law, value in (laws or {}).items()}
     return _core.read_part(str(path), name, functions)
 
 
@@ -127,11 +128,15 @@ def reduce(parts: _core.Part | Sequence[_core.Part], method: str = "Craig-Bampto
     """
     if isinstance(parts, _core.Part):
         return _core.reduce([parts], reduction(method, **parameters))[0]
-    return _core.reduce(list(parts), reduction(method, **parameters))
+    return _core.reduce(list_of(parts, ("Part",), "reduce", "parts"), reduction(method, **parameters))
 
 
 def _joining(coupling):
-    return checked("Coupling", coupling) if isinstance(coupling, dict) else coupling
+    if coupling is None or isinstance(coupling, _core.Connections):
+        return coupling
+    if not isinstance(coupling, dict):
+        raise UsageError(f"coupling is {coupling!r}; expected is the deck list Coupling as a dict, or what joins the parts of Deck.at_rest().")
+    return checked("Coupling", coupling)
 
 
 def couple(parts: Iterable[Any], coupling: dict | _core.Connections | None = None) -> _core.Model:
@@ -139,7 +144,7 @@ def couple(parts: Iterable[Any], coupling: dict | _core.Connections | None = Non
     reduced one. coupling: the deck list Coupling as a dict (unreduced parts), for springs, hinges, constraints, frames and point laws.
     ModelError names what cannot be joined.
     """
-    parts = list(parts)
+    parts = list_of(parts, ("Part", "ReducedPart"), "couple", "parts")
     reduced = [isinstance(part, _core.ReducedPart) for part in parts]
     if any(reduced) and not all(reduced):
         raise UsageError("Some of the parts are reduced and some are not. Reduce all of them, or none.")
@@ -162,4 +167,4 @@ def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton", coupl
     >>> both
     <Synthesis of 2 parts, 5 dofs>
     """
-    return _core.synthesise(list(parts), reduction(method, **parameters), _joining(coupling))
+    return _core.synthesise(list_of(parts, ("Part",), "synthesise", "parts"), reduction(method, **parameters), _joining(coupling))

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from .arguments import whole
 from .errors import ModelError, UsageError, not_finite
 from .lists import checked, title
 
@@ -173,7 +174,7 @@ def law(name: str, *, points: int = 1, coordinates: int = 3, **parameters: Any) 
     >>> spring.force(0.0, [0.1], [2.0]).tolist()
     [-320.0]
     """
-    return _core.point_law(name, checked(name, parameters), points, coordinates)
+    return _core.point_law(name, checked(name, parameters), whole(points, "law", "points"), whole(coordinates, "law", "coordinates"))
 
 
 def any_written() -> bool:

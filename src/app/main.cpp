@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "app/commands/Commands.hpp"
+#include "app/text/FirstWords.hpp"
 #include "app/text/ManualPages.hpp"
 #include "app/text/UnknownWords.hpp"
 #include "common/Error.hpp"
@@ -124,8 +125,15 @@ void addDeckOptions(CLI::App& command, Options& options, Output output,
                 ? "folder for the results (default: results/<name of the deck>" + suffix + ")"
                 : "folder for the tables (default: none are written)")
         ->type_name("DIR");
-  if (output == Output::Always)
-    command.add_flag("--quiet,-q", options.quiet, "print warnings and errors only");
+  command.add_flag("--quiet,-q", options.quiet, "print warnings and errors only");
+}
+
+/// More lines, of a command that ends with a screen.
+void addVerbose(CLI::App& command, Options& options) {
+  command
+      .add_flag("--verbose,-v", options.verbose,
+                "print the times of the stages, counters and memory, too")
+      ->excludes("--quiet");
 }
 
 /// Reads the command line; an exit code where nothing is left to do (help, or an error that has
@@ -178,6 +186,7 @@ void addStudies(CLI::App& program, Options& options, std::function<void()>& comm
   auto* study = program.add_subcommand(
       "study", "speed against error: the runs of the deck's Study list against its reference run");
   addDeckOptions(*study, options, Output::Always, "_study");
+  addVerbose(*study, options);
   addRowOptions(*study, options, "\"reference\", or its number (the commands of --plan)");
   study
       ->add_option(
@@ -189,6 +198,7 @@ void addStudies(CLI::App& program, Options& options, std::function<void()>& comm
   auto* map = program.add_subcommand(
       "map", "figures over a grid of parameters: the deck's Map list as table and coloured maps");
   addDeckOptions(*map, options, Output::Always, "_map");
+  addVerbose(*map, options);
   addRowOptions(*map, options, "its number in map.csv (the commands of --plan)");
   map->callback([&] { command = [&] { tooljoint::app::map(options); }; });
 }
@@ -205,6 +215,7 @@ void addReport(CLI::App& program, Options& options, std::function<void()>& comma
       ->required();
   report->add_option("--output,-o", options.output, "file to write (default: DIR/report.html)")
       ->type_name("FILE");
+  report->add_flag("--quiet,-q", options.quiet, "print warnings and errors only");
   report->callback(
       [&] { command = [&] { tooljoint::app::report(options.reported, options.output); }; });
 }
@@ -232,10 +243,7 @@ void addRun(CLI::App& program, Options& options, std::function<void()>& command)
   auto* runCommand = program.add_subcommand(
       "run", "path, static state, reduction, transient: from deck to results");
   addDeckOptions(*runCommand, options, Output::Always);
-  runCommand
-      ->add_flag("--verbose,-v", options.verbose,
-                 "print the times of the stages and the counters of the motion, too")
-      ->excludes("--quiet");
+  addVerbose(*runCommand, options);
   runCommand->add_option("--restart", options.restart, "folder of an interrupted run to go on from")
       ->type_name("DIR");
   runCommand->callback([&] { command = [&] { tooljoint::app::run(options); }; });
@@ -254,6 +262,7 @@ void addLooks(CLI::App& program, Options& options, std::function<void()>& comman
   auto* modesCommand = program.add_subcommand(
       "modes", "eigenfrequencies and damping of the full and the coupled model; bases on request");
   addDeckOptions(*modesCommand, options, Output::Wanted);
+  addVerbose(*modesCommand, options);
   modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
       ->check(aboveZero);
   modesCommand->add_flag("--coupled", options.coupledOnly,
@@ -283,6 +292,7 @@ void addAnalysis(CLI::App& program, Options& options, std::function<void()>& com
   std::string suffix = std::string("_") + analysis.name;
   std::replace(suffix.begin(), suffix.end(), '-', '_');
   addDeckOptions(*added, options, Output::Always, suffix);
+  addVerbose(*added, options);
   added->add_flag(
       "--fresh", options.fresh,
       std::string("forget the ") + analysis.steps + " an earlier command left in the folder");
@@ -408,20 +418,6 @@ void addTexts(CLI::App& program, Texts& texts, std::function<void()>& command) {
   newCommand->callback([&] { command = [&] { tooljoint::app::newFolder(texts.folder); }; });
 }
 
-/// What the program says without a command.
-constexpr const char* firstWords =
-    "Tooljoint: component mode synthesis, and the drillstring simulator built on it.\n\n"
-    "Begin with a folder of your own:\n\n"
-    "  tooljoint new my_well           a deck that runs, its survey and a README\n"
-    "  cd my_well\n"
-    "  tooljoint check my_well.xml     what is modelled\n"
-    "  tooljoint run my_well.xml       static state and motion, into results/my_well\n"
-    "  xdg-open results/my_well/report.html    figures, plots and the motion in a browser\n\n"
-    "or with a deck to edit:\n\n"
-    "  tooljoint template well > mine.xml\n\n"
-    "tooljoint --help lists the commands, tooljoint COMMAND --help what each takes, and\n"
-    "tooljoint doc the parameters of a deck.\n";
-
 int run(int argc, char** argv) {
   namespace app = tooljoint::app;
   CLI::App program{
@@ -456,7 +452,7 @@ int run(int argc, char** argv) {
     return code(ExitCode::Done);
   }
   if (!command) {
-    say(std::cerr, firstWords);
+    say(std::cerr, app::firstWords);
     return code(ExitCode::Usage);
   }
   std::vector<std::string> edits;

@@ -26,7 +26,8 @@ ListSpec importedParameters() {
       .text("File", Required{},
             "The part: a folder with part.json, a .json file, an HDF5 file, a Nastran file of DMIG "
             "entries (.pch, .dmig, .bdf), or the stiffness JOB_STIFn.mtx of Abaqus with its mass "
-            "beside it, relative to the deck; docs/file-formats.md describes them.")
+            "beside it, relative to the deck; or the text of a part.json, which begins with \"{\". "
+            "docs/file-formats.md describes them.")
       .realArray("Rotation Axis", "", std::vector<double>{0.0, 0.0, 1.0}, Range::any(),
                  "Axis of the rotation from the frame of the file to the common frame.")
       .real("Rotation Angle", "rad", 0.0, Range::any(), "Angle of this rotation, right-handed.")

@@ -69,7 +69,7 @@ class Builder {
   void read() {
     std::map<std::string, PartContent> known;
     for (const auto& part : imported()) {
-      const auto path = resolve_(part.file);
+      const auto path = isPartText(part.file) ? part.file : resolve_(part.file);
       try {
         if (known.count(path) == 0) known.emplace(path, readPartEverywhere(path, part.name));
         scene_.contents.push_back(known.at(path));

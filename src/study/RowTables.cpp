@@ -147,16 +147,18 @@ std::string table(const std::vector<StudyRow>& rows, const std::vector<Ratios>& 
 }
 
 std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ratios>& ratios) {
+  constexpr std::size_t widest = 30;  // of labels: lines of 100 columns; longer ones stand alone
   std::size_t width = 20;
-  for (const auto& row : rows) width = std::max(width, row.plan.label.size());
+  for (const auto& row : rows)
+    if (row.plan.label.size() <= widest) width = std::max(width, row.plan.label.size());
   const bool frequencies = std::any_of(rows.begin(), rows.end(),
                                        [](const StudyRow& row) { return row.modeErrors.known(); });
-  char line[512];
-  std::snprintf(line, sizeof line, "%-*s %6s %s%15s %9s %9s %10s %7s %9s %9s  %s",
-                static_cast<int>(width), "run", "dofs", frequencies ? "frequency " : "",
-                "vibration_error", "eps_t max", "eps_n max", "CPU s / s", "spread", "baseline",
-                "best full", "counts");
-  std::string out = line;
+  char line[256];
+  std::snprintf(line, sizeof line, "%-*s %6s %s%9s %9s %7s %8s %9s %7s", static_cast<int>(width),
+                "run", "dofs", frequencies ? "frequency " : "", "vibration", "CPU s / s", "spread",
+                "baseline", "best full", "steps");
+  std::string out =
+      std::string("errors relative to the motion; eps_t and eps_n are in study.csv\n") + line;
   double own = 0.0;  // error of the reference
   bool beyond = false;
   for (const auto& row : rows)
@@ -164,34 +166,36 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto& row = rows[i];
     if (!row.done()) {
-      out += "\n" + row.plan.label + std::string(width - row.plan.label.size(), ' ') + " " +
-             row.status + (row.reason.empty() ? "" : ": " + row.reason);
+      out +=
+          "\n" + row.plan.label + " " + row.status + (row.reason.empty() ? "" : ": " + row.reason);
       continue;
     }
-    char error[3][16] = {"-", "-", "-"};
+    char error[16] = "-";
     if (row.errors) {
       const bool below = row.plan.kind == RunKind::Method && row.errors->vibration < own;
       beyond = beyond || below;
-      std::snprintf(error[0], sizeof error[0], "%.2e%s", row.errors->vibration, below ? "*" : "");
-      std::snprintf(error[1], sizeof error[1], "%.2e", row.errors->epsTMax);
-      std::snprintf(error[2], sizeof error[2], "%.2e", row.errors->epsNMax);
+      std::snprintf(error, sizeof error, "%.2e%s", row.errors->vibration, below ? "*" : "");
     }
     char worst[16] = "";
     if (frequencies)
       std::snprintf(worst, sizeof worst, "%9s ",
                     row.modeErrors.known() ? scientific(row.modeErrors.worst()).c_str() : "-");
-    std::snprintf(line, sizeof line, "%-*s %6ld %s%15s %9s %9s %10.3g %5.0f %% %9s %9s  %ld steps",
-                  static_cast<int>(width), row.plan.label.c_str(), row.dofs, worst, error[0],
-                  error[1], error[2], row.cpuPerSimulatedSecond(), 100.0 * row.spread(),
+    const bool alone = row.plan.label.size() > width;
+    if (alone) out += "\n" + row.plan.label;
+    std::snprintf(line, sizeof line, "%-*s %6ld %s%9s %9.3g %5.0f %% %8s %9s %7ld",
+                  static_cast<int>(width), alone ? "" : row.plan.label.c_str(), row.dofs, worst,
+                  error, row.cpuPerSimulatedSecond(), 100.0 * row.spread(),
                   ratioText(ratios[i].baseline).c_str(), ratioText(ratios[i].bestFull).c_str(),
                   row.counters.steps);
     out += std::string("\n") + line;
+    std::string more;
     for (const auto& [count, name] : {std::pair{row.counters.rejected, "rejected"},
                                       {row.counters.halved, "halved"},
                                       {row.counters.unconvergedSteps, "unconverged"},
                                       {row.missedNodes, "missed nodes"}})
-      if (count > 0) out += ", " + std::to_string(count) + " " + name;
-    if (!row.reason.empty()) out += ". " + row.reason;
+      if (count > 0) more += (more.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+    if (!row.reason.empty()) more += (more.empty() ? "" : ". ") + row.reason;
+    if (!more.empty()) out += "\n  " + more;
   }
   if (beyond)
     out += "\n* below the error of the reference itself: how wrong this run is cannot be told.";

@@ -16,6 +16,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from beam_theory import Beam  # noqa: E402
 from checks import expect, finish, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
 SOURCES = pathlib.Path(sys.argv[3])
 BORE, OUTER, INNER, YOUNG, DENSITY, GRAVITY = 0.108, 0.08, 0.036, 2.1e11, 7850.0, 9.81
@@ -85,6 +86,7 @@ def run(file, *settings, folder=None, ranks=1):
     folder = folder or "out_" + pathlib.Path(file).stem
     done = tooljoint("bha", file, "--output", folder, *(part for one in settings for part in ("--set", one)), ranks=ranks)
     expect(f"bha of {file} ends well {settings}", done.returncode == 0, done.stderr)
+    expect_screen(done, folder, "bha")
     found = rows(folder, "bha.csv")
     for name in ("contacts", "profile"):
         lines = rows(folder, f"bha_{name}.csv")
@@ -338,8 +340,8 @@ def refused():
 
 
 def documented():
-    """The table of docs/drilling.md about xml/bha_motor_1500m.xml is what the program says."""
-    text = (SOURCES / "docs/drilling.md").read_text(encoding="utf-8")
+    """The table of docs/guide/bottom-hole-assembly.md about xml/bha_motor_1500m.xml is what the program says."""
+    text = (SOURCES / "docs/guide/bottom-hole-assembly.md").read_text(encoding="utf-8")
     table = text[text.index("| `Build Rate` [deg/30 m] | tool face |"):].split("\n\n")[0].splitlines()[2:]
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in table]
     expect("the document has rows for three rates of build", [line[0] for line in cells] == ["0"] * 3 + ["3"] * 3 + ["6"] * 3, cells)
@@ -347,12 +349,12 @@ def documented():
         found = run(str(SOURCES / "xml/bha_motor_1500m.xml"), "Bottom-Hole Assembly/Inclination={45 deg}", f"Bottom-Hole Assembly/Build Rate={rate} deg/30m",
                     "Bottom-Hole Assembly/Weight On Bit={80 kN}", "Bottom-Hole Assembly/Tool Face={0 deg, 180 deg}", folder=f"documented_{rate}")
         for row, (_, face, force, tilt, moment, stress) in zip(found, [line for line in cells if line[0] == rate]):
-            expect(f"docs/drilling.md, {rate} deg/30 m: the row of tool face {face}", row["mode"] == ("rotating" if face == "rotating" else "sliding"), row["mode"])
+            expect(f"docs/guide/bottom-hole-assembly.md, {rate} deg/30 m: the row of tool face {face}", row["mode"] == ("rotating" if face == "rotating" else "sliding"), row["mode"])
             size, place = moment.split(",")
             for what, said, computed in (("side force", force, row["side_force_high"] / 1e3), ("tilt", tilt, math.degrees(row["tilt_high"])), ("moment", size, row["largest_moment"] / 1e3),
                                          ("its place", place, row["largest_moment_from_bit"]), ("stress", stress, row["largest_von_mises"] / 1e6)):
                 digits = len(said.strip().partition(".")[2])
-                expect(f"docs/drilling.md, {rate} deg/30 m, {face}, {what}: {said.strip()} is {computed:.{digits}f}", abs(float(said) - computed) <= 0.51 * 10**-digits)
+                expect(f"docs/guide/bottom-hole-assembly.md, {rate} deg/30 m, {face}, {what}: {said.strip()} is {computed:.{digits}f}", abs(float(said) - computed) <= 0.51 * 10**-digits)
 
 
 def main():

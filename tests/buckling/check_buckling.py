@@ -12,6 +12,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
 SOURCES = pathlib.Path(sys.argv[3])
 BORE, OUTER, INNER, YOUNG, DENSITY, GRAVITY = 0.1, 0.05, 0.04, 2.1e11, 7850.0, 9.81
@@ -62,6 +63,7 @@ def run(file, *settings, folder=None, ranks=1):
     folder = folder or "out_" + pathlib.Path(file).stem
     done = tooljoint("buckling", file, "--output", folder, *(part for one in settings for part in ("--set", one)), ranks=ranks)
     expect(f"buckling of {file} ends well {settings}", done.returncode == 0, done.stderr)
+    expect_screen(done, folder, "buckling")
     found = rows(folder)
     expect("weights of a branch grow", all(a["weight_on_bit"] < b["weight_on_bit"] for a, b in zip(found, found[1:])))
     return found, summary(folder)
@@ -185,9 +187,9 @@ def followed():
 
 
 def documented():
-    """The table of docs/drilling.md about xml/buckling_100m.xml is what the program says."""
+    """The table of docs/guide/buckling.md about xml/buckling_100m.xml is what the program says."""
     root = pathlib.Path(__file__).resolve().parents[2]
-    text = (root / "docs/drilling.md").read_text(encoding="utf-8")
+    text = (root / "docs/guide/buckling.md").read_text(encoding="utf-8")
     section = text[text.index("`xml/buckling_100m.xml` is a 5 in drill pipe"):]
     section = section[:section.index("It jumps to helices")]
     table = [line.split("|")[1:-1] for line in section.splitlines() if line.startswith("| ") and line[2].isdigit()]
@@ -200,7 +202,7 @@ def documented():
         state = min(states, key=lambda one, weight=float(shown[0]): abs(1e-3 * one["weight_on_bit"] - weight))
         for (key, scale), text in zip(columns, shown):
             bound = 1.5 * 10**-len(text.partition(".")[2])
-            expect(f"docs/drilling.md, {shown[0]} kN: {key} {text}", abs(scale * (state[key] or 0.0) - float(text)) <= bound, state[key])
+            expect(f"docs/guide/buckling.md, {shown[0]} kN: {key} {text}", abs(scale * (state[key] or 0.0) - float(text)) <= bound, state[key])
 
 
 def refused(what, sentence, code, *arguments):

@@ -20,7 +20,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import TIME_FACTOR, expect, finish  # noqa: E402
 
 PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-RUN = ("docs/drilling.md", "docs/report.md", "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md", "docs/guide/coupling.md", "docs/guide/troubleshooting.md",
+RUN = (*[f"docs/guide/{page}.md" for page in ("torque-drag", "buckling", "bottom-hole-assembly", "bit-and-top-drive", "critical-speeds", "figures-of-merit", "measured-logs", "maps")], "docs/report.md", "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md", "docs/guide/coupling.md", "docs/guide/troubleshooting.md",
        "docs/guide/studies.md")
 CHECKED = "docs/validation.md"
 SHORT = {"run": ["Transient/End Time=0.02"], "study": ["Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"],
@@ -149,6 +149,10 @@ def check_words():
             spelled(command, name, known)
         count += len(commands)
     expect("the pages have commands", count > 100, count)
+    made = re.search(r"Every table and figure of record.*?\nendif", (PROJECT / "cmake/DeveloperTools.cmake").read_text(encoding="utf-8"), re.S)[0]
+    written = {tool.stem for tool in PROJECT.glob("tools/*.py") if re.search(r"writes? docs/|rewrites (the tables|tables and figures) of docs/|rewrites docs/", tool.read_text(encoding="utf-8"))}
+    absent = [name for name in written | {"docs-pictures", "update-docs", "hard-cases", "strategies"} if not re.search(rf"[( ]({name}|{name.replace('_', '-')})[ )]", made)]
+    expect("the target records makes what tools write into docs/", len(written) > 4 and not absent, f"{absent} {sorted(written)}")
 
 
 def main():

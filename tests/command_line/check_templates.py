@@ -5,13 +5,16 @@ import csv
 import json
 import math
 import pathlib
+import re
 import shutil
 import sys
 import xml.etree.ElementTree as xml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
+FOOT = 0.3048  # m
 SHORT = ("--set", "Transient/End Time=0.05")
 
 
@@ -37,11 +40,27 @@ def runs(deck, *settings):
     return summary(folder) if done.returncode == 0 else {}
 
 
+def tvd(stations):
+    """Vertical depth of the last station by minimum curvature: MD/2 (cos I1 + cos I2) 2/b tan b/2 for a bend b."""
+    depth = 0.0
+    rows = [stations[i : i + 3] for i in range(0, len(stations), 3)]
+    for (a, i, z), (b, j, y) in zip(rows, rows[1:]):
+        i, j, turn = math.radians(i), math.radians(j), math.radians(y - z)
+        bend = math.acos(min(1.0, math.cos(i) * math.cos(j) + math.sin(i) * math.sin(j) * math.cos(turn)))
+        depth += (b - a) / 2 * (math.cos(i) + math.cos(j)) * (math.tan(bend / 2) / (bend / 2) if bend > 0 else 1.0)
+    return depth
+
+
 def wells():
     """`template well` and the deck of `new` are one well; its hook load is that of torque and drag."""
     text = printed("well.xml", "well")
-    expect("template well: a page", len(text.splitlines()) < 90, str(len(text.splitlines())))
-    alone = runs("well.xml")
+    expect("template well: a page, of tubulars of the library", "fill*5 in stand" in text and len(text.splitlines()) < 70, str(len(text.splitlines())))
+    alone = runs("well.xml", "--set", "Transient/End Time=5", "--set", "Transient/Progress=false")
+    said = " ".join(tooljoint("check", "well.xml").stdout.split())
+    stations = [float(number) for number in re.search(r'"\{([\d., ]+)\}"', text)[1].split(",")]
+    depth, vertical, length = stations[-3] * FOOT, tvd(stations) * FOOT, 8 * 9.45 + 0.35  # collars and bit
+    for wanted in (f"bit at MD {depth:.1f} m, TVD {vertical:.1f} m", f"BHA {length:.2f} m below the last 5 in stand"):
+        expect(f"check of a well: {wanted}", wanted in said, said[:500])
     moved = alone.get("transient", {}).get("figures", {})
     expect("template well: the bit sticks and slips", moved.get("stick_slip_index", 0) > 0.5, str(moved.get("stick_slip_index")))
     for folder in ("wells", "my_well"):
@@ -57,7 +76,8 @@ def wells():
     folder = runs("my_well/my_well.xml", *SHORT)
     loads = [s["static"]["hook_load"] for s in (alone, folder) if s]
     expect("both wells have one hook load", len(loads) == 2 and abs(loads[0] / loads[1] - 1) < 1e-9, str(loads))
-    done = tooljoint("torque-drag", "well.xml", "--output", "drag")
+    done = tooljoint("torque-drag", "well.xml", "--output", "drag", "--verbose")
+    expect("torque-drag --verbose: its wall time", "\nwall time   " in done.stdout, done.stdout[-400:])
     with open("drag/torque_drag.csv", encoding="utf-8") as file:
         rows = [{name.split(" [")[0]: value for name, value in row.items()} for row in csv.DictReader(file)]
     deepest = max(float(row["bit_depth"]) for row in rows)
@@ -81,14 +101,22 @@ def refusals():
 
 def parts():
     """Eight springs in a row: omega_1 = 2 sqrt(k/m) sin(pi / 32)."""
-    printed("bar.json", "part")
     printed("parts.xml", "parts")
     runs("parts.xml", *SHORT)
     done = tooljoint("modes", "parts.xml", "--count", "3", "--output", "parts_modes")
+    expect_screen(done, "parts_modes", "modes")
     with open("parts_modes/modes.csv", encoding="utf-8") as file:
         first = float(next(csv.DictReader(file))["full [Hz]"])
     exact = 2 * math.sqrt(1e6) * math.sin(math.pi / 32) / (2 * math.pi)
     expect("parts: the first frequency is that of eight springs", done.returncode == 0 and abs(first / exact - 1) < 1e-9, f"{first} {exact}")
+    printed("bar.json", "part")
+    files = [f"--set=Parts/Imported/{part}/File=bar.json" for part in ("first", "second")]
+    named = tooljoint("modes", "parts.xml", "--count", "3", "--output", "file_modes", "--quiet", *files)
+    expect("modes --quiet prints nothing", named.stdout == "", named.stdout)
+    expect("parts: those of bar.json are the same", named.returncode == 0 and pathlib.Path("file_modes/modes.csv").read_text() == pathlib.Path("parts_modes/modes.csv").read_text(),
+           named.stderr)
+    beside = tooljoint("check", "parts.xml", "--set", 'Parts/Imported/first/File={"format": "tooljoint part 1", "components": ["u"], "dofs": [[1, "u"]], "mass": "M.mtx", "stiffness": [[1]]}')
+    expect("parts: a part in the deck has no files beside it", beside.returncode == 2 and 'names the file "M.mtx", but stands in no folder' in beside.stderr, beside.stderr)
     asked = tooljoint("modes", "parts.xml", "--count", "3", "--bases")
     frequencies, vectors = (text.find(word) for text, word in ((done.stdout, "full [Hz]"), (asked.stdout, "|Phi'M Phi - I|")))
     expect("parts: frequencies come first, the vectors of the bases behind them where they are asked for",

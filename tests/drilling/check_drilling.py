@@ -5,7 +5,7 @@ motions with closed forms.
 
     check_drilling.py PROGRAM [NAME ...]           NAME: some of the checks
     check_drilling.py PROGRAM combinations [without-sundials]     laws under every integrator (combinations.py)
-    check_drilling.py PROGRAM stick_slip_2500m     the tables of docs/drilling.md and what it says of them
+    check_drilling.py PROGRAM stick_slip_2500m     the tables of docs/guide/bit-and-top-drive.md and what it says of them
 """
 import csv
 import math

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of docs/drilling.md about xml/stick_slip_2500m.xml, and what the document says of them."""
+"""The tables of docs/guide/bit-and-top-drive.md about xml/stick_slip_2500m.xml, and what the document says of them."""
 import math
 
 import numpy as np

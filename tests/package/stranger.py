@@ -76,22 +76,32 @@ def in_clean_root(packages):
     """The same in an empty Debian, the packages installed by its apt with all they depend on and recommend."""
     if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
         sys.exit("The clean root needs root and mmdebstrap (Debian: mmdebstrap).")
-    program = sorted(pathlib.Path(packages).glob("tooljoint_*.deb"))
-    if not program:
-        sys.exit(f"{packages} holds no tooljoint_*.deb. Make it with: cpack --config build/release/CPackConfig.cmake -B {packages}")
+    names = ("tooljoint", "libtooljoint-dev", "python3-tooljoint")
+    found = {name: sorted(pathlib.Path(packages).glob(f"{name}_*.deb")) for name in names}
+    if not all(found.values()):
+        sys.exit(f"{packages} lacks one of {', '.join(names)}. Make them with: cpack --config build/release/CPackConfig.cmake -B {packages}")
+    newest = [files[-1] for files in found.values()]
     root = pathlib.Path("clean_root").resolve()
     if not (root / "etc/debian_version").is_file():
         shutil.rmtree(root, ignore_errors=True)
         done = subprocess.run(["mmdebstrap", "--variant=minbase", "--mode=root", SUITE, root], check=False)
         expect("an empty Debian 12", done.returncode == 0)
-    (root / "tmp" / program[-1].name).write_bytes(program[-1].read_bytes())
+    for package in newest:
+        shutil.copy(package, root / "tmp")
+    tests = pathlib.Path(__file__).resolve().parent
+    shutil.copytree(tests, root / "tmp/client", dirs_exist_ok=True)
+    shutil.copy(tests.parent / "python/check_installed.py", root / "tmp")
 
     def inside(text, **options):
         within = f"mount --bind /proc {root}/proc && mount --bind /dev {root}/dev && exec chroot {root} /bin/bash -c \"$0\""
         return subprocess.run(["unshare", "-m", "--propagation", "private", "bash", "-c", within, text], text=True, check=False, **options)
 
-    done = inside(f"apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y /tmp/{program[-1].name}")
-    expect("apt installs the package", done.returncode == 0)
+    done = inside(f"apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y cmake g++ {' '.join(f'/tmp/{package.name}' for package in newest)}")
+    expect("apt installs the packages", done.returncode == 0)
+    ranks = "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; "
+    for what, text in (("a client is built with the headers and runs", "cmake -S /tmp/client -B /tmp/client_build && cmake --build /tmp/client_build && /tmp/client_build/client"),
+                       ("Python imports its package and computes", "python3 /tmp/check_installed.py /usr/lib/python3/dist-packages")):
+        expect(what, inside(ranks + text).returncode == 0)
     commands, survey = behind_installation()
     home = root / "root/stranger"
     shutil.rmtree(home, ignore_errors=True)

@@ -41,8 +41,16 @@ class Decks(unittest.TestCase):
         self.assertEqual((deck["Transient/End Time"], deck["Reduction/Mode Selection/Cut-off Frequency"]), (0.25, 500.0))
         self.assertNotIn("Mud", deck)
         self.assertIn("Parts/Laws/gust", deck)
-        with self.assertRaises(KeyError):
-            deck["Mud"]
+        for path, sentence in {
+            "Mud": '/frame/Mud is not a parameter. Available: the lists "Parts"',
+            "Transient/Intgrator": '/frame/Transient/Intgrator is not a parameter. Did you mean "Integrator"?',
+            "Transent/Step": '/frame/Transent is not a list. Did you mean "Transient"?',
+            "Transient/End Time/x": "/frame/Transient/End Time is not a list. It is a parameter",
+            "Output": "The deck does not give Output, which has no default.",
+        }.items():
+            with self.assertRaises(tj.DeckError) as caught:
+                deck[path]
+            self.assertIn(sentence, str(caught.exception))
 
     def test_a_deck_stays_in_its_folder_when_the_working_folder_changes(self):
         there = pathlib.Path.cwd()

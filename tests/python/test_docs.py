@@ -29,6 +29,21 @@ def run(code):
     return done.stdout
 
 
+class Scripts(unittest.TestCase):
+    def test_they_are_cells_and_have_their_figures(self):
+        page = (SOURCE / "docs/python-figures.md").read_text(encoding="utf-8")
+        scripts = [path for path in sorted((SOURCE / "examples/python").glob("*.py")) if path.name != "common.py"]
+        self.assertGreaterEqual(len(scripts), 4)
+        for script in scripts:
+            _, *cells = re.split(r"^# %% ", script.read_text(encoding="utf-8"), flags=re.M)
+            self.assertGreaterEqual(len(cells), 4, script.name)
+            for cell in cells:
+                compile("# " + cell, script.name, "exec")
+            figure = f"figures/python_{script.stem}.png"
+            self.assertIn(figure, page)
+            self.assertTrue((SOURCE / "docs" / figure).is_file(), figure)
+
+
 class Blocks(unittest.TestCase):
     def test_three_bases_in_25_lines(self):
         lines = [line for line in BLOCKS[0].splitlines() if line.strip()]

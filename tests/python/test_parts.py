@@ -86,6 +86,32 @@ class Matrices(unittest.TestCase):
         part.model.add_load([1, 2, 3])
         self.assertEqual(part.model.load().tolist(), [2, 3, 4])
 
+    def test_arguments_of_other_kinds_are_named(self):
+        part = tj.part("chain", np.eye(3), 2 * np.eye(3) - np.eye(3, k=1) - np.eye(3, k=-1))
+        both = tj.synthesise([part], modes=2)
+        for call, sentence in {
+            lambda: tj.modes(part, 2.5): "modes(): count is 2.5; expected is a whole number.",
+            lambda: tj.modes(3, 2): "modes(): of is 3; expected is a Part or a ReducedPart or a Synthesis or a Model.",
+            lambda: tj.damped_modes(part, 2, "1 s"): "damped_modes(): t is '1 s'; expected is a number.",
+            lambda: tj.compare_modes(part, 2): "compare_modes(): synthesis is <Part",
+            lambda: tj.compare_modes(both, 2.5): "compare_modes(): count is 2.5",
+            lambda: tj.estimate_frequencies(both, "2"): "estimate_frequencies(): count is '2'",
+            lambda: tj.mac(1, 2, 3): "mac(): expected are two arrays of shapes",
+            lambda: tj.couple([1]): "couple(): parts[0] is 1; expected is a Part or a ReducedPart.",
+            lambda: tj.couple([part], 3): "coupling is 3; expected is the deck list Coupling",
+            lambda: tj.reduce(3): "reduce(): parts is 3; expected is a list",
+            lambda: tj.reduce(part, modes=object()): "is no value of a deck",
+            lambda: tj.synthesise(part): "synthesise(): parts is <Part",
+            lambda: tj.integrate("part", 1): "integrate(): of is 'part'",
+            lambda: tj.law("Spring", points=1.5, stiffness=1.0): "law(): points is 1.5",
+            lambda: tj.read_part("part.json", laws={"Omega": "fast"}): "read_part(): Omega is 'fast'; expected is a number.",
+        }.items():
+            with self.assertRaises(tj.UsageError) as caught:
+                call()
+            self.assertIn(sentence, str(caught.exception))
+        with self.assertRaisesRegex(tj.ModelError, 'the interface "end" has 1.5; expected are whole numbers'):
+            tj.write_part(part, "part.h5", interfaces={"end": [1.5]})
+        self.assertEqual(len(tj.modes(part, np.int64(2))), 2)
 
     def test_a_dof_without_mass_and_stiffness_is_refused(self):
         loose = np.diag([1.0, 1, 1, 1, 0])

@@ -4,6 +4,7 @@ titles with conditions, no text on another one."""
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -228,6 +229,11 @@ class Results(Style):
             plot_results.animate(string(file), pathlib.Path("motion.gif"))
         with Image.open("motion.gif") as shown:
             self.assertEqual(shown.n_frames, 12)
+        if shutil.which("ffmpeg"):
+            with memory() as file:
+                plot_results.animate(string(file), pathlib.Path("motion.mp4"))
+            probe = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=codec_type,nb_read_frames", "-of", "csv=p=0", "motion.mp4"]
+            self.assertEqual(subprocess.run(probe, capture_output=True, text=True, check=True).stdout.strip(), "video,12")
         made, axes = plots.figure()
         for name, said in (("motion.avi", r"\.gif or \.mp4"), ("motion", r"\.gif or \.mp4")):
             with self.assertRaisesRegex(ValueError, said):

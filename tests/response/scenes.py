@@ -10,6 +10,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from checks import expect, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
 SOURCES = pathlib.Path(sys.argv[3])
 RPM = np.pi / 30
@@ -58,6 +59,7 @@ def run(command, scene, folder, *settings, ranks=1):
     arguments = [word for setting in settings for word in (("--without", setting[1:]) if setting.startswith("!") else ("--set", setting))]
     done = tooljoint(command, scene, "--output", folder, *arguments, ranks=ranks, seconds=280)
     expect(f"{folder}: {command} ends well", done.returncode == 0, done.stderr or done.stdout[-600:])
+    expect_screen(done, folder, command)
     return done
 
 

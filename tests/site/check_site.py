@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Builds the documentation site and checks it: check_site.py CMAKE BUILD PROJECT
 
-Every link within the site leads to a file and an anchor that are there, every picture exists, every page of docs/ has become one, and every page
-stands in the navigation of the first. In Chromium, where it is installed, a page has no errors and its theme switch works. Links to other hosts are not opened (target `docs-linkcheck`).
+Every link within the site leads to a file and an anchor that are there, every picture exists, every page of docs/ has become one, every page
+stands in the navigation of the first, and the reference of the Python package has all it offers. In Chromium, where it is installed, a page has no errors and its theme switch works. Links to other hosts are not opened (target `docs-linkcheck`).
 """
 import html.parser
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -21,6 +22,17 @@ from pictured import RECORD  # noqa: E402
 
 GENERATED = {"index.html", "genindex.html", "search.html"}  # of Sphinx, or the way to the first page
 LARGEST_PICTURE = 150_000  # bytes; pictures are read over slow lines and stay in the repository for good
+
+
+OFFERED = """
+import inspect, tooljoint, tooljoint.plots
+for module in (tooljoint, tooljoint.plots):
+    for name in module.__all__:
+        one = getattr(module, name)
+        if not inspect.ismodule(one):
+            print(module.__name__ + "." + name, *[f"{module.__name__}.{name}.{each}" for each in (vars(one) if inspect.isclass(one) and module is tooljoint else ())
+                                                  if not each.startswith("_") and (callable(getattr(one, each)) or isinstance(vars(one)[each], property))])
+"""  # names of the package, with the methods and properties of its classes
 
 
 class Page(html.parser.HTMLParser):
@@ -109,15 +121,29 @@ def main():
     expect(f"the {sum(len(page.links) for page in pages.values())} links of {len(pages)} pages lead somewhere", not wrong, "\n".join(wrong))
     outside = unlisted(pages, site / "docs/index.html")
     expect("every page stands in the navigation", not outside, ", ".join(outside))
-    large = [path for kind in ("tutorial_*", "report_*") for path in (project / "docs/figures").glob(kind) if path.stat().st_size > LARGEST_PICTURE]
-    expect("pictures of reports are small", not large, ", ".join(path.name for path in large))
     recorded = json.loads(RECORD.read_text(encoding="utf-8"))
     shown = {path.name for kind in ("tutorial_*.png", "report_*.png") for path in (project / "docs/figures").glob(kind)}
     expect("each picture of a report has its figures on record", shown == set(recorded), f"{sorted(shown ^ set(recorded))}")
     expect("the reports in README.md and of a motion have no warning", all(recorded[name]["notes"] == ["No warnings; all checks are met."] for name in ("report_string.png", "report_motion.png")))
+    figures = sorted(path for path in (project / "docs/figures").iterdir() if path != RECORD)
+    large = [path.name for path in figures if path.stat().st_size > LARGEST_PICTURE]
+    expect("figures are small", figures and not large, ", ".join(large))
+    written = "".join(path.read_text(encoding="utf-8") for path in [*(project / "docs").rglob("*.md"), project / "README.md"])
+    unseen = [path.name for path in figures if f"figures/{path.name}" not in written]
+    expect("every figure is on a page", not unseen, ", ".join(unseen))
+    if (build / "python/tooljoint/__init__.py").exists():
+        documented(build / "python", pages, site / "docs/api")
     if browser.program():
         clicked(site / "docs/index.html")
     return finish()
+
+
+def documented(package, pages, folder):
+    """The pages of the Python package have every name it offers."""
+    done = subprocess.run([sys.executable, "-c", OFFERED], env={**os.environ, "PYTHONPATH": str(package)}, stdout=subprocess.PIPE, text=True, check=True)
+    offered = set(done.stdout.split())
+    shown = set().union(*(page.anchors for path, page in pages.items() if path.parent == folder))
+    expect(f"the {len(offered)} names of the Python package are in its reference", len(offered) > 100 and offered <= shown, ", ".join(sorted(offered - shown)))
 
 
 def clicked(page):

@@ -49,6 +49,7 @@ SECTIONS = {
     "response": ("response", "response", "response.xml", []),
 }
 COLOURS = 256
+SCRIPTS = ("choose_a_basis", "frame_of_parts", "my_finite_elements", "string_from_survey_to_map")  # examples/python, on docs/python-figures.md
 
 
 def run(*arguments):
@@ -67,11 +68,23 @@ def template(name, file):
 
 
 def with_response(scene, file):
-    """The scene with the list Response that docs/drilling.md shows."""
-    text = (FIGURES.parent / "drilling.md").read_text(encoding="utf-8")
+    """The scene with the list Response that docs/guide/critical-speeds.md shows."""
+    text = (FIGURES.parent / "guide/critical-speeds.md").read_text(encoding="utf-8")
     shown = next(block for block in re.findall(r"```xml\n(.*?)```", text, re.DOTALL) if 'name="Response"' in block)
     head, end, _ = (XML / scene).read_text(encoding="utf-8").rpartition("</ParameterList>")
     (WORK / file).write_text((head + shown + end).replace('"components/', f'"{XML}/components/'), encoding="utf-8")
+
+
+def scripts():
+    """The figures of the scripts of examples/python, not shortened."""
+    folder = pathlib.Path(__file__).resolve().parents[2] / "examples/python"
+    for name in SCRIPTS:
+        subprocess.run([sys.executable, folder / f"{name}.py", "--output", WORK / "python"], cwd=WORK, check=True, stdout=subprocess.DEVNULL,
+                       env={**os.environ, "PYTHONPATH": str(PROGRAM.parent / "python")})
+        picture = FIGURES / f"python_{name}.png"
+        shutil.copyfile(WORK / f"python/{name}.png", picture)
+        small(picture)
+        print(f"{picture}: {picture.stat().st_size} bytes")
 
 
 def main():
@@ -105,3 +118,4 @@ def main():
 
 if __name__ == "__main__":
     main()
+    scripts()

@@ -20,6 +20,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, of_ranks, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
 DECK = sys.argv[3]
 SHORT = ["--set", "Transient/End Time=0.06", "--set", "Map/Grid/speed/Count=2", "--set", "Map/Grid/weight on bit/Values={5 kN, 20 kN}", "--set", "Map/Pictures=false"]
@@ -57,6 +58,7 @@ def against_runs():
     checked = tooljoint("check", DECK, *SHORT)
     expect("check says what a map will do", checked.returncode == 0 and "4 points: speed (2) x weight on bit (2);" in checked.stdout, checked.stdout[-400:])
     done = tooljoint("map", DECK, "--output", "one", *SHORT)
+    expect_screen(done, "one", "map")
     rows = table("one")
     expect("a map ends with 0 and has a row per point", done.returncode == 0 and len(rows) == 4, done.stderr[-400:])
     expect("the last axis varies first", [(row["speed"], row["weight on bit"]) for row in rows] == [("60", "5"), ("60", "20"), ("180", "5"), ("180", "20")])

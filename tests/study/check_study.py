@@ -21,6 +21,7 @@ import documented
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 from results import known, rows, summary, table
 
 PROGRAM, MPIEXEC, DECK = sys.argv[1:4]
@@ -29,6 +30,11 @@ PROGRAM, MPIEXEC, DECK = sys.argv[1:4]
 def whole_study():
     done = tooljoint("study", DECK, "--output", "whole")
     expect("a study with a method that fails ends with 0", done.returncode == 0, done.stderr[-300:])
+    expect_screen(done, "whole", "study")
+    told = done.stdout[done.stdout.index("\nrun  "):done.stdout.index("\nresults ")].splitlines()
+    labels = [row["label"] for row in rows("whole").values()]
+    expect("its table has a line of at most 100 columns for each run", all(len(line) <= 100 for line in told) and all(any(line.startswith(label) for line in told) for label in labels),
+           "\n".join(told))
     found, listed = rows("whole"), table("whole")
     expect("every run is a row, of summary.json and of study.csv", len(found) == 13 and list(found) == list(listed), f"({len(found)})")
     with h5py.File("whole/study.h5") as file:

@@ -18,6 +18,7 @@ import h5py
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from screens import expect_screen  # noqa: E402
 
 SOURCES = pathlib.Path(sys.argv[3])
 DECK = str(SOURCES / "xml/build_hold_1400m.xml")
@@ -33,6 +34,7 @@ def run(folder, *settings, ranks=1, deck=DECK):
     arguments = [part for setting in settings for part in ("--set", setting)]
     done = tooljoint("torque-drag", deck, "--output", folder, *arguments, ranks=ranks)
     expect(f"torque-drag ends well {settings}", done.returncode == 0, done.stderr)
+    expect_screen(done, folder, "torque_drag")
     return rows(folder)
 
 
@@ -179,9 +181,9 @@ def beside():
 
 
 def documented():
-    """The table of docs/drilling.md is what the program prints."""
+    """The table of docs/guide/torque-drag.md is what the program prints."""
     table = {row["operation"]: row for row in run("documented", "Torque and Drag/Count=1")}
-    lines = [line.split("|")[1:-1] for line in (SOURCES / "docs/drilling.md").read_text(encoding="utf-8").splitlines() if line.startswith("| ") and line.count("|") == 6]
+    lines = [line.split("|")[1:-1] for line in (SOURCES / "docs/guide/torque-drag.md").read_text(encoding="utf-8").splitlines() if line.startswith("| ") and line.count("|") == 6]
     found = {cells[0].strip(): cells[1:] for cells in lines if cells[0].strip() in table}
     expect("the document has a line for each operation", set(found) == set(table), sorted(found))
     for operation, cells in found.items():
@@ -189,7 +191,7 @@ def documented():
         for cell, name in zip(cells, ("hook_load", "stiff_hook_load", "surface_torque", "stiff_surface_torque")):
             computed = float(row[name]) / 1e3
             digits = 1 if "hook" in name else 2
-            expect(f"docs/drilling.md, {operation}, {name}: {cell.strip()} is {computed:.{digits}f}", abs(float(cell) - computed) <= 1.5 * 10**-digits)
+            expect(f"docs/guide/torque-drag.md, {operation}, {name}: {cell.strip()} is {computed:.{digits}f}", abs(float(cell) - computed) <= 1.5 * 10**-digits)
 
 
 def static_state(name, ranks=1, *settings):

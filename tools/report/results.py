@@ -172,7 +172,7 @@ def von_mises(run, displacement):
 
         sigma^2 = (|T|/S + E kappa R)^2 + 3 (M R/J)^2
 
-    at the outer wall, from effective tension, as for torque and drag (docs/drilling.md)."""
+    at the outer wall, from effective tension, as for torque and drag (docs/guide/torque-drag.md)."""
     forces = internal_forces(run, displacement)
     if forces is None:
         return None

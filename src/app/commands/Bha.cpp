@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/commands/Commands.hpp"
+#include "app/text/AnalysisScreens.hpp"
 #include "cases/CaseKinds.hpp"
-#include "cases/run/AnalysisFiles.hpp"
 #include "common/Error.hpp"
 #include "substructures/drillstring/analyses/bottom_hole/BottomHole.hpp"
 
@@ -15,7 +15,7 @@ void bha(const RunOptions& options) {
                     ": a bottom-hole assembly needs a string in its well. Give a deck with the "
                     "lists Well and Drillstring.");
   drillstring::reportBottomHole(*string, options.output, options.fresh);
-  reportAtEnd(cases::analysisFolder(*one, options.output, "bha"), one->output().report);
+  endAnalysis("bha", *one, options.output);
 }
 
 }  // namespace tooljoint::app

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/commands/Commands.hpp"
+#include "app/text/AnalysisScreens.hpp"
 #include "cases/CaseKinds.hpp"
-#include "cases/run/AnalysisFiles.hpp"
 #include "common/Error.hpp"
 #include "substructures/drillstring/buckling/BucklingPath.hpp"
 
@@ -15,7 +15,7 @@ void buckling(const RunOptions& options) {
         options.deck +
         ": buckling needs a string in its well. Give a deck with the lists Well and Drillstring.");
   drillstring::reportBuckling(*string, options.output, options.fresh);
-  reportAtEnd(cases::analysisFolder(*one, options.output, "buckling"), one->output().report);
+  endAnalysis("buckling", *one, options.output);
 }
 
 }  // namespace tooljoint::app

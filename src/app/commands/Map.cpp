@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "app/commands/Commands.hpp"
+#include "app/text/AnalysisScreens.hpp"
 #include "cases/CaseKinds.hpp"
-#include "cases/run/AnalysisFiles.hpp"
 
 namespace tooljoint::app {
 
@@ -18,12 +18,12 @@ void map(const RunOptions& options) {
   } else if (!options.collect.empty()) {
     own.output = options.collect;
     study::collectMap(*one, own);
-    reportAtEnd(cases::analysisFolder(*one, own.output, "map"), one->output().report);
+    endAnalysis("map", *one, own.output);
   } else if (!options.row.empty()) {
     study::computeMapRow(*one, options.row, own);
   } else {
     study::runMap(*one, own);
-    reportAtEnd(cases::analysisFolder(*one, own.output, "map"), one->output().report);
+    endAnalysis("map", *one, own.output);
   }
 }
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "app/commands/Commands.hpp"
+#include "app/text/AnalysisScreens.hpp"
 #include "cases/CaseKinds.hpp"
-#include "cases/run/AnalysisFiles.hpp"
 
 namespace tooljoint::app {
 
@@ -18,12 +18,12 @@ void study(const RunOptions& options) {
   } else if (!options.collect.empty()) {
     own.output = options.collect;
     study::collect(*one, own);
-    reportAtEnd(cases::analysisFolder(*one, own.output, "study"), one->output().report);
+    endAnalysis("study", *one, own.output);
   } else if (!options.row.empty()) {
     study::computeRow(*one, options.row, own);
   } else {
     study::run(*one, own);
-    reportAtEnd(cases::analysisFolder(*one, own.output, "study"), one->output().report);
+    endAnalysis("study", *one, own.output);
   }
 }
 

@@ -2,8 +2,8 @@
 #include "substructures/drillstring/analyses/TorqueDrag.hpp"
 
 #include "app/commands/Commands.hpp"
+#include "app/text/AnalysisScreens.hpp"
 #include "cases/CaseKinds.hpp"
-#include "cases/run/AnalysisFiles.hpp"
 #include "common/Error.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 
@@ -17,7 +17,7 @@ void torqueDrag(const RunOptions& options) {
                     ": torque and drag needs a string in its well. Give a deck with the lists Well "
                     "and Drillstring.");
   drillstring::reportTorqueDrag(*string, options.output, options.fresh);
-  reportAtEnd(cases::analysisFolder(*one, options.output, "torque_drag"), one->output().report);
+  endAnalysis("torque_drag", *one, options.output);
 }
 
 }  // namespace tooljoint::app

@@ -4,24 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <iomanip>
-#include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <unistd.h>
 #include <utility>
 #include <vector>
 
+#include "app/text/ScreenLines.hpp"
 #include "cases/run/DeckCommand.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
-#include "common/report/Detail.hpp"
 #include "common/report/Log.hpp"
-#include "common/report/StageTimes.hpp"
 #include "common/report/Terminal.hpp"
-#include "deck/PrintedUnits.hpp"
 #include "io/ResultsReader.hpp"
 #include "io/TextFile.hpp"
 
@@ -29,44 +22,9 @@ namespace tooljoint::app {
 
 namespace {
 
-using Json = nlohmann::json;
+using screen::brief, screen::fixed, screen::line, screen::number, screen::padded, screen::quantity;
+using screen::Json;
 using terminal::Colour;
-
-constexpr std::size_t column = 20;  ///< width of the names and of the values
-
-/// A number with so many decimals.
-std::string fixed(double value, int decimals) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(decimals) << value;
-  const std::string text = out.str();
-  return text.find_first_not_of("-0.") == std::string::npos ? text.substr(text.find('0')) : text;
-}
-
-/// A number with so many significant digits.
-std::string brief(double value, int digits) {
-  std::ostringstream out;
-  out << std::setprecision(digits) << value;
-  return out.str();
-}
-
-/// An SI value in the unit it is printed in, `usual` or that of the field.
-std::string quantity(double si, const char* usual, int decimals) {
-  const deck::PrintedUnit unit(usual);
-  return fixed(unit(si), decimals) + " " + unit.name();
-}
-
-std::string padded(const std::string& text) {
-  return text + std::string(text.size() < column ? column - text.size() : 1, ' ');
-}
-
-/// A number of the summary by its JSON pointer; none where a stage did not run.
-std::optional<double> number(const Json& summary, const char* path) {
-  const Json::json_pointer pointer(path);
-  if (!summary.contains(pointer)) return std::nullopt;
-  const auto& value = summary.at(pointer);
-  if (!value.is_number()) return std::nullopt;
-  return value.get<double>();
-}
 
 /// What a run is checked for, and the bound; tools/report/checks.py has the same (tests/terminal).
 struct Check {
@@ -110,11 +68,6 @@ Worst worstCheck(const Json& summary) {
       worst = {&check, share};
   }
   return worst;
-}
-
-void line(const std::string& name, const std::string& value, const std::string& remark = "") {
-  log::info(terminal::coloured(padded(name), Colour::Bold, STDOUT_FILENO) +
-            (remark.empty() ? value : padded(value) + remark));
 }
 
 /// Torque [N m] that is none in the digits that are printed.
@@ -185,24 +138,6 @@ std::string adviceOf(const Check& check, const Json& summary) {
   return check.advice;
 }
 
-/// A command in lines that a shell joins, broken before its options where it is long.
-std::vector<std::string> shellLines(const std::string& command) {
-  constexpr std::size_t widest = 80;
-  std::vector<std::string> lines(1);
-  for (std::size_t begin = 0; begin < command.size();) {
-    const auto end = std::min(command.find(" --", begin + 1), command.size());
-    const auto piece = command.substr(begin, end - begin);
-    if (lines.back().size() + piece.size() > widest && !lines.back().empty()) {
-      lines.back() += " \\";
-      lines.push_back(" " + piece);
-    } else {
-      lines.back() += piece;
-    }
-    begin = end;
-  }
-  return lines;
-}
-
 /// What to try next, a command each: what mends a check that is not met, else what shows more.
 std::vector<std::string> next(const Json& summary, const std::string& folder,
                               const deck::Deck& deck) {
@@ -231,27 +166,12 @@ std::vector<std::string> next(const Json& summary, const std::string& folder,
   return more;
 }
 
-/// Times of the stages and counters of the motion, of --verbose.
-void details(const Json& summary) {
-  const auto times = stageTimes(0.0);
-  if (!times.empty()) log::detail("stages      " + times);
-  std::string counters;
-  for (const char* name : {"steps", "newton_iterations", "factorisations", "right_hand_sides",
-                           "halved", "rejected", "unconverged_steps"}) {
-    if (const auto count = number(summary, (std::string("/transient/") + name).c_str()))
-      counters += (counters.empty() ? "" : ", ") + std::string(name) + " " + fixed(*count, 0);
-  }
-  if (!counters.empty()) log::detail("counters    " + counters);
-  if (const auto memory = number(summary, "/peak_memory_mb"))
-    log::detail("memory      " + fixed(*memory, 0) + " MB at most");
-}
-
 }  // namespace
 
 void lastScreen(const std::string& folder, const deck::Deck& deck) {
   if (log::quiet() || parallel::rank() != 0) return;
   const auto summary = Json::parse(io::readText(folder + "/summary.json"));
-  details(summary);
+  screen::details(summary);
   log::info("");
   if (number(summary, "/static/hook_load")) ofString(summary, folder);
   ofMotion(summary);
@@ -264,17 +184,7 @@ void lastScreen(const std::string& folder, const deck::Deck& deck) {
   if (const auto count = summary.at("warnings").size(); count > 0)
     line("warnings", terminal::coloured(std::to_string(count), Colour::Yellow, STDOUT_FILENO) +
                          ", above and in the report");
-  const auto report = std::filesystem::path(folder) / "report.html";
-  log::info("");
-  log::info(std::filesystem::exists(report)
-                ? "open        " + report.string() + " in a browser"
-                : "report      none was written: tooljoint report " + folder);
-  const char* label = "next        ";
-  for (const auto& command : next(summary, folder, deck))
-    for (const auto& part : shellLines(command)) {
-      std::cout << label << part << std::endl;  // to be copied
-      label = "            ";
-    }
+  screen::openAndNext(folder, next(summary, folder, deck));
 }
 
 }  // namespace tooljoint::app

@@ -76,7 +76,8 @@ class Describer {
       }
       if (!matters(path)) continue;
       lines_[path] = valueText(list.entry(it));
-      if (fileParameters.count(name) > 0 && list.isType<std::string>(name))
+      if (fileParameters.count(name) > 0 && list.isType<std::string>(name) &&
+          !parts::isPartText(list.get<std::string>(name)))
         addContent(path, list.get<std::string>(name));
     }
   }

@@ -8,6 +8,7 @@
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
 #include "io/MatrixMarket.hpp"
+#include "parts/file/PartFile.hpp"
 #include "parts/file/PartSource.hpp"
 #include "parts/foreign/PartFormat.hpp"
 
@@ -24,12 +25,14 @@ constexpr std::uint64_t largestJson = 1ULL << 28U;
 /// itself.
 class JsonSource : public PartSource {
  public:
-  explicit JsonSource(const std::string& path) : file_(path) {
+  explicit JsonSource(const std::string& path) : file_(path), inDeck_(isPartText(path)) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored))
+    if (inDeck_)
+      file_ = "the part in the deck";
+    else if (std::filesystem::is_directory(path, ignored))
       file_ = (std::filesystem::path(path) / "part.json").string();
     try {
-      root_ = Json::parse(readInput(file_, largestJson));
+      root_ = Json::parse(inDeck_ ? path : readInput(file_, largestJson));
     } catch (const FileError& fault) {
       throw DeckError(fault.what());
     } catch (const Json::exception& fault) {
@@ -148,6 +151,9 @@ class JsonSource : public PartSource {
   /// A file the JSON names, relative to its folder unless absolute.
   std::string beside(const Json& value) const {
     const std::filesystem::path name = value.get<std::string>();
+    if (inDeck_ && !name.is_absolute())
+      throw DeckError(file_ + " names the file " + inQuotes(name.string()) +
+                      ", but stands in no folder: give a list of rows, or an absolute path.");
     return name.is_absolute() ? name.string()
                               : (std::filesystem::path(file_).parent_path() / name).string();
   }
@@ -212,6 +218,7 @@ class JsonSource : public PartSource {
   }
 
   std::string file_;
+  bool inDeck_ = false;
   Json root_;
 };
 
@@ -240,13 +247,15 @@ std::set<std::string> filesOfPart(const std::string& path) {
   return files;
 }
 
+bool isPartText(const std::string& file) { return !file.empty() && file.front() == '{'; }
+
 std::unique_ptr<PartSource> openJsonPart(const std::string& path) {
   return std::make_unique<JsonSource>(path);
 }
 
 std::unique_ptr<PartSource> openPart(const std::string& path) {
   std::error_code ignored;
-  const bool json = std::filesystem::is_directory(path, ignored) ||
+  const bool json = isPartText(path) || std::filesystem::is_directory(path, ignored) ||
                     std::filesystem::path(path).extension() == ".json";
   if (json) return withForeignMatrices(openJsonPart(path));
   const auto format = partFormatOf(path);

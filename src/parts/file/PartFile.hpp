@@ -51,11 +51,14 @@ struct PartContent {
 /// Nodes that a part knows: those of its dofs, and of the rows of its basis.
 std::set<std::int64_t> nodesOf(const PartContent& content);
 
-/// Reads a part. `path` is a .json file, a folder with a part.json, or an HDF5 file; `name` is what
-/// messages call the part. DeckError naming part, file and dof: a file that is missing or
-/// malformed, unknown names, a matrix that is not square or of another size, labels that stand
-/// twice, an interface dof the part does not have, an entry that is not finite. ModelError: a mass
-/// that is not symmetric or indefinite. Not collective: see readPartEverywhere.
+/// Whether what a deck gives as File is the text of a part.json, not its name.
+bool isPartText(const std::string& file);
+
+/// Reads a part. `path` is a .json file, a folder with a part.json, an HDF5 file, or the text of a
+/// part.json; `name` is what messages call the part. DeckError naming part, file and dof: a file
+/// that is missing or malformed, unknown names, a matrix that is not square or of another size,
+/// labels that stand twice, an interface dof the part does not have, an entry that is not finite.
+/// ModelError: a mass that is not symmetric or indefinite. Not collective: see readPartEverywhere.
 PartContent readPart(const std::string& path, const std::string& name);
 
 /// The files that readPart(path) reads, `path` itself first of all: those a JSON file names, and

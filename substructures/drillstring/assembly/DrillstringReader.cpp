@@ -8,6 +8,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "substructures/drillstring/Mesh.hpp"
+#include "substructures/drillstring/assembly/Libraries.hpp"
 #include "substructures/drillstring/assembly/PipeTable.hpp"
 
 namespace tooljoint::drillstring {
@@ -77,6 +78,13 @@ std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit, bo
   return assembly;
 }
 
+deck::Deck readLibrary(const deck::Deck& deck, const std::string& name) {
+  const auto builtIn = componentLibraries().find(name);
+  if (builtIn != componentLibraries().end())
+    return deck::Deck::parse(builtIn->second, name, libraryParameters());
+  return deck.readNamed(here + "/Library", name, libraryParameters());
+}
+
 }  // namespace
 
 std::string StringSettings::bitAt(double bit) const {
@@ -86,7 +94,9 @@ std::string StringSettings::bitAt(double bit) const {
 deck::ListSpec drillstringParameters() {
   const beam::Material steel;
   deck::ListSpec spec(here, "What the string is made of.");
-  spec.text("Library", deck::Optional{}, "Component library, an XML file relative to the deck.")
+  spec.text("Library", deck::Optional{},
+            "Component library: \"api_pipes\", which is built in, or an XML file relative to the "
+            "deck.")
       .text("Pipe Table", deck::Optional{},
             "Table of drill pipe, a CSV file relative to the deck: a row is a component of that "
             "name, as \"5 in 19.50 S-135 NC50\", with a stand of three, \"5 in 19.50 S-135 NC50 "
@@ -128,8 +138,7 @@ StringSettings readDrillstring(const deck::Deck& deck) {
   settings.assemblyWhere = deck.where(here + "/Assembly");
   std::vector<std::string> faults;
   if (list.isParameter("Library")) {
-    const deck::Deck library =
-        deck.readNamed(here + "/Library", list.get<std::string>("Library"), libraryParameters());
+    const deck::Deck library = readLibrary(deck, list.get<std::string>("Library"));
     readComponents(library.list(), settings.defaults, {library, ""}, settings.library, faults);
   }
   if (list.isParameter("Pipe Table")) {

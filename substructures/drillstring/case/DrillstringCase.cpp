@@ -16,6 +16,7 @@
 #include "io/TextFile.hpp"
 #include "parts/ReducedPart.hpp"
 #include "substructures/beam/NodalDofs.hpp"
+#include "substructures/drillstring/assembly/Libraries.hpp"
 #include "substructures/drillstring/case/StringOutline.hpp"
 #include "substructures/drillstring/case/StringRecord.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
@@ -154,8 +155,11 @@ std::vector<std::int64_t> DrillstringCase::recordedNodes() const {
 std::string DrillstringCase::files() const {
   std::string text;
   const auto file = [&](const Teuchos::ParameterList& list, const char* name) {
-    if (list.isParameter(name))
-      text += "\n" + io::readText(deck().resolve(list.get<std::string>(name)));
+    if (!list.isParameter(name)) return;
+    const auto builtIn = componentLibraries().find(list.get<std::string>(name));
+    text += "\n" + (builtIn == componentLibraries().end()
+                        ? io::readText(deck().resolve(list.get<std::string>(name)))
+                        : builtIn->second);
   };
   file(list().sublist("Drillstring"), "Library");
   file(list().sublist("Drillstring"), "Pipe Table");

@@ -264,10 +264,9 @@ std::string describeWell(const Scene& scene) {
     if (const double bend = scene.well.at(s).curvature.norm(); bend > sharpest)
       sharpest = bend, where = s;
   const double fall = scene.well.at(bit).position.z() - scene.well.at(0.0).position.z();
-  std::string text = fmt::sprintf(
-      "well        bit at %s along the hole, %s below its start, inclination %.3g deg; ",
-      deck::printed(bit, "m", 5), deck::printed(fall, "m", 5),
-      scene.well.inclination(bit) / constants::degree);
+  std::string text = fmt::sprintf("well        bit at MD %s, TVD %s, inclination %.3g deg; ",
+                                  deck::printed(bit, "m", 5), deck::printed(fall, "m", 5),
+                                  scene.well.inclination(bit) / constants::degree);
   if (sharpest == 0.0) return text + "straight";
   text += fmt::sprintf("largest dogleg %s at %s", deck::printed(sharpest, "deg/30 m", 3),
                        deck::printed(where, "m", 5));
@@ -293,7 +292,7 @@ std::string describeString(const Scene& scene) {
     if (instance.component == uppermost) below = 0.0;
   }
   const double gravity = loads::acceleration(scene.loads).norm();
-  std::string text = "            longest element " + deck::printed(longest, "m", 3) + "; " +
+  std::string text = "            longest element " + deck::printed(longest, "m", 3) + "; BHA " +
                      deck::printed(below, "m", 4) + " below the last " + uppermost;
   if (gravity == 0.0) return text + "; no weight";
   text += "; weight " + deck::printed(mass * gravity, "kN", 4) + " in air";

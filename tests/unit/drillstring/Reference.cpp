@@ -122,6 +122,13 @@ double weightOf(const std::string& component) {
   return mass / string.length() / poundPerFoot;
 }
 
+TEST(ApiLibrary, IsBuiltIn) {
+  const auto lengthWith = [](const std::string& library) {
+    return build(library + array("Assembly", "2*5 in stand"), verticalWell(1000.0, 0.3)).length();
+  };
+  EXPECT_EQ(lengthWith(text("Library", "api_pipes")), lengthWith(apiLibrary));
+}
+
 TEST(ApiLibrary, BuildsAString) {
   const DrillString string = build(
       apiLibrary +

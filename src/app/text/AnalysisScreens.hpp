@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What studies, maps and analyses say last.
+#pragma once
+
+#include <string>
+
+#include "cases/Case.hpp"
+
+namespace tooljoint::app {
+
+/// The numbers that matter of an analysis ("study", "map", "torque_drag", "bha", "buckling",
+/// "campbell", "response" or "modes") in `folder`, where its report is, and what to try next.
+/// Reads summary.json; silent with log::quiet(). Rank 0 prints.
+void analysisScreen(const std::string& analysis, const std::string& folder, const deck::Deck& deck);
+
+/// The report of an analysis, then its screen. `output`: folder of the command line.
+void endAnalysis(const std::string& analysis, const cases::Case& one, const std::string& output);
+
+}  // namespace tooljoint::app

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Component libraries that are built in, so that a deck needs no file beside it
+/// (cmake/Templates.cmake).
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace tooljoint::drillstring {
+
+/// Name -> XML text: "api_pipes", xml/components/api_pipes.xml.
+const std::map<std::string, std::string>& componentLibraries();
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Last screens of studies, maps and analyses: their numbers are those of summary.json."""
+import json
+import math
+import pathlib
+import re
+import shlex
+
+from checks import expect
+
+
+def _extreme(rows, key, choose, factor=1.0):
+    found = [row[key] for row in rows or [] if row[key] is not None]
+    return choose(found) * factor if found else None
+
+
+def _largest(values):
+    return max(values, key=abs)
+
+
+def _numbers(analysis, summary):
+    """Name on the screen -> number in the unit that is printed; None: the name is not there."""
+    group = summary[analysis]
+    if analysis == "torque_drag":
+        rows = group["rows"]
+        return {"largest hook load": _extreme(rows, "hook_load", max, 1e-3), "least hook load": _extreme(rows, "hook_load", min, 1e-3),
+                "surface torque": _extreme(rows, "surface_torque", _largest, 1e-3), "helical margin": _extreme(rows, "helical_margin", min)}
+    if analysis == "bha":
+        rows = group["rows"]
+        return {"side force at the bit": _extreme(rows, "side_force_high", _largest, 1e-3), "bending moment": _extreme(rows, "largest_moment", max, 1e-3),
+                "von Mises stress": _extreme(rows, "largest_von_mises", max, 1e-6)}
+    if analysis == "buckling":
+        scaled = {"first buckling": group["limit"], "helical limit": group["theory"]["helical"], "last weight on bit": group["last_weight_on_bit"]}
+        return {**{name: value and value / 1e3 for name, value in scaled.items()}, "jumps": len(group["jumps"] or [])}
+    if analysis == "campbell":
+        return {"speeds": group["points"], "critical speeds": len(group["crossings"] or []), "least damping ratio": group["least_damping"] and 100 * group["least_damping"],
+                "growing from": _extreme(group["stability_limits"], "speed_rpm", min)}
+    if analysis == "response":
+        return {"points": group["points"], "largest peak": _extreme(group["peaks"], "amplitude", max), "wall reached from": group["contact_speed_rpm"]}
+    if analysis == "modes":
+        return {"modes": group["count"], "lowest frequency": group["lowest_hz"], "error by reduction": group["largest_error"] and 100 * group["largest_error"]}
+    if analysis == "map":
+        return {"points": group["points"], group["values"][0]["name"]: group["values"][0]["min"]}
+    methods = [row for row in group if row["kind"] == "method" and row["status"] == "done"]
+    return {"runs": len(methods), "most accurate": _extreme(methods, "vibration_error", min, 100)}
+
+
+def _rounds(value, text):
+    """Whether a text is the value with three digits or more, or rounded to its last decimal."""
+    decimals = len(text.partition(".")[2]) if "e" not in text else 300
+    return math.isclose(float(text), value, rel_tol=6e-3, abs_tol=0.501 * 10.0**-decimals)
+
+
+def expect_screen(done, folder, analysis):
+    """Every number of the screen is that of the summary as it is rounded there, it says where the report is, and what to try next."""
+    summary = json.loads((pathlib.Path(folder) / "summary.json").read_text(encoding="utf-8"))
+    said = re.sub(r"\x1b\[\d+m", "", done.stdout)
+    screen = said[said.rfind("\n\n", 0, max(said.rfind("\nopen "), said.rfind("\nreport ")) - 1):]
+    for name, wanted in _numbers(analysis, summary).items():
+        found = re.search(rf"^{re.escape(name)} +(-?\d[\d.e+-]*)", screen, re.M)
+        same = found is None if wanted is None else found is not None and _rounds(wanted, found[1])
+        if not same:
+            expect(f"{folder}: the last screen of {analysis}: {name} is {wanted}", False, screen[-900:])
+    following = re.search(r"^next +tooljoint ((?:.*\\\n)*.*)", screen, re.M)
+    words = shlex.split(following[1].replace("\\\n", " ")) if following else []
+    if not (words and pathlib.Path(words[1]).exists()):
+        expect(f"{folder}: the last screen of {analysis} says what to try next", False, screen[-900:])
+    expect(f"{folder}: the last screen of {analysis} has the numbers of the summary, in 100 columns", all(len(line) <= 100 for line in screen.strip().partition("\n\n")[0].splitlines()), screen)
