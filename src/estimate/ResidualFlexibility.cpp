@@ -8,6 +8,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "linalg/factor/FactorMemory.hpp"
 #include "model/DofNames.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
@@ -62,6 +63,8 @@ void ResidualFlexibility::factor(const model::Substructure& part, const reductio
   double shift = 0.0;
   try {
     solver_ = std::make_unique<linalg::DirectSolver>(stiffness_, name, options);
+  } catch (const linalg::MemoryError&) {
+    throw;
   } catch (const ModelError& error) {
     shift = small * lowestVibration(basis);
     try {

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Parameters that name a file or folder.
-const std::set<std::string> fileParameters{"File", "Library"};
+const std::set<std::string> fileParameters{"File", "Library", "Pipe Table"};
 /// Parameters of Output that decide what is recorded.
 const std::set<std::string> recorded{"Output/Fields", "Output/XDMF", "Output/XDMF Interval"};
 constexpr const char* recordedFigures = "Output/Figures/";

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <dmumps_c.h>
-#include <fstream>
 #include <limits>
 #include <mpi.h>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "common/Communicator.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/factor/FactorMemory.hpp"
 #include "linalg/factor/MumpsControl.hpp"
 
 namespace tooljoint::linalg {
@@ -25,27 +25,6 @@ constexpr int fewRows = 2000;
 /// Entries of a row of a string: its node and two neighbours, six dofs each. Solids have 81.
 constexpr int entriesOfAString = 18;
 using namespace mumps;
-
-/// Memory that is free, as Linux says [MB]; none where it does not.
-std::optional<long> freeMegabytes() {
-  std::ifstream in("/proc/meminfo");
-  for (std::string word; in >> word;)
-    if (word == "MemAvailable:") {
-      long kilobytes = 0;
-      in >> kilobytes;
-      return kilobytes / 1024;
-    }
-  return {};
-}
-
-[[noreturn]] void refuseMemory(Eigen::Index rows, long needed, std::optional<long> available,
-                               bool divided) {
-  throw ModelError("The factors of a matrix of " + std::to_string(rows) + " rows need " +
-                   std::to_string(needed) + " MB of memory" + (divided ? " on a rank" : "") +
-                   (available ? ", and " + std::to_string(*available) + " MB are free"
-                              : ", more than there is") +
-                   ". Cut the part into smaller ones, or use a machine with more.");
-}
 
 }  // namespace
 

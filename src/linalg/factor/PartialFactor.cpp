@@ -10,6 +10,7 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/factor/FactorMemory.hpp"
 #include "linalg/factor/MumpsControl.hpp"
 
 namespace tooljoint::linalg {
@@ -72,10 +73,7 @@ struct PartialFactor::Impl {
   }
 
   [[noreturn]] void fail() const {
-    if (status() == noMemory)
-      throw ModelError("The factors of a matrix of " + std::to_string(id.n) + " rows need " +
-                       std::to_string(std::max(info(16), info(17))) +
-                       " MB of memory, more than there is. Cut the part into more parts.");
+    if (status() == noMemory) refuseMemory(id.n, std::max(info(16), info(17)), freeMegabytes());
     throw ModelError("MUMPS could not factor a matrix of " + std::to_string(id.n) +
                      " rows: error " + std::to_string(status()) + " (" + std::to_string(info(2)) +
                      ").");
@@ -109,6 +107,9 @@ bool PartialFactor::factor(const Sparse& A, int inner, Matrix& schur) {
   if (another) {
     m.call(analyse);
     if (m.status() < 0) m.fail();
+    const long needed = m.info(16);  // MB of the factorisation
+    const auto most = freeMegabytes();
+    if (most && needed > *most) refuseMemory(A.rows(), needed, most);
   }
   m.call(decompose);
   while ((m.status() == noRoom || m.status() == realRoom) && m.control(14) < mostRoom) {

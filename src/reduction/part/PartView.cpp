@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "linalg/factor/FactorMemory.hpp"
 #include "linalg/factor/MumpsFactor.hpp"
 #include "model/DofNames.hpp"
 #include "reduction/part/InteriorStatics.hpp"
@@ -193,6 +194,8 @@ const PartView::Factor& PartView::factor(int number, bool symmetric) const {
     try {
       return Factor{
           linalg::DirectSolver(border.cols() > 0 ? bordered(K, border, border) : K, b.name)};
+    } catch (const linalg::MemoryError&) {
+      throw;
     } catch (const ModelError& error) {
       throw ModelError(who() + "its interior is a mechanism with its " +
                        std::to_string(partition().boundary.size()) +

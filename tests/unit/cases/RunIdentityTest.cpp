@@ -120,6 +120,18 @@ TEST(RunIdentity, hasTheContentOfFiles) {
   EXPECT_NE(now(user), before);
 }
 
+TEST(RunIdentity, hasTheContentOfATableOfPipes) {
+  const test::Scratch scratch;
+  io::writeText(scratch / "pipes.csv", "Name\n");
+  const std::vector<std::string> table{"Drillstring/Pipe Table=" +
+                                       (scratch / "pipes.csv").string()};
+  const auto before = ofString(table);
+  EXPECT_EQ(ofString(table), before);
+  io::writeText(scratch / "pipes.csv", "Name,Length [m]\n");
+  EXPECT_EQ(cases::identityDifferences(before, ofString(table)),
+            "the content of the file of Drillstring/Pipe Table has changed");
+}
+
 /// What a format reads beside its file counts too: the other matrices of an Abaqus job, the mapping
 /// of a Harwell-Boeing matrix, and what a JSON file names in another folder; other files do not.
 TEST(RunIdentity, hasWhatAFormatReadsBesideItsFile) {

@@ -7,8 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <optional>
 #include <string>
+#include <sys/resource.h>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -16,6 +20,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "linalg/Deterministic.hpp"
+#include "linalg/factor/FactorMemory.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
@@ -117,6 +122,38 @@ TEST(MumpsFactor, countsEigenvalues) {
               eigenvaluesOfGridBelow(bound / 4) + 2 * eigenvaluesOfGridBelow(bound))
         << bound;
   }
+}
+
+/// The limit of the address space counts where it is below what the machine has free.
+TEST(FactorMemory, IsWhatTheLimitOfTheProcessLeaves) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  if (before.rlim_cur != RLIM_INFINITY) GTEST_SKIP() << "the process has a limit";
+  const auto unlimited = freeMegabytes();
+  ASSERT_TRUE(unlimited);
+  long pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit limit = before;
+  const long left = *unlimited / 4;
+  limit.rlim_cur = static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE) + left * 1024 * 1024);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+  const auto limited = freeMegabytes();
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_LE(limited.value_or(0), left);
+  EXPECT_GE(limited.value_or(0), left - 10);
+}
+
+TEST(FactorMemory, IsNotSaidToBeFreeWhereItIsEnough) {
+  const auto text = [](std::optional<long> available) -> std::string {
+    try {
+      refuseMemory(1000, 383, available);
+    } catch (const MemoryError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_NE(text(100).find("need 383 MB of memory, and 100 MB are free."), std::string::npos);
+  for (const auto& known : {std::optional<long>(22185), std::optional<long>()})
+    EXPECT_NE(text(known).find("need 383 MB of memory, more than there is."), std::string::npos);
 }
 
 /// Before the factorisation, with a sentence of the rows and of both amounts of memory. A limit of
