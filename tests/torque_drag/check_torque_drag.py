@@ -190,6 +190,25 @@ def documented():
             computed = float(row[name]) / 1e3
             digits = 1 if "hook" in name else 2
             expect(f"docs/drilling.md, {operation}, {name}: {cell.strip()} is {computed:.{digits}f}", abs(float(cell) - computed) <= 1.5 * 10**-digits)
+    in_motion(table)
+
+
+def in_motion(table):
+    """Friction along the hole in a run: static state and motion at the speeds of an operation have the loads of the stiff string in torque-drag."""
+    for operation, speed, ranks, turns in (("Trip out", -0.3, 1, ("--without", "Rotary Speed")), ("Back-ream", -0.05, 2, ())):
+        # from 1 um/s on the coefficient is that of fast sliding
+        settings = ("Contact/Friction/Axial=true", "Contact/Friction/Regularisation Velocity=1e-6", "Static/Reference=Hanging", f"Top Drive/Block Speed={speed}",
+                    "Transient/End Time=0.05")
+        done = tooljoint("run", DECK, "--output", "in_motion", "--without", "Loads/Weight On Bit", "--without", "Loads/Torque On Bit", *turns,
+                         *[part for setting in settings for part in ("--set", setting)], ranks=ranks)
+        expect(f"{operation}: the motion runs", done.returncode == 0, done.stderr)
+        row, static = table[operation], json.loads(pathlib.Path("in_motion/summary.json").read_text(encoding="utf-8"))["static"]
+        with h5py.File("in_motion/results.h5") as file:
+            hook, torque = file["transient/hook_load"][:], file["transient/surface_torque"][:]
+        for what, values, stiff in (("hook load", [static["hook_load"], *hook], "stiff_hook_load"), ("torque", [static["surface_torque"], *torque], "stiff_surface_torque")):
+            true = float(row[stiff])
+            worst = max(abs(value - true) for value in values)
+            expect(f"{operation}: {what} of a run is {true:.6g}, off by {worst:.2g}", worst <= 1e-5 * max(abs(true), 1e3))
 
 
 def static_state(name, ranks=1, *settings):
