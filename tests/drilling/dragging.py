@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction along the hole (Contact/Friction/Axial): drag of steady sliding by formula, a string that slips and sticks on its way down against
-scipy, its damped modes against a matrix of its own, and a string that begins to turn while it slides."""
+scipy, its damped modes and response against a matrix of its own, and a string that begins to turn while it slides."""
 import csv
 import math
 
@@ -89,12 +89,21 @@ class Rod:
             return np.concatenate([v, inverse @ (-self.K @ w - self.C @ v - mu(feed + v) * self.normal)])
         return solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="DOP853", rtol=1e-9, atol=1e-12, t_eval=times, max_step=1e-3).y[:n].T
 
+    def damping(self, feed):
+        """C + mu'(U) N"""
+        h = 1e-6
+        return self.C + np.diag((mu(feed + h) - mu(feed - h)) / (2 * h) * self.normal)
+
+    def swing(self, omega, feed, force):
+        """Complex amplitude of the end under a force there."""
+        load = np.zeros(len(self.K))
+        load[-1] = force
+        return np.linalg.solve(self.K - omega**2 * self.M + 1j * omega * self.damping(feed), load)[-1]
+
     def roots(self, feed):
         """Of s^2 M + s (C + mu'(U) N) + K = 0 with a positive imaginary part."""
-        h = 1e-6
-        slope = (mu(feed + h) - mu(feed - h)) / (2 * h)
         n, inverse = len(self.K), np.linalg.inv(self.M)
-        A = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ self.K, -inverse @ (self.C + np.diag(slope * self.normal))]])
+        A = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ self.K, -inverse @ self.damping(feed)]])
         s = np.linalg.eigvals(A)
         return s[s.imag > 0]
 
@@ -137,6 +146,17 @@ def slopes(program):
     found = min(modes, key=lambda mode: abs(mode[0] - size) + abs(mode[1] + root.real / abs(root)))
     near("slopes: first axial mode [Hz]", found[0], size, 1e-4 * size)
     near("slopes: its growth [1/s]", -found[1] * 2 * math.pi * found[0], root.real, 0.02 * abs(root.real + 0.25))
+    # a force along the string at its end
+    end = {"Node": COUNT * PIPE["Elements"] + 1, "Component": "w"}
+    sweep = {"Excitation": "Harmonic", "Friction": "Sliding", "Lowest Frequency": 5.0, "Highest Frequency": 10.0, "Points": 11,
+             "Loads": {"push": {**end, "Value": 100.0}}, "Outputs": {"end": end}}
+    run = program.run("sweep", deck(program, "sweep", feed, Response=sweep), {}, ("Transient",), command="response")
+    expect("sweep: exit code 0", run.done, run.sentence() if not run.done else "")
+    with open(run.folder / "response.csv", newline="", encoding="utf-8") as table:
+        rows = [[float(cell) for cell in row[1:4]] for row in list(csv.reader(table))[1:]]
+    found = np.array([amplitude * np.exp(1j * phase) for _, amplitude, phase in rows])
+    true = np.array([rod.swing(2 * math.pi * frequency, feed, 100.0) for frequency, _, _ in rows])
+    near("sweep: response at the end of the string", min(np.abs(one - true).max() for one in (found, found.conj())) / np.abs(true).max(), 0.0, 2e-3)
 
 
 def spun_up(program):
