@@ -257,8 +257,8 @@ class BoreholeContactOf final : public BoreholeContact,
     return slides ? 1 : 0;
   }
 
-  /// Forces and tangents; `N` is the normal force, `T` = mu_c N the traction against t, `A` = mu_a
-  /// N that along the hole. Returns 1 when friction was evaluated.
+  /// Forces and tangents; `N` is the normal force, `T` = mu N the traction against t, `along` N
+  /// that along the hole. Returns 1 when friction was evaluated.
   int tangent(std::size_t i, double omega, const double* d, const double* v, double* f,
               double* dfdd, double* dfdv) const {
     const WallKinematics at = where(i, d, v);
