@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "deck/Registry.hpp"
 #include "substructures/contact/BoreholeContact.hpp"
@@ -24,12 +25,19 @@ class ContactLaw {
   virtual ~ContactLaw() = default;
   /// Contact and friction in motion; `speed` is the rotary speed of the string.
   /// Coordinates are those of contactComponents().
-  virtual std::shared_ptr<const model::PointLaw> inMotion(ContactPoints points,
-                                                          RotarySpeed speed) const = 0;
+  std::shared_ptr<const model::PointLaw> inMotion(ContactPoints points, RotarySpeed speed,
+                                                  const AxialSliding& axial = {}) const {
+    return makeInMotion(std::move(points), std::move(speed), axial);
+  }
   /// Contact and full sliding at rest.
   virtual std::shared_ptr<const StaticContact> atRest(ContactPoints points) const = 0;
   /// False where the friction of the law begins with the motion: atRest() has none.
   virtual bool hasFrictionAtRest() const { return true; }
+
+ private:
+  virtual std::shared_ptr<const model::PointLaw> makeInMotion(ContactPoints points,
+                                                              RotarySpeed speed,
+                                                              const AxialSliding& axial) const = 0;
 };
 
 /// Laws by name; each gets its own sublist (empty when the law has no parameters of its own).

@@ -78,6 +78,13 @@ deck::ListSpec frictionSpec(bool base) {
       "Static.");
   spec.real("Regularisation Velocity", "m/s", value(0.1), Range::positive(),
             "v_r: the coefficient starts with the slope 1/v_r; smaller is sharper.");
+  if (base)
+    spec.boolean(
+        "Axial", false,
+        "Friction acts against the whole sliding velocity: around the wall and along the "
+        "hole, where w and Top Drive/Block Speed move the string. Without it, against that "
+        "around the wall alone. Required (true or false) where a block moves a string with "
+        "friction in a hole that is not vertical. torque-drag always has it.");
   return spec;
 }
 
@@ -162,6 +169,8 @@ ContactSettings readContact(const Teuchos::ParameterList& list) {
   settings.friction = settings.values.muStatic > 0.0;
   for (const ContactInterval& interval : settings.intervals)
     settings.friction |= interval.values.muStatic > 0.0;
+  settings.axialFriction = settings.friction && list.isSublist("Friction") &&
+                           list.sublist("Friction").get<bool>("Axial");
   return settings;
 }
 

@@ -29,6 +29,7 @@ struct ContactSettings {
   ContactPoint values;                     ///< outside the intervals
   std::vector<ContactInterval> intervals;  ///< by depth, not overlapping
   bool friction = false;                   ///< any friction anywhere
+  bool axialFriction = false;              ///< it acts against sliding along the hole too
 
   /// Parameters at the depth s [m] for a node (1-based) with this clearance and contact radius [m].
   ContactPoint pointAt(double s, int node, double clearance, double contactRadius) const;

@@ -60,11 +60,11 @@ ContactPoints ContactPoints::subset(const std::vector<int>& positions) const {
   return out;
 }
 
-ContactPoints ContactPoints::slidingAt(double omega) const {
+ContactPoints ContactPoints::slidingAt(double omega, double axialSpeed) const {
   ContactPoints out = *this;
   for (std::size_t i = 0; i < out.muStatic.size(); ++i)
     out.muStatic[i] = model::FrictionCurve(muStatic[i], muDynamic[i], regularisationVelocity[i])
-                          .value(std::abs(omega) * contactRadius[i]);
+                          .value(std::hypot(omega * contactRadius[i], axialSpeed));
   return out;
 }
 

@@ -43,9 +43,10 @@ struct ContactPoints {
   ContactPoints subset(const std::vector<int>& positions) const;
   /// No point has friction.
   bool frictionless() const;
-  /// The same points with mu_s replaced by mu(|Omega| R_c) of eq. (9): what a section that turns at
-  /// Omega [rad/s] without moving sideways slides with. For StaticContact, which knows mu_s alone.
-  ContactPoints slidingAt(double omega) const;
+  /// The same points with mu_s replaced by mu(v), v = hypot(Omega R_c, v_a), of eq. (9): what a
+  /// section that turns at Omega [rad/s] and moves along the hole at v_a [m/s], but not sideways,
+  /// slides with. For StaticContact, which knows mu_s alone.
+  ContactPoints slidingAt(double omega, double axialSpeed = 0.0) const;
   /// The same points with mu_s replaced by mu_d: what slides fast.
   ContactPoints slidingFast() const;
 };

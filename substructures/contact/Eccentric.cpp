@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/contact/Eccentric.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "common/Index.hpp"
@@ -63,16 +65,17 @@ class EccentricInMotion final : public model::PointLaw,
   void evaluate(double t, const std::vector<int>& active, const double* d, const double* v,
                 double* f) const override {
     concentric_->evaluate(t, active, centres(active, d), v, f);
-    for (const int p : active) addTorque(p, f + 3 * p, 1);
+    for (const int p : active) addTorque(p, f + width() * p, 1);
   }
 
   void evaluateWithTangent(double t, const std::vector<int>& active, const double* d,
                            const double* v, double* f, double* dfdd, double* dfdv) const override {
     concentric_->evaluateWithTangent(t, active, centres(active, d), v, f, dfdd, dfdv);
+    const int w = width();
     for (const int p : active) {
-      addTorque(p, f + 3 * p, 1);
-      addTorque(p, dfdd + 9 * p, 3);
-      addTorque(p, dfdv + 9 * p, 3);
+      addTorque(p, f + w * p, 1);
+      addTorque(p, dfdd + w * w * p, w);
+      addTorque(p, dfdv + w * w * p, w);
     }
   }
 
@@ -108,21 +111,23 @@ class EccentricInMotion final : public model::PointLaw,
   /// Coordinates of the centres of contact, valid until the next call of this thread.
   const double* centres(const std::vector<int>& points, const double* d) const {
     thread_local std::vector<double> shifted;
-    shifted.resize(3 * offsets_.size());
+    const std::size_t w = at(width());
+    shifted.resize(w * offsets_.size());
     for (const int p : points) {
-      const std::size_t i = 3 * at(p);
+      const std::size_t i = w * at(p);
       shifted[i] = d[i] + offsets_[at(p)].x();
       shifted[i + 1] = d[i + 1] + offsets_[at(p)].y();
-      shifted[i + 2] = d[i + 2];
+      std::copy(d + i + 2, d + i + w, shifted.begin() + static_cast<std::ptrdiff_t>(i + 2));
     }
     return shifted.data();
   }
 
-  /// Row 2 of `rows` (F_u, F_v, T_z, each with so many columns) += o_u row 1 - o_v row 0.
+  /// The last row of `rows` (F_u, F_v, perhaps F_w, T_z, each with so many columns) += o_u row 1 -
+  /// o_v row 0.
   void addTorque(int point, double* rows, int columns) const {
     const Eigen::Vector2d& o = offsets_[at(point)];
     for (int c = 0; c < columns; ++c)
-      rows[2 * columns + c] += o.x() * rows[columns + c] - o.y() * rows[c];
+      rows[(width() - 1) * columns + c] += o.x() * rows[columns + c] - o.y() * rows[c];
   }
 
   std::shared_ptr<const model::PointLaw> concentric_;

@@ -23,7 +23,7 @@ using Offsets = std::vector<Eigen::Vector2d>;
 std::shared_ptr<const StaticContact> eccentric(std::shared_ptr<const StaticContact> concentric,
                                                Offsets offsets);
 
-/// For a law of the coordinates u, v, theta_z without states of its own.
+/// For a law of the coordinates u, v, theta_z or u, v, w, theta_z without states of its own.
 std::shared_ptr<const model::PointLaw> eccentric(std::shared_ptr<const model::PointLaw> concentric,
                                                  Offsets offsets);
 

@@ -62,17 +62,25 @@ inline double angleMoment(double x) {
 
 using model::FrictionCurve;
 using model::NormalForce;
+using model::SlidingVelocity;
 
-template <class Kernel>
+/// \tparam Axial  friction against sliding along the hole too; without it nothing of it is
+/// evaluated
+template <class Kernel, bool Axial>
 class BoreholeContactOf final : public BoreholeContact,
                                 public model::Frictional,
                                 public model::Turning {
  public:
-  BoreholeContactOf(ContactPoints points, Kernel kernel, RotarySpeed speed)
+  static constexpr int W = Axial ? 4 : 3;  ///< coordinates: u, v, (w,) theta_z
+  static constexpr int Z = W - 1;
+
+  /// `feed` [m/s]: of the frame, for axial friction.
+  BoreholeContactOf(ContactPoints points, Kernel kernel, RotarySpeed speed, double feed)
       : BoreholeContact(std::move(points)),
         original_(kernel),
         kernel_(std::move(kernel)),
-        speed_(std::move(speed)) {
+        speed_(std::move(speed)),
+        feed_(feed) {
     kernel_.prepare(points_);
     frictionless_ = points_.frictionless();
     if (frictionless_) return;
@@ -82,18 +90,20 @@ class BoreholeContactOf final : public BoreholeContact,
     }
   }
 
+  int width() const override { return W; }
+
   void evaluate(double t, const std::vector<int>& active, const double* d, const double* v,
                 double* f) const override {
     contactCount() += static_cast<long>(active.size());
     if (frictionless_) {
       for (const int p : active)
-        frictionlessForce(static_cast<std::size_t>(p), d + 3 * p, v + 3 * p, f + 3 * p);
+        frictionlessForce(static_cast<std::size_t>(p), d + W * p, v + W * p, f + W * p);
       return;
     }
     const double omega = speed_(t);
     long slid = 0;
     for (const int p : active)
-      slid += force(static_cast<std::size_t>(p), omega, d + 3 * p, v + 3 * p, f + 3 * p);
+      slid += force(static_cast<std::size_t>(p), omega, d + W * p, v + W * p, f + W * p);
     frictionCount() += slid;
   }
 
@@ -103,8 +113,8 @@ class BoreholeContactOf final : public BoreholeContact,
     const double omega = frictionless_ ? 0.0 : speed_(t);
     long slid = 0;
     for (const int p : active)
-      slid += tangent(static_cast<std::size_t>(p), omega, d + 3 * p, v + 3 * p, f + 3 * p,
-                      dfdd + 9 * p, dfdv + 9 * p);
+      slid += tangent(static_cast<std::size_t>(p), omega, d + W * p, v + W * p, f + W * p,
+                      dfdd + W * W * p, dfdv + W * W * p);
     if (slid > 0) frictionCount() += slid;
   }
 
@@ -113,7 +123,7 @@ class BoreholeContactOf final : public BoreholeContact,
     for (int p : points) {
       const auto i = static_cast<std::size_t>(p);
       const double skin = kernel_.skin(i);
-      const double r = std::sqrt(d[3 * p] * d[3 * p] + d[3 * p + 1] * d[3 * p + 1]);
+      const double r = std::sqrt(d[W * p] * d[W * p] + d[W * p + 1] * d[W * p + 1]);
       gap[p] = std::isfinite(skin) ? points_.clearance[i] - r - skin : 0.0;
     }
   }
@@ -124,37 +134,45 @@ class BoreholeContactOf final : public BoreholeContact,
     const double omega = frictionless_ ? 0.0 : speed_(t);
     for (int p : points) {
       const auto i = static_cast<std::size_t>(p);
-      const WallKinematics at = where(i, d + 3 * p, v + 3 * p);
+      const WallKinematics at = where(i, d + W * p, v + W * p);
       double dG = 0.0;
       const double normal = kernel_.force(i, at.penetration, at.rate).value;
       sum.stored += kernel_.energy(i, at.penetration);
       sum.damping += (normal - kernel_.elastic(i, at.penetration, 0.0, dG)) * at.rate;
       if (frictionless_ || friction_[i].h == 0.0) continue;
-      const double sliding = at.slip + (omega + v[3 * p + 2]) * points_.contactRadius[i];
-      const double traction = friction_[i].value(sliding) * normal;
-      sum.friction += traction * sliding;
+      const SlidingVelocity sliding = slidingAt(i, at, omega, v + W * p);
+      const auto mu = coefficient(i, sliding);
+      const double traction = mu.around * normal;
+      sum.friction += traction * sliding.around;
       sum.drive += traction * omega * points_.contactRadius[i];
+      if constexpr (Axial) {
+        sum.friction += mu.along * normal * sliding.along;
+        sum.drive += mu.along * normal * feed_;
+      }
     }
     return sum;
   }
 
-  std::vector<model::Channel> channels() const override { return contactChannels(!frictionless_); }
+  std::vector<model::Channel> channels() const override {
+    return contactChannels(!frictionless_, Axial);
+  }
 
   void record(double t, const double* d, const double* v, double* out) const override {
     const double omega = frictionless_ ? 0.0 : speed_(t);
     const int n = size();
     for (int p = 0; p < n; ++p) {
       const auto i = static_cast<std::size_t>(p);
-      const WallKinematics at = where(i, d + 3 * p, v + 3 * p);
+      const WallKinematics at = where(i, d + W * p, v + W * p);
       const double normal = kernel_.force(i, at.penetration, at.rate).value;
       out[p] = normal;
       out[n + p] = -at.penetration;
       if (frictionless_) continue;
       const double radius = points_.contactRadius[i];
-      const double traction =
-          friction_[i].value(at.slip + (omega + v[3 * p + 2]) * radius) * normal;
+      const auto mu = coefficient(i, slidingAt(i, at, omega, v + W * p));
+      const double traction = mu.around * normal;
       out[2 * n + p] = -traction;
       out[3 * n + p] = -traction * radius;
+      if constexpr (Axial) out[4 * n + p] = -mu.along * normal;
     }
   }
 
@@ -163,16 +181,16 @@ class BoreholeContactOf final : public BoreholeContact,
     ContactPoints smooth = points_;
     std::fill(smooth.muStatic.begin(), smooth.muStatic.end(), 0.0);
     std::fill(smooth.muDynamic.begin(), smooth.muDynamic.end(), 0.0);
-    return std::make_shared<BoreholeContactOf>(std::move(smooth), original_, speed_);
+    return std::make_shared<BoreholeContactOf>(std::move(smooth), original_, speed_, feed_);
   }
 
   std::shared_ptr<const model::PointLaw> atSpeed(double speed) const override {
-    return std::make_shared<BoreholeContactOf>(points_, original_,
-                                               [speed](double /*t*/) { return speed; });
+    return std::make_shared<BoreholeContactOf>(
+        points_, original_, [speed](double /*t*/) { return speed; }, feed_);
   }
 
   std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& positions) const override {
-    return std::make_shared<BoreholeContactOf>(points_.subset(positions), original_, speed_);
+    return std::make_shared<BoreholeContactOf>(points_.subset(positions), original_, speed_, feed_);
   }
 
  private:
@@ -189,12 +207,34 @@ class BoreholeContactOf final : public BoreholeContact,
     return WallKinematics(d[0], d[1], v[0], v[1], points_.clearance[i]);
   }
 
+  SlidingVelocity slidingAt(std::size_t i, const WallKinematics& at, double omega,
+                            const double* v) const {
+    const double around = at.slip + (omega + v[Z]) * points_.contactRadius[i];
+    if constexpr (Axial)
+      return {around, feed_ + v[2]};
+    else
+      return {around, 0.0};
+  }
+
+  /// Friction over the normal force, against the components of the sliding velocity.
+  struct Coefficient {
+    double around, along;
+  };
+  Coefficient coefficient(std::size_t i, const SlidingVelocity& sliding) const {
+    if constexpr (Axial) {
+      const model::SlidingFriction mu(friction_[i], sliding);
+      return {mu.around, mu.along};
+    } else {
+      return {friction_[i].value(sliding.around), 0.0};
+    }
+  }
+
   void frictionlessForce(std::size_t i, const double* d, const double* v, double* f) const {
     const WallKinematics at = where(i, d, v);
     const double normal = kernel_.forceOnly(i, at.penetration, at.rate);
     f[0] = -normal * at.nu;
     f[1] = -normal * at.nv;
-    f[2] = 0.0;
+    for (int k = 2; k < W; ++k) f[k] = 0.0;
   }
 
   /// Returns 1 when friction was evaluated.
@@ -204,15 +244,21 @@ class BoreholeContactOf final : public BoreholeContact,
     const FrictionCurve& curve = friction_[i];
     const double radius = points_.contactRadius[i];
     const bool slides = normal != 0.0 && curve.h != 0.0;
-    const double traction = slides ? curve.value(at.slip + (omega + v[2]) * radius) * normal : 0.0;
+    double traction = 0.0, drag = 0.0;
+    if (slides) {
+      const Coefficient mu = coefficient(i, slidingAt(i, at, omega, v));
+      traction = mu.around * normal;
+      if constexpr (Axial) drag = mu.along * normal;
+    }
     f[0] = -normal * at.nu + traction * at.nv;
     f[1] = -normal * at.nv - traction * at.nu;
-    f[2] = -traction * radius;
+    if constexpr (Axial) f[2] = -drag;
+    f[Z] = -traction * radius;
     return slides ? 1 : 0;
   }
 
-  /// Forces and tangents; `N` is the normal force, `T` = mu N the traction against t. Returns 1
-  /// when friction was evaluated.
+  /// Forces and tangents; `N` is the normal force, `T` = mu N the traction against t, `along` N
+  /// that along the hole. Returns 1 when friction was evaluated.
   int tangent(std::size_t i, double omega, const double* d, const double* v, double* f,
               double* dfdd, double* dfdv) const {
     const WallKinematics at = where(i, d, v);
@@ -230,25 +276,35 @@ class BoreholeContactOf final : public BoreholeContact,
     const double nvv = (1.0 - nv * nv) * at.inverse;
     f[0] = -N * nu;
     f[1] = -N * nv;
-    f[2] = 0.0;
-    dfdd[0] = -Nu * nu - N * nuu;
-    dfdd[1] = -Nv * nu - N * nuv;
-    dfdd[3] = -Nu * nv - N * nuv;
-    dfdd[4] = -Nv * nv - N * nvv;
-    dfdd[2] = dfdd[5] = dfdd[6] = dfdd[7] = dfdd[8] = 0.0;
-    dfdv[0] = -NuDot * nu;
-    dfdv[1] = -NvDot * nu;
-    dfdv[3] = -NuDot * nv;
-    dfdv[4] = -NvDot * nv;
-    dfdv[2] = dfdv[5] = dfdv[6] = dfdv[7] = dfdv[8] = 0.0;
+    for (int k = 2; k < W; ++k) f[k] = 0.0;
+    std::fill(dfdd, dfdd + W * W, 0.0);
+    std::fill(dfdv, dfdv + W * W, 0.0);
+    double *du = dfdd, *dv = dfdd + W, *duDot = dfdv, *dvDot = dfdv + W;  // rows of F_u, F_v
+    du[0] = -Nu * nu - N * nuu;
+    du[1] = -Nv * nu - N * nuv;
+    dv[0] = -Nu * nv - N * nuv;
+    dv[1] = -Nv * nv - N * nvv;
+    duDot[0] = -NuDot * nu;
+    duDot[1] = -NvDot * nu;
+    dvDot[0] = -NuDot * nv;
+    dvDot[1] = -NvDot * nv;
     // outside the skin of a clamped law nothing acts and nothing changes
     if (frictionless_ || friction_[i].h == 0.0 ||
         (N == 0.0 && normal.dG == 0.0 && normal.dRate == 0.0))
       return 0;
 
     const double radius = points_.contactRadius[i];
-    double slope = 0.0;
-    const double mu = friction_[i].value(at.slip + (omega + v[2]) * radius, slope);
+    const SlidingVelocity sliding = slidingAt(i, at, omega, v);
+    double mu = 0.0, slope = 0.0;  // of the traction around, and by v_c
+    double along = 0.0, cross = 0.0, alongSlope = 0.0;
+    if constexpr (Axial) {
+      const model::SlidingFriction both(friction_[i], sliding);
+      const model::SlidingFrictionSlope slopes(friction_[i], sliding);
+      mu = both.around, along = both.along;
+      slope = slopes.aroundAround, cross = slopes.aroundAlong, alongSlope = slopes.alongAlong;
+    } else {
+      mu = friction_[i].value(sliding.around, slope);
+    }
     const double slipU = (v[1] - nu * at.slip) * at.inverse;
     const double slipV = (-v[0] - nv * at.slip) * at.inverse;
     const double T = mu * N, TzDot = slope * N * radius;
@@ -258,28 +314,44 @@ class BoreholeContactOf final : public BoreholeContact,
     const double TvDot = mu * NvDot + slope * N * nu;
     f[0] += T * nv;
     f[1] -= T * nu;
-    f[2] = -T * radius;
-    dfdd[0] += Tu * nv + T * nuv;
-    dfdd[1] += Tv * nv + T * nvv;
-    dfdd[3] -= Tu * nu + T * nuu;
-    dfdd[4] -= Tv * nu + T * nuv;
-    dfdd[6] = -Tu * radius;
-    dfdd[7] = -Tv * radius;
-    dfdv[0] += TuDot * nv;
-    dfdv[1] += TvDot * nv;
-    dfdv[2] = TzDot * nv;
-    dfdv[3] -= TuDot * nu;
-    dfdv[4] -= TvDot * nu;
-    dfdv[5] = -TzDot * nu;
-    dfdv[6] = -TuDot * radius;
-    dfdv[7] = -TvDot * radius;
-    dfdv[8] = -TzDot * radius;
+    f[Z] = -T * radius;
+    du[0] += Tu * nv + T * nuv;
+    du[1] += Tv * nv + T * nvv;
+    dv[0] -= Tu * nu + T * nuu;
+    dv[1] -= Tv * nu + T * nuv;
+    double *dz = dfdd + Z * W, *dzDot = dfdv + Z * W;
+    dz[0] = -Tu * radius;
+    dz[1] = -Tv * radius;
+    duDot[0] += TuDot * nv;
+    duDot[1] += TvDot * nv;
+    duDot[Z] = TzDot * nv;
+    dvDot[0] -= TuDot * nu;
+    dvDot[1] -= TvDot * nu;
+    dvDot[Z] = -TzDot * nu;
+    dzDot[0] = -TuDot * radius;
+    dzDot[1] = -TvDot * radius;
+    dzDot[Z] = -TzDot * radius;
+    if constexpr (Axial) {
+      const double TwDot = cross * N;
+      duDot[2] = TwDot * nv;
+      dvDot[2] = -TwDot * nu;
+      dzDot[2] = -TwDot * radius;
+      f[2] = -along * N;
+      double *dw = dfdd + 2 * W, *dwDot = dfdv + 2 * W;
+      dw[0] = -along * Nu - cross * N * slipU;
+      dw[1] = -along * Nv - cross * N * slipV;
+      dwDot[0] = -along * NuDot + cross * N * nv;
+      dwDot[1] = -along * NvDot - cross * N * nu;
+      dwDot[2] = -alongSlope * N;
+      dwDot[3] = -cross * N * radius;
+    }
     return 1;
   }
 
   Kernel original_;  // before prepare(), for subset()
   Kernel kernel_;
   RotarySpeed speed_;
+  double feed_;
   std::vector<FrictionCurve> friction_;  // empty without friction
   bool frictionless_ = true;
 };
@@ -326,16 +398,20 @@ template <class Kernel>
 class ContactLawOf final : public ContactLaw {
  public:
   explicit ContactLawOf(Kernel kernel = Kernel()) : kernel_(std::move(kernel)) {}
-  std::shared_ptr<const model::PointLaw> inMotion(ContactPoints points,
-                                                  RotarySpeed speed) const override {
-    return std::make_shared<BoreholeContactOf<Kernel>>(std::move(points), kernel_,
-                                                       std::move(speed));
-  }
   std::shared_ptr<const StaticContact> atRest(ContactPoints points) const override {
     return std::make_shared<StaticContactOf<Kernel>>(std::move(points), kernel_);
   }
 
  private:
+  std::shared_ptr<const model::PointLaw> makeInMotion(ContactPoints points, RotarySpeed speed,
+                                                      const AxialSliding& axial) const override {
+    if (axial.friction)
+      return std::make_shared<BoreholeContactOf<Kernel, true>>(std::move(points), kernel_,
+                                                               std::move(speed), axial.feed);
+    return std::make_shared<BoreholeContactOf<Kernel, false>>(std::move(points), kernel_,
+                                                              std::move(speed), axial.feed);
+  }
+
   Kernel kernel_;
 };
 

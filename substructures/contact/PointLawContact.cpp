@@ -24,11 +24,12 @@ using RowsOut = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
 class PointLawInBore final : public model::StatefulPointLaw, public model::Turning {
  public:
   PointLawInBore(ContactPoints points, std::shared_ptr<const model::PointLaw> law,
-                 RotarySpeed speed)
+                 RotarySpeed speed, double feed)
       : points_(std::move(points)),
         law_(std::move(law)),
         with_(model::stateful(*law_)),
         speed_(std::move(speed)),
+        feed_(feed),
         n_(law_->width()),
         tangents_(size(), n_, rated()) {
     for (auto* array : {&y_, &yDot_, &force_}) array->assign(at(size() * n_), 0.0);
@@ -111,14 +112,17 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
     Power sum = with_ != nullptr ? with_->powers(t, points, y_.data(), yDot_.data(), x, xDot)
                                  : law_->power(t, points, y_.data(), yDot_.data());
     if (n_ == 1) return sum;
-    // the rotary drive moves y_1 without the node: its force does work on the law
+    // rotary drive and block move y_1 and y_2 without the node: their forces do work on the law
     lawForces(t, points, d, v, x, rates_.data());
     const double omega = speed_(t);
-    for (int p : points) sum.drive -= force_[at(n_ * p + 1)] * omega * points_.contactRadius[at(p)];
+    for (int p : points) {
+      sum.drive -= force_[at(n_ * p + 1)] * omega * points_.contactRadius[at(p)];
+      if (n_ > 2) sum.drive -= force_[at(n_ * p + 2)] * feed_;
+    }
     return sum;
   }
 
-  std::vector<model::Channel> channels() const override { return contactChannels(n_ > 1); }
+  std::vector<model::Channel> channels() const override { return contactChannels(n_ > 1, n_ > 2); }
   void recordState(double t, const double* d, const double* v, const double* x,
                    double* out) const override {
     lawForces(t, all_, d, v, x, rates_.data());
@@ -129,16 +133,18 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
       if (n_ == 1) continue;
       out[2 * n + p] = force_[at(n_ * p + 1)];
       out[3 * n + p] = force_[at(n_ * p + 1)] * points_.contactRadius[at(p)];
+      if (n_ > 2) out[4 * n + p] = force_[at(n_ * p + 2)];
     }
   }
 
   std::shared_ptr<const model::PointLaw> atSpeed(double speed) const override {
-    return std::make_shared<PointLawInBore>(points_, law_, [speed](double /*t*/) { return speed; });
+    return std::make_shared<PointLawInBore>(
+        points_, law_, [speed](double /*t*/) { return speed; }, feed_);
   }
 
   std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& positions) const override {
     return std::make_shared<PointLawInBore>(points_.subset(positions), law_->subset(positions),
-                                            speed_);
+                                            speed_, feed_);
   }
 
  private:
@@ -157,7 +163,7 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
       y[0] = -where.penetration;
       yDot[0] = -where.rate;
       if (n_ > 1) yDot[1] = where.slip + (omega + v[W * p + 3]) * points_.contactRadius[at(p)];
-      if (n_ > 2) y[2] = d[W * p + 2], yDot[2] = v[W * p + 2];
+      if (n_ > 2) y[2] = d[W * p + 2] + feed_ * t, yDot[2] = v[W * p + 2] + feed_;
     }
   }
   void lawForces(double t, const std::vector<int>& points, const double* d, const double* v,
@@ -210,6 +216,7 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
   std::shared_ptr<const model::PointLaw> law_;
   const model::StatefulPointLaw* with_;
   RotarySpeed speed_;
+  double feed_;
   int n_;
   std::vector<int> all_;
   // of the law in one evaluation
@@ -269,11 +276,6 @@ class PointLawContact final : public ContactLaw {
       : name_(std::move(name)), own_(own) {
     make(1);
   }
-  std::shared_ptr<const model::PointLaw> inMotion(ContactPoints points,
-                                                  RotarySpeed speed) const override {
-    auto law = make(points.size());
-    return std::make_shared<PointLawInBore>(std::move(points), std::move(law), std::move(speed));
-  }
   std::shared_ptr<const StaticContact> atRest(ContactPoints points) const override {
     auto law = make(points.size());
     return std::make_shared<PointLawAtRest>(std::move(points), std::move(law));
@@ -281,6 +283,12 @@ class PointLawContact final : public ContactLaw {
   bool hasFrictionAtRest() const override { return false; }
 
  private:
+  std::shared_ptr<const model::PointLaw> makeInMotion(ContactPoints points, RotarySpeed speed,
+                                                      const AxialSliding& axial) const override {
+    auto law = make(points.size());
+    return std::make_shared<PointLawInBore>(std::move(points), std::move(law), std::move(speed),
+                                            axial.feed);
+  }
   std::shared_ptr<const model::PointLaw> make(int points) const {
     return model::PointLawRegistry::instance().make(name_, own_, {points, most});
   }

@@ -4,7 +4,7 @@
 ///
 ///     y_0 = j0 - r                                      separation from the wall
 ///     y_1, with y_1' = t.(u', v') + (Omega + theta_z') R_c   sliding around; has no displacement
-///     y_2 = w                                           sliding along
+///     y_2 = w + U t                                     sliding along, U the speed of the block
 ///
 /// as many as it takes, and its forces f on them are forces J'f at the node, J = dy'/d(u', v', w',
 /// theta_z').

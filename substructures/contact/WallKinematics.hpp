@@ -28,8 +28,9 @@ struct WallKinematics {
   }
 };
 
-/// normal_force and gap; with friction tangential_force and friction_torque.
-inline std::vector<model::Channel> contactChannels(bool friction) {
+/// normal_force and gap; with friction tangential_force and friction_torque, with friction along
+/// the hole axial_friction too.
+inline std::vector<model::Channel> contactChannels(bool friction, bool axial = false) {
   std::vector<model::Channel> list = {
       {"normal_force", "N", "Normal contact force; positive pushes the string away from the wall"},
       {"gap", "m", "Radial clearance left; negative is penetration"}};
@@ -37,6 +38,8 @@ inline std::vector<model::Channel> contactChannels(bool friction) {
     list.push_back({"tangential_force", "N", "Friction force on the string along (-v, u)/r"});
     list.push_back({"friction_torque", "N m", "Friction torque on the string about its axis"});
   }
+  if (friction && axial)
+    list.push_back({"axial_friction", "N", "Friction force on the string along the hole"});
   return list;
 }
 

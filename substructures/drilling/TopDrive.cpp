@@ -107,9 +107,11 @@ deck::ListSpec topDriveParameters() {
             "Torque of the control Torque; without it that of the static state.")
       .real("Torque Limit", "N m", Optional{}, Range::positive(),
             "Largest torque of a controlled drive either way; no limit without it.")
-      .real("Block Speed", "m/s", 0.0, Range::nonNegative(),
-            "Downward speed of the block: the feed of a Bit law that gives the weight on bit. With "
-            "an Autodriller that of the static state; without it the one of its Weight On Bit.")
+      .real("Block Speed", "m/s", 0.0, Range::any(),
+            "Downward speed of the block: the feed of a Bit law that gives the weight on bit, and "
+            "with Contact/Friction/Axial the speed at which the string slides along the hole; "
+            "negative upwards, without such a Bit. With an Autodriller that of the static state; "
+            "without it the one of its Weight On Bit.")
       .choice("Hook", std::string("Block"), {"Block", "Constant Load"},
               "Block: the top moves with the block. Constant Load: the top is free along the well "
               "under the hook load of the static state at the Block Speed.")
@@ -189,8 +191,9 @@ std::string describe(const TopDrive& drive) {
            ", k_i = " + deck::printed(drive.integralGain, "N m/rad");
   if (drive.turnsFreely()) text += ", inertia " + deck::printed(drive.inertia, "kg m2");
   if (drive.torqueLimit > 0.0) text += ", at most " + deck::printed(drive.torqueLimit, "N m");
-  if (drive.blockSpeed > 0.0)
-    text += ", block down at " + deck::printed(drive.blockSpeed, "m/s", 6);
+  if (drive.blockSpeed != 0.0)
+    text += std::string(", block ") + (drive.blockSpeed > 0.0 ? "down" : "up") + " at " +
+            deck::printed(std::abs(drive.blockSpeed), "m/s", 6);
   if (drive.autodriller)
     text += ", autodriller for " + deck::printed(drive.autodriller->weight, "kN", 6);
   return text + (drive.constantHookLoad ? ", constant hook load" : "");

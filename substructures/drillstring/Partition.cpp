@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/Error.hpp"
+#include "substructures/contact/BoreholeContact.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -27,7 +28,8 @@ deck::ListSpec partitionParameters() {
   list.integerArray("Cut Nodes", deck::Optional{}, Range::atLeast(2),
                     "Nodes (1-based) where the rule \"By nodes\" cuts; required there.");
   list.choice("Retained Dofs", deck::Optional{}, {"Nodes", "Contact", "Translations"},
-              "Dofs that stay physical at a retained node: all six, u v theta_z, or u v. Default: "
+              "Dofs that stay physical at a retained node: all six, u v theta_z (and w with "
+              "Contact/Friction/Axial), or u v. Default: "
               "Nodes for implicit "
               "integrators, Translations for explicit ones.")
       .formerly("Retain");
@@ -229,7 +231,7 @@ std::vector<int> retainedDofs(const DrillString& string, const PartitionRules& r
       components = {0, 1, 2, 3, 4, 5};
       break;
     case Retain::Contact:
-      components = {0, 1, 5};
+      components = contact::contactComponents(rules.axialContact ? 4 : 3);
       break;
     case Retain::Translations:
       components = {0, 1};

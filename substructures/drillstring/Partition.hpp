@@ -41,6 +41,7 @@ struct PartitionRules {
                                                                    ///< there on stay physical
   std::vector<int> nodeList;                                       ///< "List": 1-based
   bool contactAtRetainedOnly = false;
+  bool axialContact = false;  ///< contact acts on w too
 };
 
 /// What the rules need to know of the static state.

@@ -263,6 +263,7 @@ void asTheSource(StaticProblem& problem, Stages& stages, StaticSwitches switches
 void describeContact(const StaticInput& input, const StaticProblem& problem, StaticState& state) {
   const int nodes = input.nodes;
   state.normalForce = state.tangentialForce = state.frictionTorque = Vector::Zero(nodes);
+  state.axialFriction = state.normalForce;
   state.contactForce = Matrix::Zero(2, nodes);
   state.gap = Vector::Constant(nodes, -std::numeric_limits<double>::infinity());
   if (input.contact == nullptr) return;
@@ -284,6 +285,7 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
         forces.segment<contact::StaticContact::kForces>(contact::StaticContact::kForces * p);
     state.tangentialForce(n) = r > 0.0 ? (u * force(1) - v * force(0)) / r : 0.0;
     state.frictionTorque(n) = force(3);
+    state.axialFriction(n) = force(2);
     state.contactForce.col(n) = force.head<2>();
     const auto dof = static_cast<std::size_t>(6 * n);
     if ((input.held[dof] == 0 || input.held[dof + 1] == 0) && state.gap(n) > 0.0)

@@ -24,7 +24,8 @@ deck::ListSpec parameters() {
               "the motion, so that a string at constant speed starts in equilibrium; where the "
               "string starts from rest, the static coefficient in the direction of the first "
               "rotation. \"Peak\": always the static coefficient, as the source. \"None\": no "
-              "friction. A string that never rotates has no friction.");
+              "friction. A string that never rotates has no friction, unless a block moves it and "
+              "Contact/Friction/Axial is true: then the speed along the hole counts, too.");
   spec.choice(
       "Reference", std::string("Unloaded"), {"Unloaded", "Hanging"},
       "Which string has its nodes at the depths of the mesh; displacements count from there. "

@@ -35,6 +35,7 @@ struct StaticState {
   Vector tangentialForce;  ///< friction force along the direction of rotation per node, negative
                            ///< against Omega > 0 [N]
   Vector frictionTorque;   ///< per node about z [N m]
+  Vector axialFriction;    ///< friction force along the hole per node, downwards positive [N]
   Vector gap;  ///< G per node, positive in contact; NaN-free: -infinity where there is no contact
                ///< node [m]
   Matrix contactForce;  ///< of the wall on the string along u and v, 2 x nodes [N]

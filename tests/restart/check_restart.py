@@ -146,7 +146,7 @@ def bits():
         return [word for pair in pairs for word in ("--set", pair)]
     drive = overrides("Top Drive/Control=Speed", "Top Drive/Inertia=1000", "Top Drive/Proportional Gain=2000", "Top Drive/Integral Gain=2000", "Top Drive/Torque Limit=3 kN m")
     cutting = ["--without", "Loads/Torque On Bit", "--without", "Loads/Weight On Bit", *overrides("Bit/Law=Cutting", "Bit/Cutting/Blades=4", "Bit/Cutting/Radius=0.1",
-               "Bit/Cutting/Wear Flat=1 mm", "Top Drive/Block Speed=0.001")]
+               "Bit/Cutting/Wear Flat=1 mm", "Top Drive/Block Speed=0.001", "Contact/Friction/Axial=true")]
     friction = ["--without", "Loads/Torque On Bit", *overrides("Bit/Law=Stribeck", "Bit/Stribeck/Radius=0.1")]
     hoist = [*cutting, *overrides("Rotary Speed/Law=Constant", "Rotary Speed/Constant/Speed=60 rpm", "Top Drive/Autodriller/Weight On Bit=20 kN",
                                   "Top Drive/Autodriller/Proportional Gain=1e-7", "Top Drive/Autodriller/Integral Gain=1e-7")]

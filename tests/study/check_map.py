@@ -137,7 +137,7 @@ def failures():
 def refusals():
     """What a law refuses at every speed of the grid is told once, with a count."""
     driller = {"Bit/Law": "Cutting", "Bit/Cutting/Radius": "0.1", "Bit/Cutting/Blades": "3", "Top Drive/Autodriller/Weight On Bit": "10 kN",
-               "Top Drive/Autodriller/Proportional Gain": "1e-7", "Top Drive/Autodriller/Integral Gain": "1e-8", "Supports/Top": "u v theta_z", "Rotary Speed/Law": "Constant", "Rotary Speed/Constant/Speed": "60 rpm",
+               "Top Drive/Autodriller/Proportional Gain": "1e-7", "Top Drive/Autodriller/Integral Gain": "1e-8", "Supports/Top": "u v theta_z", "Rotary Speed/Law": "Constant", "Rotary Speed/Constant/Speed": "60 rpm", "Contact/Friction/Axial": "true",
                "Map/Grid/speed/Parameter": "Rotary Speed/Constant/Speed", "Map/Grid/weight on bit/Parameter": "Top Drive/Autodriller/Weight On Bit",
                "Map/Grid/weight on bit/Values": "{50000 MN, 90000 MN}"}
     arguments = [word for name, value in driller.items() for word in ("--set", f"{name}={value}")]

@@ -81,12 +81,13 @@ def straight():
 
 
 def backward():
-    """A string that turns backward under the mirrored torque is the same string."""
+    """A string that turns backward under the mirrored torque is the same string. Returns the table of the deck as it is."""
     forward = run("forward", "Torque and Drag/Count=1")
     turned = run("backward", "Torque and Drag/Count=1", "Rotary Speed/Constant/Speed=-120 rpm", "Loads/Torque On Bit=-4 kN m")
     for one, other in zip(forward, turned):
         for column in ("surface_torque", "hook_load", "stiff_surface_torque"):
             expect(f"{one['operation']}: {column} of a string that turns backward", one[column] == other[column], (one[column], other[column]))
+    return {row["operation"]: row for row in forward}
 
 
 def pressure():
@@ -180,9 +181,8 @@ def beside():
            abs(float(whole["Trip out"]["stiff_hook_load"]) - float(whole["Rotate off bottom"]["stiff_hook_load"]) - 0.25 * held) < 0.002 * 0.25 * held, held)
 
 
-def documented():
+def documented(table):
     """The table of docs/guide/torque-drag.md is what the program prints."""
-    table = {row["operation"]: row for row in run("documented", "Torque and Drag/Count=1")}
     lines = [line.split("|")[1:-1] for line in (SOURCES / "docs/guide/torque-drag.md").read_text(encoding="utf-8").splitlines() if line.startswith("| ") and line.count("|") == 6]
     found = {cells[0].strip(): cells[1:] for cells in lines if cells[0].strip() in table}
     expect("the document has a line for each operation", set(found) == set(table), sorted(found))
@@ -192,6 +192,24 @@ def documented():
             computed = float(row[name]) / 1e3
             digits = 1 if "hook" in name else 2
             expect(f"docs/guide/torque-drag.md, {operation}, {name}: {cell.strip()} is {computed:.{digits}f}", abs(float(cell) - computed) <= 1.5 * 10**-digits)
+
+
+def in_motion(table):
+    """Friction along the hole in a run: static state and motion at the speeds of an operation have the loads of the stiff string in torque-drag."""
+    for operation, speed, ranks, turns in (("Trip out", -0.3, 1, ("--without", "Rotary Speed")), ("Back-ream", -0.05, 2, ())):
+        # from 1 um/s on the coefficient is that of fast sliding
+        settings = ("Contact/Friction/Axial=true", "Contact/Friction/Regularisation Velocity=1e-6", "Static/Reference=Hanging", f"Top Drive/Block Speed={speed}",
+                    "Transient/End Time=0.05")
+        done = tooljoint("run", DECK, "--output", "in_motion", "--without", "Loads/Weight On Bit", "--without", "Loads/Torque On Bit", *turns,
+                         *[part for setting in settings for part in ("--set", setting)], ranks=ranks)
+        expect(f"{operation}: the motion runs", done.returncode == 0, done.stderr)
+        row, static = table[operation], json.loads(pathlib.Path("in_motion/summary.json").read_text(encoding="utf-8"))["static"]
+        with h5py.File("in_motion/results.h5") as file:
+            hook, torque = file["transient/hook_load"][:], file["transient/surface_torque"][:]
+        for what, values, stiff in (("hook load", [static["hook_load"], *hook], "stiff_hook_load"), ("torque", [static["surface_torque"], *torque], "stiff_surface_torque")):
+            true = float(row[stiff])
+            worst = max(abs(value - true) for value in values)
+            expect(f"{operation}: {what} of a run is {true:.6g}, off by {worst:.2g}", worst <= 1e-5 * max(abs(true), 1e3))
 
 
 def static_state(name, ranks=1, *settings):
@@ -367,7 +385,7 @@ def files():
 
 
 straight()
-backward()
+as_it_is = backward()
 buckled()
 pulled()
 pressure()
@@ -387,7 +405,8 @@ unloaded = static_state("vertical_5000m", 1, "Static/Reference=Unloaded")
 expect("vertical_5000m from unloaded nodes: contact forces are too large", unloaded["total_normal_force"] > 1.1 * alone["total_normal_force"], unloaded["total_normal_force"])
 expect("vertical_5000m from unloaded nodes: it is said that the string moves along a well that turns", any("Set Static/Reference" in w for w in unloaded["warnings"]), unloaded["warnings"])
 beside()
-documented()
+documented(as_it_is)
+in_motion(as_it_is)
 weight_on_bit()
 grouped()
 locked()

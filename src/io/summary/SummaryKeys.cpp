@@ -45,6 +45,7 @@ const std::vector<std::string>& documentedKeys() {
       "static.friction",
       "static.friction_direction",
       "static.friction_speed_rpm",
+      "static.friction_axial_speed",
       "static.stable",
       "static.stability_without",
       "static.negative_pivots",

@@ -78,6 +78,46 @@ struct FrictionCurve {
     slope = 2.0 * h * q * q * ((1.0 + xi) * q - xi);
     return h * v * q * ((1.0 - xi) + (1.0 + xi) * q);
   }
+
+  /// mu(v)/v for v >= 0 [s/m]; 1/v_r at zero.
+  double overSpeed(double v) const {
+    const double q = 1.0 / (1.0 + c * v);
+    return h * q * ((1.0 - xi) + (1.0 + xi) * q);
+  }
+};
+
+/// Sliding velocity in the plane of a wall [m/s].
+struct SlidingVelocity {
+  double around = 0.0, along = 0.0;
+};
+
+/// mu(v) (v_c, v_a)/v of a sliding velocity (v_c, v_a) of the size v: Coulomb friction of the size
+/// mu N against the whole velocity.
+struct SlidingFriction {
+  double around = 0.0, along = 0.0;
+
+  SlidingFriction(const FrictionCurve& curve, const SlidingVelocity& v) {
+    const double overSpeed = curve.overSpeed(std::sqrt(v.around * v.around + v.along * v.along));
+    around = overSpeed * v.around;
+    along = overSpeed * v.along;
+  }
+};
+
+/// The derivatives of SlidingFriction: mu/v (I - e e') + mu' e e' with e = (v_c, v_a)/v; I/v_r at
+/// rest.
+struct SlidingFrictionSlope {
+  double aroundAround = 0.0, aroundAlong = 0.0, alongAlong = 0.0;  ///< [s/m]; symmetric
+
+  SlidingFrictionSlope(const FrictionCurve& curve, const SlidingVelocity& v) {
+    const double size = std::sqrt(v.around * v.around + v.along * v.along);
+    double slope = 0.0;
+    curve.value(size, slope);
+    const double across = curve.overSpeed(size), more = slope - across;
+    const double ec = size > 0.0 ? v.around / size : 0.0, ea = size > 0.0 ? v.along / size : 0.0;
+    aroundAround = across + more * ec * ec;
+    aroundAlong = more * ec * ea;
+    alongAlong = across + more * ea * ea;
+  }
 };
 
 }  // namespace tooljoint::model

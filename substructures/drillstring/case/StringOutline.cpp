@@ -36,8 +36,11 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
        scene.contact ? scene.contact->lawName + " law at " +
                            std::to_string(scene.contactPoints.size()) + " nodes"
                      : "no Contact list"},
-      {friction, "friction", friction ? "smoothed Coulomb" : "no Friction in Contact"},
-      {resting.direction != 0.0, "static friction", resting.why},
+      {friction, "friction",
+       !friction                      ? "no Friction in Contact"
+       : scene.contact->axialFriction ? "smoothed Coulomb, around and along the hole"
+                                      : "smoothed Coulomb"},
+      {resting.sliding.any(), "static friction", resting.why},
       {turns, "gyroscopics", turns ? "matrices times the rotary speed" : "no Rotary Speed list"},
       {scene.statics.geometricStiffness, "geometric stiffness",
        scene.statics.geometricStiffness ? "of the static axial force and torque"

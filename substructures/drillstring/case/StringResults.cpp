@@ -131,6 +131,9 @@ void writeStatic(const Scene& scene, const StaticStage& stage, io::ResultsFile& 
              "Friction force along the direction of rotation");
   file.write("/static/friction_torque", state.frictionTorque, {nodes}, "N m",
              "Friction torque about the axis");
+  if (scene.contact && scene.contact->axialFriction)
+    file.write("/static/axial_friction", state.axialFriction, {nodes}, "N",
+               "Friction force along the hole, downwards positive");
   file.write("/static/axial_force", state.axialForce, {elements}, "N",
              "Axial force F_apo of the elements, tension positive");
   file.write("/static/torque", state.torque, {elements}, "N m", "Torque T_apo of the elements");
@@ -160,22 +163,36 @@ void writeProfile(const Scene& scene, const StaticStage& stage, io::ResultsFile&
 
 void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputFolder& folder) {
   const auto& state = stage.state;
-  io::Csv nodes({{"node", ""},
-                 {"s", "m"},
-                 {"u", "m"},
-                 {"v", "m"},
-                 {"w", "m"},
-                 {"theta_z", "rad"},
-                 {"r", "m"},
-                 {"clearance", "m"},
-                 {"normal_force", "N"},
-                 {"tangential_force", "N"},
-                 {"friction_torque", "N m"}});
+  const bool axial = scene.contact && scene.contact->axialFriction;
+  std::vector<io::Csv::Column> columns{{"node", ""},
+                                       {"s", "m"},
+                                       {"u", "m"},
+                                       {"v", "m"},
+                                       {"w", "m"},
+                                       {"theta_z", "rad"},
+                                       {"r", "m"},
+                                       {"clearance", "m"},
+                                       {"normal_force", "N"},
+                                       {"tangential_force", "N"},
+                                       {"friction_torque", "N m"}};
+  if (axial) columns.push_back({"axial_friction", "N"});
+  io::Csv nodes(columns);
   for (int i = 0; i < scene.string.nodeCount(); ++i) {
     const auto& node = scene.string.nodes[static_cast<std::size_t>(i)];
     const auto d = state.displacement.segment<6>(6 * i);
-    nodes.row({i + 1.0, node.s, d(0), d(1), d(2), d(5), std::hypot(d(0), d(1)), node.clearance,
-               state.normalForce(i), state.tangentialForce(i), state.frictionTorque(i)});
+    std::vector<double> row{i + 1.0,
+                            node.s,
+                            d(0),
+                            d(1),
+                            d(2),
+                            d(5),
+                            std::hypot(d(0), d(1)),
+                            node.clearance,
+                            state.normalForce(i),
+                            state.tangentialForce(i),
+                            state.frictionTorque(i)};
+    if (axial) row.push_back(state.axialFriction(i));
+    nodes.row(row);
   }
   nodes.stage(folder.file("static_nodes.csv"));
   io::Csv elements({{"element", ""},
@@ -243,6 +260,7 @@ void summarise(const Scene& scene, const StaticStage& stage, io::Summary& summar
   summary.set("static.friction", stage.friction.why);
   summary.set("static.friction_direction", stage.friction.direction);
   summary.set("static.friction_speed_rpm", stage.friction.speed * constants::rpmPerRadianPerSecond);
+  summary.set("static.friction_axial_speed", stage.friction.sliding.axialSpeed);
   summariseStability(stage, summary);
 }
 
@@ -354,6 +372,8 @@ std::string describeStatic(const StaticStage& stage) {
   text += fmt::sprintf("            friction: %s", stage.friction.why.c_str());
   if (stage.friction.speed > 0.0)
     text += fmt::sprintf(", %.4g rpm", stage.friction.speed * constants::rpmPerRadianPerSecond);
+  if (const double along = stage.friction.sliding.axialSpeed; along != 0.0)
+    text += ", " + deck::printed(std::abs(along), "m/s", 4) + (along > 0.0 ? " down" : " up");
   text += fmt::sprintf(
       "\n            top torque %s by the balance of torque, defect %s (%.2g %% of %s)",
       torque(s.topTorqueEquilibrium()), deck::printed(s.torqueBalanceDefect(), "N m", 4),

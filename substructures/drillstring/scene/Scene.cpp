@@ -176,6 +176,8 @@ bool vibrates(const Scene& scene) {
   return scene.moves() || scene.list().isSublist("Response") || scene.list().isSublist("Campbell");
 }
 
+bool hasAxialFriction(const Scene& scene) { return scene.contact && scene.contact->axialFriction; }
+
 /// What an autodriller asks of the others.
 void checkAutodriller(const Scene& scene, Faults& faults) {
   const std::string path = "Top Drive/Autodriller";
@@ -219,9 +221,13 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
     faults.add("Top Drive/Control",
                "has no effect without Transient, Response or Campbell: the drive holds the static "
                "state. Add one of these lists.");
-  if (drive.blockSpeed > 0.0 && !feeds)
+  if (drive.blockSpeed < 0.0 && feeds)
     faults.add("Top Drive/Block Speed",
-               "has no effect without a Bit law that gives the weight on bit.");
+               "is negative, but the Bit cuts on the way down. Leave Bit out to pull the string.");
+  if (drive.blockSpeed != 0.0 && !feeds && !hasAxialFriction(scene))
+    faults.add("Top Drive/Block Speed",
+               "has no effect without a Bit law that gives the weight on bit or "
+               "Contact/Friction/Axial.");
   if (drive.constantHookLoad && !feeds)
     faults.add("Top Drive/Hook",
                "is \"Constant Load\", but no Bit law gives the weight on bit: nothing would hold "
@@ -231,6 +237,35 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
                "is \"Constant Load\", but the Supports hold w of node 1. Leave w out of "
                "Supports/Top.");
   if (drive.autodriller) checkAutodriller(scene, faults);
+}
+
+/// A block that moves a string with friction in a hole that is not vertical drags it along the
+/// wall: the deck has to say whether that counts.
+void checkAxialFriction(const Scene& scene, Faults& faults) {
+  constexpr double vertical = 1e-6;  // [rad]
+  if (!scene.contact || !scene.contact->friction) return;
+  const auto& nodes = scene.contactPoints.node;
+  const bool slides = std::any_of(nodes.begin(), nodes.end(), [&](int node) {
+    return scene.held[at(kNodeDofs * (node - 1) + nodal::w)] == 0;
+  });
+  if (scene.contact->axialFriction && !slides)
+    faults.add("Contact/Friction/Axial",
+               "has no effect: the Supports hold w of every node that can touch the wall. Release "
+               "w, or leave it out.");
+  const auto& drive = scene.topDrive;
+  if (!slides || scene.deck.gives("Contact/Friction/Axial") ||
+      (drive.blockSpeed == 0.0 && !drive.movesFreely()))
+    return;
+  const auto depths = scene.string.depths();
+  const auto inclined = std::find_if(depths.begin(), depths.end(), [&](double s) {
+    const auto& tangent = scene.well.trajectory().at(s).tangent;
+    return std::hypot(tangent.x(), tangent.y()) > vertical;
+  });
+  if (inclined == depths.end()) return;
+  faults.add("Contact/Friction",
+             "does not say whether the wall drags along the hole a string that its block moves, "
+             "and the hole is not vertical. Give its Axial: true counts this drag; false leaves it "
+             "out, and with it the weight that it takes from the bit.");
 }
 
 /// What bends and eccentric gauges ask of the other lists.
@@ -279,7 +314,9 @@ void crossCheck(const Scene& scene, Faults& faults) {
                    "names node " + std::to_string(node) +
                        ", which cannot touch the wall and so has no point law. Name nodes with "
                        "contact, or leave the list out for all of them.");
+  checkAxialFriction(scene, faults);
   if (scene.contact && scene.contact->friction && !scene.rotary.present() && !scene.moves() &&
+      !(hasAxialFriction(scene) && scene.topDrive.blockSpeed != 0.0) &&
       !list.isSublist("Torque and Drag"))
     faults.add("Contact/Friction",
                "has no effect in a scene that neither turns nor moves. Add Rotary Speed, Transient "
@@ -384,6 +421,7 @@ void complete(Scene& scene, const drilling::TopDrive& topDrive, Faults& faults) 
   if (scene.contact)
     faults.attempt(
         [&] { scene.contactPoints = contactPoints(*scene.contact, scene.string, scene.held); });
+  scene.partition.axialContact = hasAxialFriction(scene);
   faults.attempt([&] { checkLoads(scene, faults); });
   if (scene.reduces()) faults.attempt([&] { checkReduction(scene); });
   crossCheck(scene, faults);

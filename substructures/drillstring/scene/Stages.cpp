@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fmt/format.h>
 #include <limits>
 #include <set>
 #include <unordered_map>
@@ -33,42 +32,6 @@ namespace nodal = beam::nodal;
 
 namespace {
 
-/// ", 0.25 to 0.28": of the coefficients of points with friction.
-std::string range(const std::vector<double>& coefficients) {
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
-  for (const double one : coefficients)
-    if (one > 0.0) least = std::min(least, one), most = std::max(most, one);
-  if (!(most > 0.0)) return "";
-  const auto from = fmt::format(", {:.3g}", least), to = fmt::format("{:.3g}", most);
-  return from == ", " + to ? from : from + " to " + to;
-}
-
-}  // namespace
-
-StaticFriction staticFriction(const Scene& scene) {
-  constexpr double atRest = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude
-  using equilibrium::FrictionRule;
-  if (scene.contact && !scene.contact->law->hasFrictionAtRest())
-    return {0.0, 0.0,
-            "none: the friction of " + scene.contact->lawName + " begins with the motion"};
-  if (!scene.contact || !scene.contact->friction)
-    return {0.0, 0.0, "no friction in the Contact list"};
-  if (scene.statics.friction == FrictionRule::None)
-    return {0.0, 0.0, "switched off in Static/Friction"};
-  const double start = scene.startTime();
-  const double speed = scene.rotary.speed(start);
-  const bool turns = std::abs(speed) > atRest;
-  const double direction = turns ? std::copysign(1.0, speed) : scene.rotary.sense(start);
-  if (direction == 0.0) return {0.0, 0.0, "the string never turns"};
-  if (scene.statics.friction == FrictionRule::Peak) return {direction, 0.0, "peak coefficient"};
-  if (!turns) return {direction, 0.0, "peak coefficient: the string starts from rest"};
-  return {direction, std::abs(speed),
-          "coefficient at the sliding speed Omega R_c" +
-              range(scene.contactPoints.slidingAt(speed).muStatic)};
-}
-
-namespace {
-
 /// The loads that hold bends against the stiffness of the linearised string, -(K_pa + K_gpo) kink.
 void addBends(const equilibrium::StaticInput& input, const equilibrium::StaticState& state,
               StringModel& model) {
@@ -84,8 +47,9 @@ ContactBatch contactInMotion(const Scene& scene, const path::PathState& path) {
   ContactBatch contact;
   if (scene.contactPoints.size() == 0) return contact;
   const auto rotary = scene.rotary;
-  contact.law = scene.contact->law->inMotion(scene.contactPoints,
-                                             [rotary](double t) { return rotary.speed(t); });
+  contact.law = scene.contact->law->inMotion(
+      scene.contactPoints, [rotary](double t) { return rotary.speed(t); },
+      {scene.topDrive.blockSpeed, scene.contact->axialFriction});
   if (auto offsets = gaugeOffsets(scene.string, path, scene.contactPoints); !offsets.empty())
     contact.law = contact::eccentric(contact.law, std::move(offsets));
   for (int node : scene.contactPoints.node) contact.nodes.push_back(node - 1);
@@ -270,10 +234,13 @@ StaticStage findEquilibrium(const Scene& scene) {
   addDriveInertia(scene, equations.model);
   requireHeld(scene, equations.model);
   const auto& friction = stage.friction;
-  const auto input = restProblem(
-      scene, stage.path, equations, {0.0, friction.direction},
-      friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints,
-      scene.statics.reference);
+  const auto& sliding = friction.sliding;
+  const auto input =
+      restProblem(scene, stage.path, equations, sliding,
+                  friction.ofSlidingSpeed
+                      ? scene.contactPoints.slidingAt(sliding.rotarySpeed, sliding.axialSpeed)
+                      : scene.contactPoints,
+                  scene.statics.reference);
   addPretension(input, equations.model);
   const auto solver = staticSolver(scene);
   const bool onlyOnce = scene.statics.unstable != equilibrium::UnstableRule::Perturb;

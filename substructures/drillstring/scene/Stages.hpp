@@ -14,18 +14,11 @@
 #include "stability/StateStability.hpp"
 #include "substructures/drillstring/StringModel.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/drillstring/scene/StaticFriction.hpp"
 #include "substructures/equilibrium/StaticState.hpp"
 #include "substructures/path/PathState.hpp"
 
 namespace tooljoint::drillstring {
-
-/// Friction of the static state, as Static/Friction and the rotary speed decide it.
-struct StaticFriction {
-  double direction = 0.0;  ///< sense of the sliding: +1, -1, or 0 without friction
-  double speed = 0.0;      ///< |Omega| whose coefficient acts [rad/s]; 0: the peak mu_s
-  std::string why;         ///< for the log
-};
-StaticFriction staticFriction(const Scene& scene);
 
 /// The string at rest in its well, and its equations of motion about that state.
 struct StaticStage {

@@ -67,6 +67,24 @@ TEST(Eccentric, TangentsAgreeWithDifferences) {
     }
 }
 
+TEST(Eccentric, TakesFrictionAlongTheHole) {
+  const auto concentric = law("Clamped")->inMotion(
+      points(0.2), [](double) { return 12.0; }, along(0.3));
+  const auto contact = eccentric(concentric, offsets);
+  ASSERT_EQ(contact->width(), 4);
+  const std::vector<double> d4{0.0286, 0.001, 0.5, 0.1, 0.0245, 0.0075, 0.6, -0.2},
+      v4{0.07, -0.11, 0.2, 0.9, -0.05, 0.2, 0.1, 0.4};
+  auto there = d4;
+  there[4] += offsets[1].x(), there[5] += offsets[1].y();
+  const Answer own = answer(*contact, 0.5, d4, v4), at = answer(*concentric, 0.5, there, v4);
+  for (const std::size_t i : {0U, 1U, 2U, 3U, 4U, 5U, 6U}) EXPECT_EQ(own.f[i], at.f[i]) << i;
+  EXPECT_NE(own.f[6], 0.0);
+  EXPECT_DOUBLE_EQ(own.f[7], at.f[7] + 0.004 * at.f[5] + 0.003 * at.f[4]);
+  for (std::size_t c = 0; c < 4; ++c)
+    EXPECT_DOUBLE_EQ(own.dfdv[28 + c],
+                     at.dfdv[28 + c] + 0.004 * at.dfdv[20 + c] + 0.003 * at.dfdv[16 + c]);
+}
+
 TEST(Eccentric, AtRestIsTheSameShift) {
   const auto concentric = law("Clamped")->atRest(points(0.2));
   const auto contact = eccentric(concentric, offsets);

@@ -49,6 +49,27 @@ TEST_P(Energy, PowersBalance) {
 INSTANTIATE_TEST_SUITE_P(Laws, Energy, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"),
                          testName);
 
+// The same with friction along the hole: the block feeds it
+TEST_P(Energy, PowersOfFrictionAlongTheHoleBalance) {
+  const auto contact = law(GetParam())->inMotion(batch({steelOnRock()}), turning, along(0.4));
+  const State state = State(0.0285 + 1.5e-3, 0.3).with(0.1, -0.15);
+  const auto f = force(*contact, 0.0, state.d, state.v);
+  const auto power = contact->power(0.0, {0}, state.d.data(), state.v.data());
+  double work = 0.0;
+  for (std::size_t i = 0; i < f.size(); ++i) work += f[i] * state.v[i];
+  const double h = 2e-7;
+  std::vector<double> before = state.d, after = state.d;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    before[i] -= h * state.v[i];
+    after[i] += h * state.v[i];
+  }
+  const double storing = (contact->power(0.0, {0}, after.data(), state.v.data()).stored -
+                          contact->power(0.0, {0}, before.data(), state.v.data()).stored) /
+                         (2.0 * h);
+  EXPECT_NEAR(storing + power.damping + power.friction - power.drive, -work, 1e-6 * std::abs(work));
+  EXPECT_GT(std::abs(f[2] * 0.4), 1e-3 * power.drive) << "the block takes part";
+}
+
 // The closed form against quadrature of F_n dG, from the wall inwards and outwards.
 TEST_P(Energy, StoredEnergyIsTheIntegralOfTheElasticForce) {
   for (const double lambda : {2e3, 1e5}) {

@@ -87,6 +87,9 @@ TEST(SlidingAt, TakesTheCoefficientOfTheSpeedOfEachPoint) {
     EXPECT_NEAR(sliding.muStatic[0], printed(std::abs(omega) * 0.08, 0.3, 0.2, 0.1), 1e-12);
     EXPECT_NEAR(sliding.muStatic[1], printed(std::abs(omega) * 0.1, 0.3, 0.2, 0.02), 1e-12);
     EXPECT_EQ(sliding.muStatic[2], 0.0);
+    const tooljoint::contact::ContactPoints both = points.slidingAt(omega, -0.3);
+    EXPECT_NEAR(both.muStatic[0], printed(std::hypot(omega * 0.08, 0.3), 0.3, 0.2, 0.1), 1e-12)
+        << "along the hole too";
     EXPECT_EQ(sliding.muDynamic, points.muDynamic);
   }
 }

@@ -86,6 +86,28 @@ TEST(PointLawContact, ActsInTheDirectionsOfTheWall) {
   EXPECT_NEAR(rate, ownRate, 1e-9);
 }
 
+/// What slides along is measured against the wall: the speed of the block counts, and its power.
+TEST(PointLawContact, SlidesAlongWithTheBlock) {
+  constexpr double feed = 0.3, t = 2.0;
+  ContactPoints points;
+  ContactPoint point;
+  point.node = 3;
+  point.stiffness = 1.0;
+  point.clearance = clearance;
+  point.contactRadius = radius;
+  points.add(point);
+  const auto shared =
+      pointLawContact("Sticky", {})->inMotion(points, [](double) { return omega; }, {feed, false});
+  const auto& law = *model::stateful(*shared);
+  Vector4 f;
+  double rate = 0;
+  law.forces(t, {0}, place.data(), speed.data(), &state, f.data(), &rate);
+  EXPECT_NEAR(f[2], -10.0 * (speed[2] + feed) - 40.0 * (place[2] + feed * t), 1e-9);
+  double xDot = 0;
+  const auto power = law.powers(t, {0}, place.data(), speed.data(), &state, &xDot);
+  EXPECT_NEAR(power.friction - power.drive, -f.dot(speed), 1e-9);
+}
+
 TEST(PointLawContact, TangentsAreTheDerivatives) {
   const auto shared = inBore();
   const auto& law = *model::stateful(*shared);
@@ -131,9 +153,9 @@ TEST(PointLawContact, BooksTheWorkOfTheDrive) {
 TEST(PointLawContact, RecordsAsOtherContact) {
   const auto shared = inBore();
   const auto channels = shared->channels();
-  ASSERT_EQ(channels.size(), 4u);
+  ASSERT_EQ(channels.size(), 5u);
   EXPECT_EQ(channels[0].name, "normal_force");
-  double out[4], rate = 0;
+  double out[5], rate = 0;
   model::record(*shared, 0, place.data(), speed.data(), &state, out);
   const Vector4 f = force(*model::stateful(*shared), place, speed, state, rate);
   const double r = std::hypot(place[0], place[1]);
@@ -141,6 +163,7 @@ TEST(PointLawContact, RecordsAsOtherContact) {
   EXPECT_NEAR(out[1], clearance - r, 1e-9);
   EXPECT_NEAR(out[2], (-f[0] * place[1] + f[1] * place[0]) / r, 1e-9);
   EXPECT_NEAR(out[3], f[3], 1e-12);
+  EXPECT_NEAR(out[4], f[2], 1e-12);
 }
 
 TEST(PointLawContact, PushesAtRestAsTheLawInItsInitialState) {

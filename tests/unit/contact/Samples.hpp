@@ -55,8 +55,9 @@ struct Answer {
 
 inline Answer answer(const model::PointLaw& law, double t, const std::vector<double>& d,
                      const std::vector<double>& v) {
-  Answer a{std::vector<double>(d.size()), std::vector<double>(3 * d.size()),
-           std::vector<double>(3 * d.size())};
+  const auto entries = static_cast<std::size_t>(law.width()) * d.size();
+  Answer a{std::vector<double>(d.size()), std::vector<double>(entries),
+           std::vector<double>(entries)};
   law.evaluateWithTangent(t, all(law), d.data(), v.data(), a.f.data(), a.dfdd.data(),
                           a.dfdv.data());
   return a;
@@ -74,6 +75,16 @@ struct State {
   std::vector<double> d, v;
   State(double r, double angle)
       : d{r * std::cos(angle), r * std::sin(angle), 0.3}, v{0.07, -0.11, 0.9} {}
+  /// With w in between.
+  State with(double w, double wDot) const {
+    State four = *this;
+    four.d.insert(four.d.begin() + 2, w);
+    four.v.insert(four.v.begin() + 2, wDot);
+    return four;
+  }
 };
+
+/// Friction along the hole too, of a string that its block moves down at this speed [m/s].
+inline AxialSliding along(double feed) { return {feed, true}; }
 
 }  // namespace tooljoint::contact::testing

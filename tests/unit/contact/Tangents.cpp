@@ -30,9 +30,10 @@ void expectTangents(const tooljoint::model::PointLaw& contact, const State& stat
                     const std::string& what) {
   const Answer exact = answer(contact, 0.5, state.d, state.v);
   const auto alone = force(contact, 0.5, state.d, state.v);
-  for (std::size_t i = 0; i < 3; ++i)
+  const int n = contact.width();
+  for (std::size_t i = 0; i < alone.size(); ++i)
     EXPECT_NEAR(exact.f[i], alone[i], 1e-13 * std::abs(alone[i])) << what;
-  for (int column = 0; column < 3; ++column) {
+  for (int column = 0; column < n; ++column) {
     for (const bool velocity : {false, true}) {
       const double h = velocity ? 1e-5 : 1e-8;
       State plus = state, minus = state;
@@ -41,13 +42,13 @@ void expectTangents(const tooljoint::model::PointLaw& contact, const State& stat
       const auto fp = force(contact, 0.5, plus.d, plus.v);
       const auto fm = force(contact, 0.5, minus.d, minus.v);
       const auto& tangent = velocity ? exact.dfdv : exact.dfdd;
-      for (int row = 0; row < 3; ++row) {
+      for (int row = 0; row < n; ++row) {
         double scale = 0.0;
-        for (int c = 0; c < 3; ++c)
-          scale = std::max(scale, std::abs(tangent[static_cast<std::size_t>(3 * row + c)]));
+        for (int c = 0; c < n; ++c)
+          scale = std::max(scale, std::abs(tangent[static_cast<std::size_t>(n * row + c)]));
         const double difference =
             (fp[static_cast<std::size_t>(row)] - fm[static_cast<std::size_t>(row)]) / (2.0 * h);
-        EXPECT_NEAR(tangent[static_cast<std::size_t>(3 * row + column)], difference,
+        EXPECT_NEAR(tangent[static_cast<std::size_t>(n * row + column)], difference,
                     2e-7 * scale + 1e-5)
             << what << " row " << row << " column " << column
             << (velocity ? " velocity" : " position");
@@ -64,11 +65,15 @@ TEST_P(Tangents, AgreeWithDifferencesInsideOnAndBeyondTheWall) {
     point.muStatic = mu;
     point.muDynamic = 0.5 * mu;
     const auto contact = law(GetParam())->inMotion(batch({point}), speed);
+    const auto both = law(GetParam())->inMotion(batch({point}), speed, along(0.4));
     for (const double penetration : {-0.02, -1e-3, -2e-5, 2e-5, 3e-4, 5e-3})
-      for (const double angle : {0.0, 1.1, 2.5, -2.0})
-        expectTangents(*contact, State(point.clearance + penetration, angle),
-                       std::string(GetParam()) + " mu " + std::to_string(mu) + " G " +
-                           std::to_string(penetration) + " at " + std::to_string(angle));
+      for (const double angle : {0.0, 1.1, 2.5, -2.0}) {
+        const State state(point.clearance + penetration, angle);
+        const std::string what = std::string(GetParam()) + " mu " + std::to_string(mu) + " G " +
+                                 std::to_string(penetration) + " at " + std::to_string(angle);
+        expectTangents(*contact, state, what);
+        expectTangents(*both, state.with(0.2, -0.15), what + ", along the hole too");
+      }
   }
 }
 

@@ -98,6 +98,8 @@ TEST(Partition, RetainsTheComponentsAskedForAndLoadedDofs) {
   rules.retainedNodes = "Static contacts";
   rules.retain = Retain::Contact;
   EXPECT_EQ(retainedDofs(s, rules, state), (std::vector<int>{25, 42, 43, 47}));
+  rules.axialContact = true;
+  EXPECT_EQ(retainedDofs(s, rules, state), (std::vector<int>{25, 42, 43, 44, 47}));
   rules.retain = Retain::Translations;
   EXPECT_EQ(retainedDofs(s, rules, state), (std::vector<int>{25, 42, 43}));
 }

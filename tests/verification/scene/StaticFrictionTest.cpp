@@ -90,4 +90,37 @@ TEST(StaticFriction, ActsWithItsCoefficient) {
   EXPECT_EQ(coefficient({"!Rotary Speed"}), 0.0);
 }
 
+/// With friction along the hole the state is that of a string which its block moves.
+TEST(StaticFriction, ActsAgainstTheBlockToo) {
+  const auto moving = [](std::vector<std::string> overrides) {
+    overrides.insert(overrides.end(),
+                     {"Contact/Friction/Axial=true", "Top Drive/Block Speed=-0.2"});
+    return scene(std::move(overrides));
+  };
+  const auto turning = drillstring::staticFriction(moving({}));
+  EXPECT_EQ(turning.sliding.axialSpeed, -0.2);
+  EXPECT_NEAR(turning.sliding.rotarySpeed, 120.0 * rpm, 1e-12);
+  EXPECT_TRUE(turning.ofSlidingSpeed);
+  const auto later = drillstring::staticFriction(moving(fromRestLater));
+  EXPECT_EQ(later.direction, 0.0) << "it slides before it turns";
+  EXPECT_EQ(later.sliding.rotarySpeed, 0.0);
+  EXPECT_FALSE(drillstring::staticFriction(moving({"Static/Friction=None"})).sliding.any());
+  EXPECT_EQ(drillstring::staticFriction(scene({"Contact/Friction/Axial=true"})).sliding.axialSpeed,
+            0.0);
+
+  const auto drag = [&](const std::vector<std::string>& overrides) {
+    const auto state = drillstring::solveStatic(moving(overrides)).state;
+    return state.axialFriction.sum() / state.totalNormalForce;
+  };
+  // mu_s, over the direction of the sliding
+  const double around = 4.0 * constants::pi * 0.084;
+  EXPECT_NEAR(drag({"Static/Friction=Peak"}), 0.3 * 0.2 / std::hypot(0.2, around), 1e-9);
+  EXPECT_NEAR(drag({"Static/Friction=Peak", "!Rotary Speed"}), 0.3, 1e-9);
+  // eq. (9) of Nguyen et al. 2020 at 0.2 m/s, v_r = 0.1 m/s, mu_s = 0.3, mu_d = 0.25
+  const double xi = std::sqrt(1.0 - 0.25 / 0.3), c = (1.0 - xi) / (2.0 * 0.1 * 0.25),
+               q = 1.0 / (1.0 + c * 0.2);
+  EXPECT_NEAR(drag({"!Rotary Speed"}), (1.0 - xi) * q + (1.0 + xi) * q * q, 1e-9);
+  EXPECT_NEAR(drag(fromRestLater), (1.0 - xi) * q + (1.0 + xi) * q * q, 1e-9);
+}
+
 }  // namespace StaticFrictionTest
