@@ -123,8 +123,7 @@ TEST(RunIdentity, hasTheContentOfFiles) {
 TEST(RunIdentity, hasTheContentOfATableOfPipes) {
   const test::Scratch scratch;
   io::writeText(scratch / "pipes.csv", "Name\n");
-  const std::vector<std::string> table{"Drillstring/Pipe Table=" +
-                                       (scratch / "pipes.csv").string()};
+  const std::vector<std::string> table{"Drillstring/Pipe Table=" + (scratch / "pipes.csv")};
   const auto before = ofString(table);
   EXPECT_EQ(ofString(table), before);
   io::writeText(scratch / "pipes.csv", "Name,Length [m]\n");
