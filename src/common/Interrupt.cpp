@@ -3,6 +3,9 @@
 
 #include <csignal>
 
+#include "common/Error.hpp"
+#include "common/Parallel.hpp"
+
 namespace tooljoint {
 namespace {
 
@@ -30,6 +33,11 @@ void installInterruptHandlers() {
 }
 
 bool interruptRequested() { return requested_ != 0; }
+
+void stopIfInterrupted() {
+  if (interruptRequested() && parallel::size() == 1)
+    throw InterruptedError("Interrupted before there were results to keep.");
+}
 
 void requestInterrupt(bool requested) { requested_ = requested ? 1 : 0; }
 

@@ -10,6 +10,7 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Interrupt.hpp"
 #include "linalg/factor/FactorMemory.hpp"
 #include "linalg/factor/MumpsControl.hpp"
 
@@ -86,6 +87,7 @@ PartialFactor::PartialFactor(PartialFactor&&) noexcept = default;
 PartialFactor& PartialFactor::operator=(PartialFactor&&) noexcept = default;
 
 bool PartialFactor::factor(const Sparse& A, int inner, Matrix& schur) {
+  stopIfInterrupted();
   Impl& m = *impl_;
   const int rest = static_cast<int>(A.rows()) - inner;
   const bool another = m.take(A) || m.inner != inner || !m.open;

@@ -13,6 +13,7 @@
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "common/Interrupt.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/Deterministic.hpp"
@@ -143,6 +144,7 @@ class ShiftedFactors {
   double shift() const { return shift_; }
   /// (K - sigma M)^-1 M x. \param refine  and checked
   Matrix solveMass(const Matrix& x, bool refine) {
+    stopIfInterrupted();
     if (divided() != nullptr)
       if (auto y = divided()->solve(divided()->ownRows(pencil_.M, x))) return std::move(*y);
     const Matrix load = product(pencil_.M, x);

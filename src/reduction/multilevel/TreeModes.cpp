@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/Error.hpp"
+#include "common/Interrupt.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
@@ -222,6 +223,7 @@ TreeModes treeModes(const Sparse& K, const Sparse& M, const TreeFactor& factor,
   const Eigen::Index count = block.X.cols();
   RitzSteps::rayleighRitz(block, count);
   for (;; ++modes.corrections) {
+    stopIfInterrupted();
     Matrix Z;
     // A correction leaves what lies just above the block.
     const double missing = modes.corrections == 0 || modes.complete ? cut : block.values[count - 1];

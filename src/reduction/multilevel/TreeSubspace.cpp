@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/Interrupt.hpp"
 #include "common/Message.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/EvaluationCounters.hpp"
@@ -60,6 +61,7 @@ void TreeSubspace::take(const linalg::RitzRequest& given) {
     const Stage stage("modes of substructures");
     for (int i = 0; i < sizeOf(modes_); ++i) {
       if (!factor_.tree().mine(i)) continue;
+      stopIfInterrupted();
       auto& modes = modes_[at(i)];
       const auto known = modes.values.size();
       if (known > 0 && (modes.complete || modes.values[known - 1] >= request.below)) {

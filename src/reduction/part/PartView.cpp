@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "common/Interrupt.hpp"
 #include "linalg/factor/FactorMemory.hpp"
 #include "linalg/factor/MumpsFactor.hpp"
 #include "model/DofNames.hpp"
@@ -219,6 +220,7 @@ Matrix PartView::solve(const Matrix& loads, bool symmetric) const {
 Matrix PartView::solveInterior(const Matrix& loads) const { return solve(loads, false); }
 Matrix PartView::solveSymmetricInterior(const Matrix& loads) const { return solve(loads, true); }
 Matrix PartView::solveBlock(int number, const Matrix& loads) const {
+  stopIfInterrupted();
   return factor(number, false).solve(loads);
 }
 

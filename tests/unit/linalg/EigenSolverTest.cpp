@@ -9,6 +9,7 @@
 #include "Models.hpp"
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "common/Interrupt.hpp"
 #include "linalg/Deterministic.hpp"
 #include "tests/support/ErrorText.hpp"
 
@@ -90,6 +91,16 @@ TEST(EigenSolver, KrylovAndDenseAgree) {
   // Pairs span the same planes: the singular values of Phi_a' M Phi_b over all 60 modes are one.
   const Matrix overlap = a.vectors.transpose() * (two.M * b.vectors);
   EXPECT_LT((overlap * overlap.transpose() - Matrix::Identity(60, 60)).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(EigenSolver, EndsAfterASignal) {
+  const auto chain = springChain(100, k, m);
+  EigenOptions krylov;
+  krylov.denseBelow = 1;
+  requestInterrupt();
+  EXPECT_THROW(lowestModes(chain.K, chain.M, 10, krylov), InterruptedError);
+  requestInterrupt(false);
+  EXPECT_EQ(lowestModes(chain.K, chain.M, 10, krylov).count(), 10);
 }
 
 TEST(EigenSolver, SimplySupportedBeamInTwoPlanes) {
