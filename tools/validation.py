@@ -289,6 +289,23 @@ def limit_table(bench):
     return bench.by("limit") + "\n" + "\n".join(rows) + "\n"
 
 
+def crossings_table(bench):
+    """Critical speeds of xml/helical_170m.xml, full and with modes up to two cut-off frequencies."""
+    found = {}
+    for name, arguments in (("full", FULL), ("200", []), ("20", ["--set", "Reduction/Mode Selection/Cut-off Frequency=20 Hz"])):
+        folder = bench.work / f"crossings_{name}"
+        if not (folder / "crossings.csv").exists():
+            subprocess.run([bench.program, "campbell", str(PROJECT / "xml/helical_170m.xml"), "--output", str(folder), *arguments, "--set", "Campbell/Highest Speed=120 rpm",
+                            "--set", "Campbell/Points=2", "--set", "Campbell/Modes=8", "--set", "Campbell/Spot Checks=0"], stdout=subprocess.DEVNULL, check=True)
+        with open(folder / "crossings.csv", newline="", encoding="utf-8") as file:
+            found[name] = [{key.split(" [")[0]: float(value) if value else None for key, value in row.items()} for row in csv.DictReader(file)]
+    rows = ["| order | full model [rpm] | modes up to 200 Hz: apart | estimate | up to 20 Hz: apart | estimate |", "|---|---|---|---|---|---|"]
+    for full, *reduced in zip(found["full"], found["200"], found["20"]):
+        cells = [f"{abs(one['frequency'] / full['frequency'] - 1):.2e} | {one['estimate']:.2e}" for one in reduced]
+        rows.append(f"| {full['order']:g} | {full['speed'] * 30 / math.pi:.4f} | {' | '.join(cells)} |")
+    return bench.by("crossings") + "\n" + "\n".join(rows) + "\n"
+
+
 def modes_table(bench):
     """Undamped modes of beams and of a frame, bending in pairs, beside closed forms and scipy's dense solver."""
     import numpy
@@ -318,7 +335,7 @@ def modes_table(bench):
     return "\n" + "\n".join(rows) + "\n"
 
 
-TABLES = {"static": static_table, "modes": modes_table, "torque": torque_table, "forms": forms_table, "limit": limit_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
+TABLES = {"static": static_table, "modes": modes_table, "torque": torque_table, "forms": forms_table, "limit": limit_table, "crossings": crossings_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
 
 
 def main():

@@ -197,6 +197,18 @@ def turning():
         expect(f"{name}: a response at 0 rpm of a shaft that turns is warned of", ("is that of 0 rpm" in " ".join((done.stdout + done.stderr).split())) == (not speed), done.stdout[-600:])
 
 
+def critical_speeds(reduced, settings):
+    """Critical speeds of the string itself: those of the reduced model are apart from those of the full one by what was estimated. The estimate is of first order in the
+    error, which is 1e-6 and less here; rounding and the tolerance of the crossings are below 1e-9."""
+    done = tooljoint("campbell", STRING, "--output", "string_full", "--without", "Reduction", "--without", "Substructures", *(word for one in settings for word in ("--set", one)))
+    expect("critical speeds of the full model", done.returncode == 0, done.stderr)
+    full, few = table("string_full", "crossings"), table(reduced, "crossings")
+    expect(f"{len(few['speed'])} critical speeds, as many as of the full model", len(few["speed"]) == len(full["speed"]) > 15 and np.array_equal(few["order"], full["order"]), full["speed"])
+    apart = np.abs(few["frequency"] / full["frequency"] - 1)
+    expect(f"apart by {apart.min():.1e} to {apart.max():.1e}, as estimated", np.all(np.abs(apart - few["estimate"]) <= 0.05 * few["estimate"] + 1e-9) and apart.max() > 1e-7,
+           np.c_[full["speed"] / RPM, apart, few["estimate"]])
+
+
 def string():
     """The reference scene: limit at rest, spot checks within the estimates, ranks."""
     text = pathlib.Path(STRING).read_text(encoding="utf-8").replace("components/helical_170m.xml", str(SOURCES / "xml/components/helical_170m.xml"))
@@ -215,7 +227,9 @@ def string():
     estimates("string")
     done = tooljoint("modes", STRING, "--count", "16", "--time", "0", "--output", "string_modes", *(word for one in ramp for word in ("--set", one)))
     expect("string: modes ends well", done.returncode == 0, done.stderr)
-    run("campbell", STRING, "string_smooth", *campbell[:-1], "Campbell/Spot Checks=0")
+    smoothly = [*campbell[:-2], "Campbell/Modes=8", "Campbell/Spot Checks=0"]  # orders 1, 2 and 3
+    run("campbell", STRING, "string_smooth", *smoothly)
+    critical_speeds("string_smooth", smoothly)
     smooth = modes_at(table("string_smooth", "campbell"), 120 * RPM)
     sliding = modes_at(table("string", "campbell"), 120 * RPM)
     expect("string: friction damps what slides", np.abs(smooth["damping"][0] - sliding["damping"][0]) > 1e-3 * smooth["damping"][0],
