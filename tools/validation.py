@@ -22,6 +22,7 @@ os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are no
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(PROJECT / "tests/torque_drag"))
 import closed_forms  # noqa: E402
+from validation_buckling import buckling_table, vertical_table  # noqa: E402
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 
 
@@ -335,7 +336,7 @@ def modes_table(bench):
     return "\n" + "\n".join(rows) + "\n"
 
 
-TABLES = {"static": static_table, "modes": modes_table, "torque": torque_table, "forms": forms_table, "limit": limit_table, "crossings": crossings_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
+TABLES = {"static": static_table, "modes": modes_table, "torque": torque_table, "forms": forms_table, "limit": limit_table, "crossings": crossings_table, "buckling": buckling_table, "vertical": vertical_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
 
 
 def main():
