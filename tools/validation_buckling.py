@@ -54,8 +54,8 @@ def buckling_table(bench):
             i = min(range(len(up)), key=lambda i: abs(up[i]["compression"] - load * critical))
             shape, = pipes.shape_contact(bench.work / name, [i], float(length), float(inclination))
             cells.append(f"{up[i]['contact_force'] / up[i]['helical_contact_force']:.3f}; {shape / up[i]['helical_contact_force']:.3f}")
-        lost = [row["strain"] > HELIX * row["helical_strain"] for row in down].index(False)
-        rows.append(f"| {inclination} deg, {length} m, {crookedness:g} | {jump / critical:.2f} | {sinusoid / critical:.2f} | {' | '.join(cells)} | {down[lost - 1]['compression'] / critical:.2f} |")
+        last = [row for row in down if row["strain"] > HELIX * row["helical_strain"]][-1]
+        rows.append(f"| {inclination} deg, {length} m, {crookedness:g} | {jump / critical:.2f} | {sinusoid / critical:.2f} | {' | '.join(cells)} | {last['compression'] / critical:.2f} |")
     return bench.by("buckling") + "\n" + "\n".join(rows) + "\n"
 
 
