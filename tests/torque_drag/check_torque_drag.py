@@ -48,7 +48,7 @@ def straight():
     survey = pathlib.Path("straight.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 50, 20\n2000, 50, 20\n", encoding="utf-8")
     well[1] = f"Well/Survey/File={survey}"
-    table = run("straight", *well, "Supports/Bit=none", "Torque and Drag/Count=2", "Torque and Drag/Yield Strength=724 MPa")
+    table = run("straight", *well, "Supports/Bit=none", "Torque and Drag/Count=2", "Torque and Drag/Yield Strength=724 MPa", "Torque and Drag/Joint Length=9.5")
     length, density, gravity, mu, joint = 1425.0, 7850.0, 9.81, 0.25, 0.084
     body, tool = (math.pi * (a * a - b * b) for a, b in ((0.0635, 0.0543), (0.084, 0.0413)))
     weight = density * gravity * 150 * (9.0 * body + 0.5 * tool)
@@ -76,6 +76,14 @@ def straight():
     limit = 2 * math.sqrt(210e9 * inertia * weight / length * math.sin(inclination) / (0.108 - 0.0635))
     expect("the compression above the bit is that on it, so the margin of the lowest body is the limit over it",
            abs(float(full["Drill rotating"]["sinusoidal_margin"]) / (limit / 5e4) - 1) < 0.05, full["Drill rotating"]["sinusoidal_margin"])
+    expect("the stiff string has the same margin within its weight on an element of 9 m", abs(float(full["Drill rotating"]["stiff_sinusoidal_margin"]) / (limit / 5e4) - 1) < 0.06
+           and abs(float(full["Drill rotating"]["stiff_helical_margin"]) / float(full["Drill rotating"]["stiff_sinusoidal_margin"]) - math.sqrt(2)) < 1e-9,
+           full["Drill rotating"]["stiff_sinusoidal_margin"])
+    near("side force of a joint", float(full["Trip out"]["joint_force"]), weight * math.sin(inclination) / 150, 1e-6)
+    forces = [(float(row["depth"]), float(row["contact_force"])) for row in profile if row["operation"] == "Trip out"]
+    joints = [sum(force for s, force in forces if start <= s < start + 9.5 - 1e-6) for start, _ in forces]
+    near("contact force of a joint of the stiff string", float(full["Trip out"]["stiff_joint_force"]), max(joints), 1e-6)
+    near("which is the weight of a pipe where its neighbours bear theirs", sorted(joints)[len(joints) // 2], weight * math.sin(inclination) / 150, 0.01)
     expect("nothing is compressed off bottom", full["Rotate off bottom"]["helical_margin"] == "")
 
 
