@@ -8,6 +8,7 @@ Every table stands between two markers in docs/validation.md and names the comma
 work folder are not repeated.
 """
 import argparse
+import csv
 import json
 import math
 import os
@@ -19,6 +20,9 @@ import sys
 os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are not needed
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(PROJECT / "tests/torque_drag"))
+import closed_forms  # noqa: E402
+from validation_buckling import buckling_table, vertical_table  # noqa: E402
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 
 
@@ -50,12 +54,31 @@ class Bench:
                 return None
         return json.loads((folder / "summary.json").read_text())
 
+    def torque_drag(self, name, arguments, table="torque_drag.csv"):
+        """Rows of a table of `tooljoint torque-drag` of xml/build_hold_1400m.xml, as numbers, with the operation."""
+        folder = self.work / f"torque_drag_{name}"
+        quoted = " ".join(f'--set "{a}"' if " " in a else f"--set {a}" for a in arguments)
+        command = f"tooljoint torque-drag xml/build_hold_1400m.xml --output torque_drag_{name} {quoted}"
+        if command not in self.commands:
+            self.commands.append(command)
+        if not (folder / table).exists():
+            print(command, flush=True)
+            subprocess.run([self.program, "torque-drag", str(PROJECT / "xml/build_hold_1400m.xml"), "--output", str(folder), *(part for a in arguments for part in ("--set", a))],
+                           stdout=subprocess.DEVNULL, check=True)
+        with open(folder / table, newline="", encoding="utf-8") as file:
+            return [{key.split(" [")[0]: value if key == "operation" else float(value) if value else None for key, value in row.items()} for row in csv.DictReader(file)]
+
     def compare(self, name, reference, end):
         """eps_t max, eps_t mean, eps_n max and vibration error over 0..end."""
         done = subprocess.run([self.program, "compare", str(self.work / name), str(self.work / reference), "--to", str(end), "--json"],
                               stdout=subprocess.PIPE, text=True, check=True)
         errors = json.loads(done.stdout)
         return [errors["eps_t"]["max"], errors["eps_t"]["mean"], errors["eps_n"]["max"], errors["vibration_error"]]
+
+    def by(self, table):
+        """The command that computes a table of many runs, as a code block."""
+        self.commands = []
+        return f"```\ntools/validation.py --program build/release/tooljoint --only {table}\n```\n"
 
     def taken(self):
         """The commands since the last call, as a code block."""
@@ -236,9 +259,56 @@ def source_table(bench):
     return bench.taken() + "\n" + "\n".join(rows) + "\n"
 
 
+def forms_table(bench):
+    """Closed forms of the soft string (tests/torque_drag/closed_forms.py)."""
+    rows = ["| what | closed form | found | apart, over the closed form | the test allows |", "|---|---|---|---|---|"]
+    for what, truth, found, unit, tolerance in closed_forms.soft(lambda name, settings: {row["operation"]: row for row in bench.torque_drag(name, settings)}):
+        rows.append(f"| {what} | {truth:.8g} {unit} | {found:.8g} {unit} | {abs(found - truth) / abs(truth):.0e} | {tolerance:.0e} |")
+    return bench.by("forms") + "\n" + "\n".join(rows) + "\n"
+
+
+def limit_table(bench):
+    """The stiff string over the soft one, with and without tool joints, in the well of xml/build_hold_1400m.xml."""
+    both = "Torque and Drag/Operations={Trip out, Rotate off bottom}"
+    pipes = [(f"pipe, clearance {clearance:g} mm" + (", E/100" if young < closed_forms.YOUNG else ""), f"pipe_{clearance:g}_{young / 1e9:g}", closed_forms.OUTER,
+              [*closed_forms.PIPE, both, "Drillstring/Components/body/Elements=3", f"Well/Bore Radius={closed_forms.OUTER + 1e-3 * clearance:g}", f"Drillstring/Material/Young Modulus={young / 1e9:g} GPa"])
+             for clearance, young in closed_forms.STEEL_AND_SOFT]
+    joints = ["Torque and Drag/Count=1", both, "Drillstring/Components/body/Elements=5"]
+    free = [*joints, "Supports/Bit=none"]
+    strings = [("string of the deck", "joints", 0.084, joints), ("the same, bit free", "free", 0.084, free),
+               ("the same, E/10", "free_10", 0.084, [*free, "Drillstring/Material/Young Modulus=21 GPa"]),
+               ("the same, E/100", "free_100", 0.084, [*free, "Drillstring/Material/Young Modulus=2.1 GPa"])]
+    rows = ["| string | torque off bottom, stiff/soft | by contact forces | by the radius of contact | drag of Trip out, stiff/soft |", "|---|---|---|---|---|"]
+    for title, name, radius, arguments in pipes + strings:
+        out, off = ({row["operation"]: row for row in bench.torque_drag(name, arguments)}[one] for one in ("Trip out", "Rotate off bottom"))
+        profile = bench.torque_drag(name, arguments, "torque_drag_stiff_profile.csv")
+        pressed = closed_forms.MU * radius * sum(row["contact_force"] for row in profile if row["operation"] == "Rotate off bottom") / off["surface_torque"]
+        torque = off["stiff_surface_torque"] / off["surface_torque"]
+        drag = (out["stiff_hook_load"] - off["stiff_hook_load"]) / (out["hook_load"] - off["hook_load"])
+        rows.append(f"| {title} | {torque:.4f} | {pressed:.4f} | {round(torque - pressed, 4) + 0.0:.4f} | {drag:.4f} |")
+    rows.append(f"| limit: 1/sqrt(1 + mu^2), 1 | {closed_forms.LIMIT:.4f} | {closed_forms.LIMIT:.4f} | 0 | 1 |")
+    return bench.by("limit") + "\n" + "\n".join(rows) + "\n"
+
+
+def crossings_table(bench):
+    """Critical speeds of xml/helical_170m.xml, full and with modes up to two cut-off frequencies."""
+    found = {}
+    for name, arguments in (("full", FULL), ("200", []), ("20", ["--set", "Reduction/Mode Selection/Cut-off Frequency=20 Hz"])):
+        folder = bench.work / f"crossings_{name}"
+        if not (folder / "crossings.csv").exists():
+            subprocess.run([bench.program, "campbell", str(PROJECT / "xml/helical_170m.xml"), "--output", str(folder), *arguments, "--set", "Campbell/Highest Speed=120 rpm",
+                            "--set", "Campbell/Points=2", "--set", "Campbell/Modes=8", "--set", "Campbell/Spot Checks=0"], stdout=subprocess.DEVNULL, check=True)
+        with open(folder / "crossings.csv", newline="", encoding="utf-8") as file:
+            found[name] = [{key.split(" [")[0]: float(value) if value else None for key, value in row.items()} for row in csv.DictReader(file)]
+    rows = ["| order | full model [rpm] | modes up to 200 Hz: apart | estimate | up to 20 Hz: apart | estimate |", "|---|---|---|---|---|---|"]
+    for full, *reduced in zip(found["full"], found["200"], found["20"]):
+        cells = [f"{abs(one['frequency'] / full['frequency'] - 1):.2e} | {one['estimate']:.2e}" for one in reduced]
+        rows.append(f"| {full['order']:g} | {full['speed'] * 30 / math.pi:.4f} | {' | '.join(cells)} |")
+    return bench.by("crossings") + "\n" + "\n".join(rows) + "\n"
+
+
 def modes_table(bench):
     """Undamped modes of beams and of a frame, bending in pairs, beside closed forms and scipy's dense solver."""
-    import csv
     import numpy
     import scipy.linalg
     import structures
@@ -266,7 +336,7 @@ def modes_table(bench):
     return "\n" + "\n".join(rows) + "\n"
 
 
-TABLES = {"static": static_table, "modes": modes_table, "torque": torque_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
+TABLES = {"static": static_table, "modes": modes_table, "torque": torque_table, "forms": forms_table, "limit": limit_table, "crossings": crossings_table, "buckling": buckling_table, "vertical": vertical_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
 
 
 def main():

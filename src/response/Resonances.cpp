@@ -35,7 +35,8 @@ class Search {
       : rotating_(rotating),
         settings_(settings),
         sweep_(settings.bySpeed() ? settings.speeds : settings.frequencies),
-        perUnit_(settings.bySpeed() ? settings.order : constants::twoPi) {}
+        perUnit_(settings.bySpeed() ? settings.order : constants::twoPi),
+        offset_(settings.bySpeed() ? settings.offset() : 0.0) {}
 
   Resonances run() {
     if (!settings_.bySpeed()) {
@@ -57,7 +58,7 @@ class Search {
  private:
   /// The modes up to the highest frequency of the sweep.
   linalg::QuadraticModes modes(const estimate::Linearised& m) const {
-    const double top = perUnit_ * sweep_.back();
+    const double top = settings_.omega(sweep_.back());
     const int below = linalg::eigenvaluesBelow(reduction::symmetricPart(m.stiffness),
                                                reduction::symmetricPart(m.mass), top * top);
     for (int count = std::min(mostModes, below + moreModes);; count *= 2) {
@@ -79,17 +80,19 @@ class Search {
         if (grows(moving) && (!out_.growing || moving.real() > out_.growing->s.real()))
           out_.growing = Growing{speed, moving};
       }
-      if (!vibrates(s)) continue;
+      if (!vibrates(s) || !(perUnit_ > 0.0)) continue;  // one frequency at all speeds
       if (!settings_.bySpeed())
-        add(s.imag() / perUnit_, s);
+        add(placeOf(s), s);
       else if (!isKnown(s))
         follow({s, found.vectors.col(j)});
     }
   }
 
+  double placeOf(Complex s) const { return (s.imag() - offset_) / perUnit_; }
+
   /// A mode of another speed has led to where this one would.
   bool isKnown(Complex s) const {
-    const double where = s.imag() / perUnit_;
+    const double where = placeOf(s);
     return std::any_of(out_.found.begin(), out_.found.end(), [where](const Resonance& one) {
       return std::abs(one.where - where) < std::max(0.5 * one.width, samePlace * where);
     });
@@ -100,16 +103,16 @@ class Search {
       out_.found.push_back({where, -s.real() / perUnit_});
   }
 
-  /// Omega <- Im s(Omega) / order.
+  /// Omega <- (Im s(Omega) - offset)/order.
   void follow(linalg::DampedMode mode) {
-    double speed = mode.s.imag() / perUnit_;
+    double speed = placeOf(mode.s);
     for (int i = 0; i < mostIterations; ++i) {
       if (!(speed > sweep_.front() && speed < sweep_.back())) return;
       const auto m = rotating_.at(speed);
       const auto there = linalg::refine(m.mass, m.damping, m.stiffness, mode);
       if (!there || !vibrates(there->s)) return;
       mode = *there;
-      const double next = mode.s.imag() / perUnit_;
+      const double next = placeOf(mode.s);
       if (std::abs(next - speed) <= close * next) return add(next, mode.s);
       speed = next;
     }
@@ -118,7 +121,8 @@ class Search {
   const RotatingCase& rotating_;
   const ResponseSettings& settings_;
   const std::vector<double>& sweep_;
-  double perUnit_;  ///< excitation frequency [rad/s] over the place in the sweep
+  double perUnit_;  ///< growth of the excitation frequency [rad/s] over the place in the sweep
+  double offset_;   ///< that frequency at the place 0
   Resonances out_;
 };
 

@@ -25,8 +25,8 @@ struct Resonances {
 };
 
 /// Of a sweep by frequency from the modes at its rotary speed. Of a sweep by speed from the modes
-/// at some of its speeds, each followed to where Im s(Omega) = order Omega. ConvergenceError of the
-/// eigensolver. Every rank computes the same.
+/// at some of its speeds, each followed to where Im s(Omega) = order Omega + offset.
+/// ConvergenceError of the eigensolver. Every rank computes the same.
 Resonances resonances(const RotatingCase& rotating, const ResponseSettings& settings);
 
 }  // namespace tooljoint::response

@@ -74,9 +74,12 @@ class Loads {
   }
 
  private:
-  /// m e Omega^2 (cos, sin)(Omega t + phase) = Re(m e Omega^2 exp(i phase) (1, -i) exp(i Omega t))
-  ComplexMatrix unbalance(const model::SecondOrderModel& model, double speed) const {
-    ComplexMatrix f = model::turningLoad(model, speed);
+  /// m e Omega^2 (cos, sin)(Omega t + phase) = Re(m e Omega^2 exp(i phase) (1, -i) exp(i Omega t)),
+  /// below a motor Omega + that of the motor. Masses of the scene turn with the string.
+  ComplexMatrix unbalance(const model::SecondOrderModel& model, double rotary) const {
+    const double speed = rotary + settings_.motorSpeed;
+    ComplexMatrix f = model::turningLoad(model, rotary);
+    if (settings_.motorSpeed > 0.0) f.setZero();
     for (std::size_t i = 0; i < rows_.unbalances.size(); ++i) {
       const auto& one = settings_.unbalances[i];
       const Complex turning = std::polar(one.value * speed * speed, one.phase);
@@ -184,6 +187,12 @@ class Sweep {
       }
       rows.unbalances.push_back(pair);
     }
+    const bool below = settings_.motorSpeed > 0.0;
+    if (settings_.excitation == Excitation::Unbalance && rows.unbalances.empty() && below)
+      throw DeckError(rotating_.deckCase().deck().error(
+          "Response/Motor Speed",
+          "is the speed of the masses in Response/Unbalance, but there are none; those of "
+          "Loads/Unbalance turn with the string. Add a list, or leave the motor out."));
     if (settings_.excitation == Excitation::Unbalance && rows.unbalances.empty() &&
         model::turningLoad(model, 1.0).isZero(0.0))
       throw DeckError(rotating_.deckCase().deck().error(
@@ -198,7 +207,7 @@ class Sweep {
   ResponsePoint at(double where, bool whole = true) const {
     ResponsePoint point;
     point.speed = settings_.bySpeed() ? where : settings_.rotarySpeed;
-    const double omega = settings_.bySpeed() ? settings_.order * where : constants::twoPi * where;
+    const double omega = settings_.omega(where);
     point.frequency = omega / constants::twoPi;
     const Complex s = imaginary * omega;
     const auto m = rotating_.at(point.speed, omega);
@@ -397,6 +406,10 @@ class Sweep {
 };
 
 }  // namespace
+
+double ResponseSettings::omega(double where) const {
+  return bySpeed() ? order * where + offset() : constants::twoPi * where;
+}
 
 HarmonicResponse respond(const RotatingCase& rotating, const ResponseSettings& settings,
                          const cases::RowFolder& store) {

@@ -43,6 +43,8 @@ struct ResponseSettings {
   Excitation excitation = Excitation::Unbalance;
   std::vector<double> speeds;       ///< of a sweep by speed [rad/s]
   double order = 1.0;               ///< excitation frequency over rotary speed in such a sweep
+  double motorSpeed = 0.0;          ///< of what is below a motor, over that of the string [rad/s]
+  double motorOrder = 1.0;          ///< excitation frequency over the motor's speed
   std::vector<double> frequencies;  ///< of a sweep by frequency [Hz]
   double rotarySpeed = 0.0;         ///< in such a sweep [rad/s]
   std::vector<ResponseLoad> loads;
@@ -54,6 +56,11 @@ struct ResponseSettings {
 
   bool bySpeed() const { return frequencies.empty(); }
   std::size_t points() const { return bySpeed() ? speeds.size() : frequencies.size(); }
+  /// Excitation frequency without rotation, of a sweep by speed [rad/s].
+  double offset() const { return motorOrder * motorSpeed; }
+  /// Excitation frequency at a place of the sweep, a rotary speed [rad/s] or a frequency [Hz];
+  /// [rad/s].
+  double omega(double where) const;
 };
 deck::ListSpec responseParameters();
 /// From the validated list. DeckError: no or two sweeps, no output, no load, an unbalance in a

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cases/CaseLists.hpp"
 #include "common/Constants.hpp"
@@ -20,8 +23,10 @@ using deck::Range;
 using Teuchos::ParameterList;
 
 /// Parameters of the other kind of sweep.
-constexpr const char* notBySpeed[] = {"Lowest Frequency", "Rotary Speed"};
-constexpr const char* notByFrequency[] = {"Lowest Speed", "Order"};
+std::vector<std::string> ofTheOther(bool bySpeed) {
+  if (bySpeed) return {"Lowest Frequency", "Rotary Speed"};
+  return {"Lowest Speed", "Order", "Motor Speed"};
+}
 
 constexpr const char* excitations[] = {"Unbalance", "Harmonic", "Transfer"};
 
@@ -61,6 +66,26 @@ void forEachList(const ParameterList& list, const char* kind, const Read& read) 
     if (it->second.isList()) read(it->first, all.sublist(it->first));
 }
 
+DeckError noEffect(const ParameterList& list, const std::string& name, bool bySpeed) {
+  return DeckError(list.name() + "/" + name + " has no effect in a sweep by " +
+                   (bySpeed ? "speed" : "frequency") + ". Leave it out.");
+}
+
+/// omega = Order Omega + Motor Order Omega_m
+void readMotor(const ParameterList& list, ResponseSettings& settings) {
+  settings.motorSpeed = list.get<double>("Motor Speed");
+  settings.motorOrder =
+      list.isParameter("Motor Order") ? list.get<double>("Motor Order") : settings.order;
+  if (settings.motorSpeed == 0.0 && list.isParameter("Motor Order"))
+    throw DeckError(list.name() +
+                    "/Motor Order has no effect without Motor Speed. Give the speed of the bit "
+                    "over that of the string.");
+  if (!(settings.order > 0.0) && !(settings.offset() > 0.0))
+    throw DeckError(list.name() +
+                    "/Order is 0, so that nothing vibrates. Give a larger one, or Motor Speed and "
+                    "Motor Order.");
+}
+
 void readSweep(const ParameterList& list, ResponseSettings& settings) {
   const bool bySpeed = list.isParameter("Highest Speed"),
              byFrequency = list.isParameter("Highest Frequency");
@@ -68,14 +93,15 @@ void readSweep(const ParameterList& list, ResponseSettings& settings) {
     throw DeckError(list.name() + " has " + (bySpeed ? "both" : "neither") + " Highest Speed " +
                     (bySpeed ? "and" : "nor") +
                     " Highest Frequency. Give one: the sweep is by rotary speed or by frequency.");
-  for (const char* other : bySpeed ? notBySpeed : notByFrequency)
-    if (list.get<double>(other) != (std::string(other) == "Order" ? 1.0 : 0.0))
-      throw DeckError(list.name() + "/" + other + " has no effect in a sweep by " +
-                      (bySpeed ? "speed" : "frequency") + ". Leave it out.");
+  for (const auto& other : ofTheOther(bySpeed))
+    if (list.get<double>(other) != (other == "Order" ? 1.0 : 0.0))
+      throw noEffect(list, other, bySpeed);
   if (bySpeed) {
     settings.speeds = evenly(list, "Lowest Speed", "Highest Speed", "rad/s");
     settings.order = list.get<double>("Order");
+    readMotor(list, settings);
   } else {
+    if (list.isParameter("Motor Order")) throw noEffect(list, "Motor Order", bySpeed);
     settings.frequencies = evenly(list, "Lowest Frequency", "Highest Frequency", "Hz");
     settings.rotarySpeed = list.get<double>("Rotary Speed");
   }
@@ -93,13 +119,21 @@ void requireSense(const ParameterList& list, const ResponseSettings& settings) {
     throw DeckError(list.name() +
                     "/Highest Frequency has no meaning for an unbalance, whose frequency is the "
                     "rotary speed. Give Highest Speed.");
-  if (unbalance && settings.order != 1.0)
-    throw DeckError(list.name() + "/Order is " + formatNumber(settings.order) +
-                    ", but an unbalance has the order 1. Leave it out.");
+  for (const auto& [name, order] :
+       {std::pair{"/Order", settings.order}, std::pair{"/Motor Order", settings.motorOrder}})
+    if (unbalance && order != 1.0)
+      throw DeckError(list.name() + name + " is " + formatNumber(order) +
+                      ", but an unbalance has the order 1. Leave it out.");
   if (unbalance ? !settings.loads.empty() : !settings.unbalances.empty())
     throw DeckError(list.name() + (unbalance ? "/Loads" : "/Unbalance") +
                     " has no effect with Excitation \"" + list.get<std::string>("Excitation") +
                     "\". Leave it out.");
+}
+
+std::string motorText(const ResponseSettings& settings) {
+  if (!(settings.motorSpeed > 0.0)) return "";
+  return fmt::format(", excited at {} x rotary speed + {:.6g} Hz", formatNumber(settings.order),
+                     settings.offset() / constants::twoPi);
 }
 
 std::string describe(const cases::Case& one) {
@@ -112,7 +146,8 @@ std::string describe(const cases::Case& one) {
   return lower(excitations[static_cast<int>(settings.excitation)]) + " at " +
          std::to_string(settings.points()) + (bySpeed ? " speeds up to " : " frequencies up to ") +
          fmt::format("{:.6g}", last) + (bySpeed ? " rpm" : " Hz") + ", outputs " +
-         quotedList(names) + ", " + (settings.friction ? "with" : "without") + " friction; " +
+         quotedList(names) + motorText(settings) + ", " + (settings.friction ? "with" : "without") +
+         " friction; " +
          (one.reduces()
               ? "reduced model, full model at " + std::to_string(settings.spotChecks) + " points"
               : "full model") +
@@ -137,8 +172,16 @@ ListSpec responseParameters() {
       .real("Lowest Speed", "rad/s", 0.0, Range::nonNegative(), "First speed of a sweep by speed.")
       .real("Highest Speed", "rad/s", deck::Optional{}, Range::positive(),
             "Last speed; this or Highest Frequency.")
-      .real("Order", "", 1.0, Range::positive(),
+      .real("Order", "", 1.0, Range::nonNegative(),
             "Excitation frequency over the rotary speed in a sweep by speed.")
+      .real("Motor Speed", "rad/s", 0.0, Range::nonNegative(),
+            "Speed of the bit over that of the string, of a mud motor between them, in a sweep by "
+            "speed. Adds Motor Order times itself to the frequency; masses of the list Unbalance "
+            "turn with the bit.")
+      .real("Motor Order", "", deck::Optional{}, Range::nonNegative(),
+            "Excitation frequency over the speed of the motor. Default: Order, an excitation by "
+            "the bit. With Order 0 the lobes of the motor: its rotor goes round so many times in "
+            "its turn.")
       .real("Lowest Frequency", "Hz", 0.0, Range::nonNegative(),
             "First frequency of a sweep by frequency.")
       .real("Highest Frequency", "Hz", deck::Optional{}, Range::positive(), "Last frequency.")

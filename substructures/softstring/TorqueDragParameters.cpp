@@ -66,6 +66,9 @@ deck::ListSpec torqueDragParameters() {
             "Pressure of the mud inside the string over that in the annulus, at the surface: part "
             "of the margin to yield. Without it what the friction of Mud/Flow Rate takes down the "
             "string and up the annulus, so that no pressure is left at the bit.");
+  list.real("Joint Length", "m", 9.45, deck::Range::positive(),
+            "Length of a joint of pipe: side forces are summed over it, since its tool joint bears "
+            "them.");
   list.boolean(
       "After Run", false,
       "Computes this at the end of `tooljoint run`, too: its report shows torque, drag and "
@@ -102,6 +105,7 @@ TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list) {
     settings.depths = list.get<Teuchos::Array<double>>("Depths").toVector();
   settings.operations = list.get<Teuchos::Array<std::string>>("Operations").toVector();
   settings.blockWeight = list.get<double>("Block Weight");
+  settings.jointLength = list.get<double>("Joint Length");
   settings.reamingSpeed = list.get<double>("Reaming Speed");
   settings.penetrationRate = list.get<double>("Rate Of Penetration");
   if (list.isParameter("Rotary Speed")) settings.rotarySpeed = list.get<double>("Rotary Speed");

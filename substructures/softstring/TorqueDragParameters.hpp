@@ -24,6 +24,7 @@ struct TorqueDragSettings {
   int count = 0;                        ///< from total depth / count to total depth
   std::vector<std::string> operations;  ///< names, from the list of the description
   double blockWeight = 0.0;             ///< [N]
+  double jointLength = 0.0;             ///< over which a side force is summed [m]
   double reamingSpeed = 0.0;            ///< [m/s]
   double penetrationRate = 0.0;         ///< of drilling [m/s]
   std::optional<double> rotarySpeed;    ///< [rad/s]; none: that of the deck

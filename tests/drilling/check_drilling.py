@@ -18,6 +18,7 @@ from scipy.integrate import solve_ivp
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parents[1] / "tests" / "support"), str(HERE.parents[1] / "tests/stability/hard_cases")]
 import dragging
+import drives
 import hoisting
 import models
 from combinations import combinations
@@ -426,7 +427,7 @@ def cutting(program):
 
 
 CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, among_bending, stuck_with_arkode, idle_bits, matched, cutting, oscillator, whirl, hoisting.tanh_bit,
-                                       hoisting.penetration_bit, hoisting.autodriller, dragging.dragging)}
+                                       hoisting.penetration_bit, hoisting.autodriller, dragging.dragging, drives.drive_limits)}
 ON_REQUEST = {"stick_slip_2500m": scene_2500m.stick_slip_2500m,
               "combinations": lambda program: combinations(program, "without-sundials" not in sys.argv)}
 

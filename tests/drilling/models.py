@@ -206,6 +206,55 @@ class Chatter:
         return max(roots, key=lambda s: s.real)
 
 
+class CoupledChatter:
+    """One axial and one torsional element above a bit of n blades that cuts (T. Richard, C. Germay and E. Detournay 2007). With A = n a zeta eps, B = n a^2 eps/2,
+    the advance V and the speed Omega of steady drilling, d = (1 - exp(-s tau)) (w - V/Omega theta) is the change of the depth of cut, and
+
+        1 + A (1 - exp(-s tau)) G(s) = 0,   G = 1/(m s^2 + c s + k) - V/Omega B/A 1/(I s^2 + c_t s + k_t)."""
+
+    def __init__(self, axial, torsional, slope, torque_over_force):
+        """`axial`, `torsional`: mass, damping, stiffness; `slope`: V/Omega [m/rad]; `torque_over_force`: B/A [m]."""
+        self.axial, self.torsional, self.gain = axial, torsional, slope * torque_over_force
+        self.natural = [math.sqrt(one[2] / one[0]) for one in (axial, torsional)]
+
+    def over(self, s, delay):
+        """(1 - exp(-s tau)) G(s), which is -1/A at a root."""
+        def of(one):
+            return 1 / (one[0] * s * s + one[1] * s + one[2])
+        return (1 - np.exp(-s * delay)) * (of(self.axial) - self.gain * of(self.torsional))
+
+    def critical(self, delay):
+        """Smallest A [N/m] of the limit of stability, and its frequency [rad/s]."""
+        def imaginary(w):
+            return (1 / self.over(1j * w, delay)).imag
+        grid = np.linspace(0.05 * min(self.natural), 8 * max(self.natural), 400001)
+        values = (1 / self.over(1j * grid, delay)).imag
+        found = []
+        for i in np.flatnonzero(values[:-1] * values[1:] < 0):
+            w = brentq(imaginary, grid[i], grid[i + 1], xtol=1e-13)
+            A = -float((1 / self.over(1j * w, delay)).real)
+            if A > 0 and abs(imaginary(w)) < 1e-6 * A:
+                found.append((A, w))
+        return min(found)
+
+    def rightmost(self, A, delay):
+        """The vibrating root with the largest real part, by Newton's method from starts about both natural frequencies."""
+        roots = []
+        for start in (complex(re, im) for re in (-2.0, 0.0, 2.0) for im in np.linspace(0.3 * min(self.natural), 5 * max(self.natural), 121)):
+            s = start
+            for _ in range(60):
+                h = 1e-6 * abs(s)
+                f, slope = 1 / self.over(s, delay) + A, (1 / self.over(s + h, delay) - 1 / self.over(s - h, delay)) / (2 * h)
+                change = f / slope
+                s -= change
+                if not abs(s.real) < 10 * max(self.natural):
+                    break  # away from the vibrating roots
+                if abs(change) < 1e-11 * abs(s):
+                    roots.append(s)
+                    break
+        return max((s for s in roots if s.imag > 0.1 * min(self.natural)), key=lambda s: s.real)
+
+
 def drive_root(length, speed, zeta, kp, ki, inertia, start):
     """s of the pipe with a free end below a drive: zeta tanh(s L/c) + k_p + k_i/s + J s = 0."""
     s = complex(start)

@@ -41,6 +41,13 @@ def laval():
     close("laval: motion along y, a quarter turn behind", rows["y_amplitude"] * np.exp(1j * rows["y_phase"]), -1j * exact, 1e-12)
     # d|x|/dw = 0 of w^2/sqrt((w0^2-w^2)^2+(2 z w0 w)^2): w = w0/sqrt(1-2 z^2)
     close("laval: speed of the largest amplitude", table("laval_response", "peaks")["speed"], omega0 / np.sqrt(1 - 2 * ratio**2), 1e-6)
+    # below a motor the disc turns at w + 300 rad/s
+    run("response", scene, "laval_motor", "Response/Motor Speed=300")
+    rows = table("laval_motor", "response")
+    v = rows["speed"] + 300
+    close("laval: below a motor", rows["x_amplitude"] * np.exp(1j * rows["x_phase"]), moment * v**2 * np.exp(0.3j) / (k - m * v**2 + 1j * v * c), 1e-12)
+    close("laval: below a motor, frequency", 2 * np.pi * rows["frequency"], v, 1e-12)
+    close("laval: below a motor, speed of the largest amplitude", table("laval_motor", "peaks")["speed"], omega0 / np.sqrt(1 - 2 * ratio**2) - 300, 1e-6)
     run("campbell", scene, "laval_campbell")
     crossings = table("laval_campbell", "crossings")
     close("laval: critical speed", crossings["speed"], omega0 * np.sqrt(1 - ratio**2), 1e-9)
@@ -60,7 +67,7 @@ def neighbours():
         fine = np.linspace(f - 0.5, f + 0.5, 100001)
         exact.append(max(size(x) for x in fine[::10]))
     part("neighbours.h5", ["u", "v"], np.eye(2), K, 2e-5 * K)
-    for points in range(6, 40, 3):
+    for points in range(6, 40, 6):
         scene = deck("neighbours", "neighbours.h5",
                      lists("Response", values(Excitation="Harmonic", Highest_Frequency=120.0, Lowest_Frequency=20.0, Points=points) +
                            lists("Loads", lists("push", values(Node=1, Component="u"))) + lists("Outputs", lists("x", values(Node=1, Component="u")))))
@@ -143,6 +150,29 @@ def transfer():
     close("harmonic loads add with their phases", loads["node 1_amplitude"] * np.exp(1j * loads["node 1_phase"]), sum_of, 1e-12)
 
 
+def motor():
+    """A narrow resonance met at Order Omega + Motor Order Omega_m; with the order 0 one frequency at all speeds."""
+    m, k, c = 2.0, 5e4, 0.2
+    part("motor.h5", ["u"], m * np.eye(1), k * np.eye(1), c * np.eye(1))
+    scene = deck("motor", "motor.h5", lists("Response", values(Excitation="Harmonic", Highest_Speed=60.0, Points=4, Order=2.0, Motor_Speed=20.0) +
+                                            lists("Loads", lists("push", values(Node=1, Component="u"))) + lists("Outputs", lists("x", values(Node=1, Component="u")))))
+
+    def exact(w):
+        return 1 / np.abs(k - w**2 * m + 1j * w * c)
+    peak = np.sqrt(k / m - 0.5 * (c / m)**2)  # 158.1 rad/s
+    for name, order, motor, settings in (("bit", 2, 2, ()), ("given", 2, 5, ("Response/Motor Order=5",)), ("lobes", 0, 5, ("Response/Order=0", "Response/Motor Order=5"))):
+        run("response", scene, f"motor_{name}", *settings)
+        rows = table(f"motor_{name}", "response")
+        close(f"motor, {name}: amplitude", rows["x_amplitude"], exact(order * rows["speed"] + motor * 20), 1e-9)
+        if order:
+            close(f"motor, {name}: the resonance between the points", table(f"motor_{name}", "peaks")["speed"], (peak - motor * 20) / order, 1e-5)
+        else:
+            expect("motor: one frequency has no peak", not pathlib.Path("motor_lobes/peaks.csv").exists())
+    for words, settings in (("without Motor Speed", ["Response/Motor Speed=0", "Response/Motor Order=3"]), ("nothing vibrates", ["Response/Order=0"])):
+        done = tooljoint("response", scene, "--output", "refused", *(word for one in settings for word in ("--set", one)))
+        expect(f"motor: refused, {words}", done.returncode == 2 and words in done.stderr, done.stderr)
+
+
 def shaft():
     """A spinning pinned Rayleigh shaft as a string: (rho S + rho I q^2) w^2 - 2 rho I q^2 Omega w - (E I q^4) = 0 with shear as a softer spring."""
     pathlib.Path("shaft.xml").write_text(SHAFT, encoding="utf-8")
@@ -197,6 +227,18 @@ def turning():
         expect(f"{name}: a response at 0 rpm of a shaft that turns is warned of", ("is that of 0 rpm" in " ".join((done.stdout + done.stderr).split())) == (not speed), done.stdout[-600:])
 
 
+def critical_speeds(reduced, settings):
+    """Critical speeds of the string itself: those of the reduced model are apart from those of the full one by what was estimated. The estimate is of first order in the
+    error, which is 1e-6 and less here; rounding and the tolerance of the crossings are below 1e-9."""
+    done = tooljoint("campbell", STRING, "--output", "string_full", "--without", "Reduction", "--without", "Substructures", *(word for one in settings for word in ("--set", one)))
+    expect("critical speeds of the full model", done.returncode == 0, done.stderr)
+    full, few = table("string_full", "crossings"), table(reduced, "crossings")
+    expect(f"{len(few['speed'])} critical speeds, as many as of the full model", len(few["speed"]) == len(full["speed"]) > 15 and np.array_equal(few["order"], full["order"]), full["speed"])
+    apart = np.abs(few["frequency"] / full["frequency"] - 1)
+    expect(f"apart by {apart.min():.1e} to {apart.max():.1e}, as estimated", np.all(np.abs(apart - few["estimate"]) <= 0.05 * few["estimate"] + 1e-9) and apart.max() > 1e-7,
+           np.c_[full["speed"] / RPM, apart, few["estimate"]])
+
+
 def string():
     """The reference scene: limit at rest, spot checks within the estimates, ranks."""
     text = pathlib.Path(STRING).read_text(encoding="utf-8").replace("components/helical_170m.xml", str(SOURCES / "xml/components/helical_170m.xml"))
@@ -215,7 +257,9 @@ def string():
     estimates("string")
     done = tooljoint("modes", STRING, "--count", "16", "--time", "0", "--output", "string_modes", *(word for one in ramp for word in ("--set", one)))
     expect("string: modes ends well", done.returncode == 0, done.stderr)
-    run("campbell", STRING, "string_smooth", *campbell[:-1], "Campbell/Spot Checks=0")
+    smoothly = [*campbell[:-2], "Campbell/Modes=8", "Campbell/Spot Checks=0"]  # orders 1, 2 and 3
+    run("campbell", STRING, "string_smooth", *smoothly)
+    critical_speeds("string_smooth", smoothly)
     smooth = modes_at(table("string_smooth", "campbell"), 120 * RPM)
     sliding = modes_at(table("string", "campbell"), 120 * RPM)
     expect("string: friction damps what slides", np.abs(smooth["damping"][0] - sliding["damping"][0]) > 1e-3 * smooth["damping"][0],
@@ -262,6 +306,9 @@ def refusals():
         ("no unbalance", "no mass off its axis", ["!Response/Unbalance"]),
         ("unbalance by frequency", "no meaning for an unbalance", ["!Response/Highest Speed", "Response/Highest Frequency=10"]),
         ("order of an unbalance", "has the order 1", ["Response/Order=2"]),
+        ("order of an unbalance below a motor", "has the order 1", ["Response/Motor Speed=3", "Response/Motor Order=2"]),
+        ("motor without a mass below it", "there are none", ["!Response/Unbalance", "Response/Motor Speed=3"]),
+        ("motor by frequency", "no effect in a sweep by frequency", ["!Response/Highest Speed", "Response/Highest Frequency=10", "Response/Motor Speed=3"]),
         ("speed of the other sweep", "has no effect in a sweep by speed", ["Response/Rotary Speed=3"]),
         ("no load", "Loads holds no load", ["Response/Excitation=Harmonic"]),
         ("node", "no such node", ["Response/Outputs/x/Node=5"]),
@@ -275,7 +322,7 @@ def refusals():
 
 
 if sys.argv[4] == "rotors":
-    for check in (laval, neighbours, overhung, excitations, bearing, nelson, friswell, anisotropic, damped, transfer, shaft, window, walls, turning, bending, growth, states.states, pictures, refusals):
+    for check in (laval, neighbours, overhung, excitations, bearing, nelson, friswell, anisotropic, damped, transfer, motor, shaft, window, walls, turning, bending, growth, states.states, pictures, refusals):
         check()
 else:
     string()

@@ -39,14 +39,16 @@ REPORTS = {
     "report_motion.png": ("stress", WIDE, "#orbits, #spectra"),
     "report_bha.png": ("bha_motor_1500m", WIDE, None),
 }
-# Section of a report -> (folder, command, deck, overrides); its plots are the picture drilling_SECTION.png.
+# Picture drilling_NAME.png -> (section of a report whose plots it shows, folder, command, deck, overrides)
 FRICTIONS = "Torque and Drag/Broomstick={0.1, 0.2, 0.3, 0.4}"
 SECTIONS = {
-    "torque-drag": ("extended_reach", "torque-drag", XML / "extended_reach_5000m.xml", [FRICTIONS, "Torque and Drag/Operations={Trip out, Trip in, Drill rotating}"]),
-    "buckling": ("buckling", "buckling", XML / "buckling_100m.xml", []),
-    "bha": ("bha_motor_1500m", "bha", XML / "bha_motor_1500m.xml", []),
-    "campbell": ("campbell", "campbell", XML / "helical_170m.xml", ["Campbell/Highest Speed=120 rpm", "Campbell/Points=5", "Campbell/Modes=8"]),
-    "response": ("response", "response", "response.xml", []),
+    "torque_drag": ("torque-drag", "extended_reach", "torque-drag", XML / "extended_reach_5000m.xml", [FRICTIONS, "Torque and Drag/Operations={Trip out, Trip in, Drill rotating}"]),
+    "buckling": ("buckling", "buckling", "buckling", XML / "buckling_100m.xml", []),
+    "bha": ("bha", "bha_motor_1500m", "bha", XML / "bha_motor_1500m.xml", []),
+    "campbell": ("campbell", "campbell", "campbell", XML / "helical_170m.xml", ["Campbell/Highest Speed=120 rpm", "Campbell/Points=5", "Campbell/Modes=8"]),
+    "response": ("response", "response", "response", "response.xml", []),
+    "stick_slip": ("motion", "stick_slip", "run", XML / "stick_slip_2500m.xml", []),
+    "measured_log": ("measured", "measured", "run", "measured.xml", []),
 }
 COLOURS = 256
 SCRIPTS = ("choose_a_basis", "frame_of_parts", "my_finite_elements", "string_from_survey_to_map")  # examples/python, on docs/python-figures.md
@@ -87,6 +89,18 @@ def scripts():
         print(f"{picture}: {picture.stat().st_size} bytes")
 
 
+def with_log(scene, weight, file):
+    """The scene beside the bit speed of a rig: that of the same string, full model, under another weight on bit."""
+    run("run", str(XML / scene), "--output", "rig", "--without", "Reduction", "--without", "Substructures", "--set", f"Loads/Weight On Bit={weight}")
+    head, end, _ = (XML / scene).read_text(encoding="utf-8").rpartition("</ParameterList>")
+    log = """<ParameterList name="Measured Log">
+      <Parameter name="File" type="string" value="rig/motion.csv"/> <Parameter name="Begin" type="double" value="10"/>
+      <ParameterList name="Columns"><ParameterList name="bit speed">
+        <Parameter name="Column" type="string" value="bit_speed"/> <Parameter name="Quantity" type="string" value="Bit speed"/>
+      </ParameterList></ParameterList></ParameterList>"""
+    (WORK / file).write_text((head + log + end).replace('"components/', f'"{XML}/components/'), encoding="utf-8")
+
+
 def main():
     WORK.mkdir(parents=True, exist_ok=True)
     shutil.rmtree(WORK / "first", ignore_errors=True)
@@ -94,6 +108,7 @@ def main():
     template("parts", "parts.xml")
     template("part", "bar.json")
     with_response("helical_170m.xml", "response.xml")
+    with_log("stick_slip_2500m.xml", "85 kN", "measured.xml")
     for folder, (command, deck) in SCENES.items():
         run(command, str(deck), "--output", folder)
         run("report", folder)
@@ -107,10 +122,10 @@ def main():
             record[picture] = {"command": command, "deck": str(deck).replace(f"{XML.parent}/", ""), **figures_of(page.read_text(encoding="utf-8"))}
             print(f"{FIGURES / picture}: {(FIGURES / picture).stat().st_size} bytes")
         RECORD.write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-        for section, (folder, command, deck, overrides) in SECTIONS.items():
+        for name, (section, folder, command, deck, overrides) in SECTIONS.items():
             run(command, str(deck), "--output", folder, *[f"--set={one}" for one in overrides])
             run("report", folder)
-            picture = FIGURES / f"drilling_{section.replace('-', '_')}.png"
+            picture = FIGURES / f"drilling_{name}.png"
             browser.open(WORK / folder / "report.html", *WIDE).picture(picture, element=f"#{section} .plots")
             small(picture)
             print(f"{picture}: {picture.stat().st_size} bytes")

@@ -17,6 +17,7 @@ import time
 import h5py
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import closed_forms  # noqa: E402
 from checks import expect, finish, tooljoint  # noqa: E402
 from screens import expect_screen  # noqa: E402
 
@@ -49,7 +50,7 @@ def straight():
     survey = pathlib.Path("straight.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 50, 20\n2000, 50, 20\n", encoding="utf-8")
     well[1] = f"Well/Survey/File={survey}"
-    table = run("straight", *well, "Supports/Bit=none", "Torque and Drag/Count=2", "Torque and Drag/Yield Strength=724 MPa")
+    table = run("straight", *well, "Supports/Bit=none", "Torque and Drag/Count=2", "Torque and Drag/Yield Strength=724 MPa", "Torque and Drag/Joint Length=9.5")
     length, density, gravity, mu, joint = 1425.0, 7850.0, 9.81, 0.25, 0.084
     body, tool = (math.pi * (a * a - b * b) for a, b in ((0.0635, 0.0543), (0.084, 0.0413)))
     weight = density * gravity * 150 * (9.0 * body + 0.5 * tool)
@@ -77,7 +78,40 @@ def straight():
     limit = 2 * math.sqrt(210e9 * inertia * weight / length * math.sin(inclination) / (0.108 - 0.0635))
     expect("the compression above the bit is that on it, so the margin of the lowest body is the limit over it",
            abs(float(full["Drill rotating"]["sinusoidal_margin"]) / (limit / 5e4) - 1) < 0.05, full["Drill rotating"]["sinusoidal_margin"])
+    expect("the stiff string has the same margin within its weight on an element of 9 m", abs(float(full["Drill rotating"]["stiff_sinusoidal_margin"]) / (limit / 5e4) - 1) < 0.06
+           and abs(float(full["Drill rotating"]["stiff_helical_margin"]) / float(full["Drill rotating"]["stiff_sinusoidal_margin"]) - math.sqrt(2)) < 1e-9,
+           full["Drill rotating"]["stiff_sinusoidal_margin"])
+    near("side force of a joint", float(full["Trip out"]["joint_force"]), weight * math.sin(inclination) / 150, 1e-6)
+    forces = [(float(row["depth"]), float(row["contact_force"])) for row in profile if row["operation"] == "Trip out"]
+    joints = [sum(force for s, force in forces if start <= s < start + 9.5 - 1e-6) for start, _ in forces]
+    near("contact force of a joint of the stiff string", float(full["Trip out"]["stiff_joint_force"]), max(joints), 1e-6)
+    near("which is the weight of a pipe where its neighbours bear theirs", sorted(joints)[len(joints) // 2], weight * math.sin(inclination) / 150, 0.01)
     expect("nothing is compressed off bottom", full["Rotate off bottom"]["helical_margin"] == "")
+
+
+def numbers(name, settings):
+    """Rows of torque_drag.csv by operation, as numbers."""
+    return {row["operation"]: {key: float(value) if value else None for key, value in row.items() if key != "operation"} for row in run(f"forms_{name}", *settings)}
+
+
+def forms():
+    """The soft string against closed forms, through the program."""
+    for what, truth, found, _, tolerance in closed_forms.soft(numbers):
+        near(what, found, truth, tolerance)
+
+
+def limits():
+    """The stiff string of a pipe without joints tends to the soft one. Where its load changes the wall it crosses the hole without contact: with a load that changes by
+    q' per length over a way l ~ (T r/q')^(1/3), so that the torque lacks q' l^2 ~ r^(2/3). The stretch by friction moves it along the bend, in proportion to 1/E."""
+    found = {(clearance, young): (torque, drag) for clearance, young, torque, drag in closed_forms.stiff(numbers, closed_forms.TESTED)}
+    soft = closed_forms.YOUNG / 100
+    short = {clearance: 1 - found[clearance, soft][0] / closed_forms.LIMIT for clearance in (1, 6)}
+    expect(f"stiff string, clearance 1 mm: torque of the soft one that climbs {short}", 0 < short[1] < 3e-4)
+    near("and what it lacks grows with r^(2/3)", short[6] / short[1], 6 ** (2 / 3), 0.2)
+    lacks = 1 - found[1, closed_forms.YOUNG][1]
+    expect(f"drag of the soft string with Young's modulus of steel {lacks}", abs(lacks) < 6e-4)
+    one, ten, hundred = (found[1, closed_forms.YOUNG / divided][1] for divided in (1, 10, 100))
+    near("what the stretch takes of the drag, 100 - 10 times that of steel over 10 - 1 times", (ten - hundred) / (one - ten), 10, 0.05)
 
 
 def backward():
@@ -245,7 +279,8 @@ def weight_on_bit():
 def buckled():
     """A state of the stiff string that its weight on bit buckles is warned of."""
     for weight, unstable in (("60 kN", False), ("200 kN", True)):
-        done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output", "buckled", "--set", "Torque and Drag/Count=1", "--set", f"Loads/Weight On Bit={weight}")
+        done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output", "buckled", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Operations={Drill sliding}",
+                         "--set", f"Loads/Weight On Bit={weight}")
         said = " ".join((done.stdout + done.stderr).split())
         expect(f"{weight}: states of the stiff string are said to be {'un' if unstable else ''}stable", ("of the stiff string are unstable" in said) == unstable, said[-800:])
 
@@ -385,6 +420,8 @@ def files():
 
 
 straight()
+forms()
+limits()
 as_it_is = backward()
 buckled()
 pulled()

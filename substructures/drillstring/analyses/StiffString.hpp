@@ -35,6 +35,8 @@ struct StiffLoads {
   std::vector<double> tension, torque, moment;  ///< of each element, at its middle [N, N m]
   std::vector<double> vonMises;                 ///< of each element, by torqueDrag() [Pa]
   Margin yield;                                 ///< at the middle of an element, by torqueDrag()
+  Margin sinusoidal, helical;                   ///< to buckling, likewise
+  Margin joint;  ///< largest contact force of a joint of pipe [N] and its middle, likewise
 
   bool found() const { return failure.empty(); }
   template <class Archive>

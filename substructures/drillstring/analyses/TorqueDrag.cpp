@@ -38,6 +38,27 @@ double mudDensity(const Scene& scene) {
 
 double gravityOf(const Scene& scene) { return loads::acceleration(scene.loads).z(); }
 
+/// Largest integral of the side force over a length of the string, whose points go up from the
+/// bit; linear between them.
+Margin largestJoint(const softstring::Loads& loads, double length) {
+  const std::size_t n = loads.depth.size();
+  std::vector<double> sum(n, 0.0);  // from the bit up
+  for (std::size_t i = 1; i < n; ++i)
+    sum[i] = sum[i - 1] + 0.5 * (loads.sideForce[i - 1] + loads.sideForce[i]) *
+                              (loads.depth[i - 1] - loads.depth[i]);
+  Margin largest;
+  std::size_t top = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double end = std::max(loads.depth[i] - length, loads.depth.back());
+    while (top + 1 < n && loads.depth[top] > end) ++top;
+    if (top == 0) continue;
+    const double part = (loads.depth[top - 1] - end) / (loads.depth[top - 1] - loads.depth[top]);
+    const double force = sum[top - 1] + part * (sum[top] - sum[top - 1]) - sum[i];
+    if (force > largest.factor) largest = {force, 0.5 * (loads.depth[i] + end)};
+  }
+  return largest;
+}
+
 void keepLeast(Margin& margin, double factor, double depth) {
   if (factor < margin.factor) margin = {factor, depth};
 }
@@ -148,6 +169,20 @@ typename std::vector<T>::const_iterator repeated(const std::vector<T>& values) {
 }
 
 }  // namespace
+
+Margin largestOver(double length, const std::vector<double>& depth,
+                   const std::vector<double>& force) {
+  Margin largest;
+  double sum = 0.0;
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    for (; end < depth.size() && depth[end] < depth[i] + length * (1.0 - roundedDepth); ++end)
+      sum += force[end];
+    if (sum > largest.factor) largest = {sum, 0.5 * (depth[i] + depth[end - 1])};
+    sum -= force[i];
+  }
+  return largest;
+}
 
 softstring::TorqueDragSettings torqueDragList(const Scene& scene) {
   const auto spec = softstring::torqueDragParameters();
@@ -267,32 +302,42 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
       row.sideForceDepth = s;
     }
   }
+  row.joint = largestJoint(loads, settings.jointLength);
   if (locked) {  // loads at the point of lock-up have no bound
     row.yield = row.sinusoidal = row.helical = {infinite, bit};
     row.neutralDepth = row.largestSideForce = row.sideForceDepth = none;
+    row.joint = {none, none};
   }
   return profile;
 }
 
 namespace {
 
-/// Stresses of the elements of the stiff string, whose lower end is that of the soft one, and their
-/// margin to yield.
+/// Stresses of the elements of the stiff string, whose lower end is that of the soft one, their
+/// margins to yield and to buckling, and the largest force on a joint.
 void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& settings, double bit,
                  StiffLoads& loads) {
   const softstring::PressureDifference pressure(model.string, model.hole, bit,
                                                 settings.pumpPressure);
   const std::size_t count = loads.tension.size(), above = model.string.size() - count;
   loads.vonMises.clear();
-  loads.yield = {infinite, 0.0};
+  loads.yield = loads.sinusoidal = loads.helical = {infinite, 0.0};
+  loads.joint = largestOver(settings.jointLength, loads.depth, loads.contactForce);
   for (std::size_t e = 0; e < count; ++e) {
-    const auto& section = model.string[above + e].section;
+    const auto& stretch = model.string[above + e];
+    const auto& section = stretch.section;
     const double middle = 0.5 * (loads.depth[e] + loads.depth[e + 1]);
     loads.vonMises.push_back(
         beam::vonMises(section, loads.tension[e], loads.torque[e],
                        loads.moment[e] / (section.youngModulus() * section.inertiaX()),
                        pressure.at(std::min(bit, middle))));
     keepLeastYield(loads.yield, section, settings, loads.vonMises.back(), middle);
+    if (!(loads.tension[e] < 0.0)) continue;
+    const auto limits = softstring::bucklingLimits(
+        model.hole.at(middle), stretch.weight, section.youngModulus() * section.inertiaX(),
+        model.hole.radius(middle) - section.outerRadius());
+    keepLeast(loads.sinusoidal, limits.sinusoidal / -loads.tension[e], middle);
+    keepLeast(loads.helical, limits.helical / -loads.tension[e], middle);
   }
 }
 

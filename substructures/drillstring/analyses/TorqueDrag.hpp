@@ -29,6 +29,7 @@ struct TorqueDragRow {
   double stretch = 0.0;                                 ///< by effective tension [m]
   double neutralDepth = 0.0;                            ///< above it nothing is compressed [m]
   double largestSideForce = 0.0, sideForceDepth = 0.0;  ///< [N/m], [m]
+  Margin joint;  ///< largest side force on the length of a joint of pipe [N] and its middle
   Margin yield, sinusoidal, helical;
   double lockUpDepth = -1.0;  ///< [m]; negative: none
 };
@@ -76,6 +77,11 @@ std::vector<softstring::Operation> softOperations(const Scene& scene,
 TorqueDragProfile torqueDragAt(const SoftModel& model,
                                const softstring::TorqueDragSettings& settings,
                                const softstring::Operation& operation, double bit, bool allLimits);
+
+/// The largest sum of forces [N] whose depths lie within `length` [m], and its middle. `depth`
+/// increases.
+Margin largestOver(double length, const std::vector<double>& depth,
+                   const std::vector<double>& force);
 
 /// Every operation at every depth, the stiff string where the deck asks for it. Collective.
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFolder& store);

@@ -65,7 +65,11 @@ std::vector<Column> softColumns(const Profiles& profiles) {
       of("neutral_depth", "m", "Measured depth above which nothing is compressed",
          &TorqueDragRow::neutralDepth),
       of("side_force", "N/m", "Largest side force per length", &TorqueDragRow::largestSideForce),
-      of("side_force_depth", "m", "Measured depth of it", &TorqueDragRow::sideForceDepth)};
+      of("side_force_depth", "m", "Measured depth of it", &TorqueDragRow::sideForceDepth),
+      column(profiles, "joint_force", "N", "Largest side force of a joint of pipe",
+             [](const TorqueDragProfile& one) { return one.row.joint.factor; }),
+      column(profiles, "joint_force_depth", "m", "Measured depth of its middle",
+             [](const TorqueDragProfile& one) { return one.row.joint.depth; })};
   addMargin(columns, profiles, "yield_margin", "Yield strength over von Mises stress, least",
             [](const TorqueDragProfile& one) { return one.row.yield; });
   addMargin(columns, profiles, "sinusoidal_margin",
@@ -101,11 +105,22 @@ std::vector<Column> stiffColumns(const Profiles& profiles, const Settings& setti
       [](const StiffLoads& one) { return largestContact(one).factor; });
   add("stiff_contact_force_depth", "m", "Measured depth of it",
       [](const StiffLoads& one) { return largestContact(one).depth; });
-  addMargin(columns, profiles, "stiff_yield_margin",
-            "Stiff string: yield strength over von Mises stress, least",
-            [](const TorqueDragProfile& one) {
-              return hasStiff(one) ? one.stiff->yield : Margin{nothing, 0.0};
-            });
+  add("stiff_joint_force", "N", "Stiff string: largest contact force of a joint of pipe",
+      [](const StiffLoads& one) { return one.joint.factor; });
+  add("stiff_joint_force_depth", "m", "Measured depth of its middle",
+      [](const StiffLoads& one) { return one.joint.depth; });
+  const auto margin = [&](const std::string& name, const std::string& longName,
+                          Margin StiffLoads::*member) {
+    addMargin(columns, profiles, name, longName, [member](const TorqueDragProfile& one) {
+      return hasStiff(one) ? (*one.stiff).*member : Margin{nothing, 0.0};
+    });
+  };
+  margin("stiff_yield_margin", "Stiff string: yield strength over von Mises stress, least",
+         &StiffLoads::yield);
+  margin("stiff_sinusoidal_margin",
+         "Stiff string: sinusoidal buckling load over compression, least", &StiffLoads::sinusoidal);
+  margin("stiff_helical_margin", "Stiff string: helical buckling load over compression, least",
+         &StiffLoads::helical);
   return columns;
 }
 

@@ -17,17 +17,9 @@
 #include "common/report/StageTimes.hpp"
 #include "deck/Defaults.hpp"
 #include "deck/PrintedUnits.hpp"
-#include "linalg/trilinos/EigenSolver.hpp"
-#include "substructures/beam/NodalDofs.hpp"
-#include "substructures/drillstring/buckling/BucklingState.hpp"
-#include "substructures/drillstring/scene/RestProblem.hpp"
-#include "substructures/equilibrium/Equilibrium.hpp"
-#include "substructures/equilibrium/LoadPath.hpp"
-#include "substructures/equilibrium/Settling.hpp"
+#include "substructures/drillstring/buckling/BucklingModel.hpp"
 
 namespace tooljoint::drillstring {
-
-namespace nodal = beam::nodal;
 
 namespace {
 
@@ -41,194 +33,8 @@ constexpr int buckledHalfWaves = 3;
 /// A jump takes place under a weight that is larger by this part of the last weight: where the
 /// states turn there is none just before. Where no state is found, the next one is tried.
 constexpr double beyondLimit[] = {1e-4, 1e-3, 1e-2};
-/// Relative size of the last Newton step of a state after a jump.
-constexpr double smallUpdate = 1e-8;
 /// Steps over bifurcations, as a part of the largest step.
 constexpr double bifurcationShare = 1.0 / 64.0;
-/// Steps in which a string may become crooked, before the weight grows.
-constexpr int stepsOfBending = 1000;
-
-/// The scene without what moves, and without the weight on bit.
-Scene atRest(const Scene& scene) {
-  Scene still = scene;
-  Teuchos::ParameterList list = scene.list().sublist("Loads");
-  list.set("Weight On Bit", 0.0);
-  list.remove("Unbalance", false);
-  still.loads = loads::readLoads(list);
-  still.rotary = {};
-  still.statics.friction = equilibrium::FrictionRule::None;
-  still.bit.reset();
-  still.topDrive = {};
-  return still;
-}
-
-void check(const Scene& scene) {
-  const auto refuse = [&](const std::string& path, const std::string& sentence) {
-    throw DeckError(scene.deck.error(path, sentence));
-  };
-  if (!scene.contact || scene.contactPoints.size() == 0)
-    throw DeckError(scene.deck.file() +
-                    ": buckling needs contact with the wall of the hole. Add the list Contact.");
-  if (!scene.list().isSublist("Loads"))
-    throw DeckError(
-        scene.deck.file() +
-        ": the string has no loads. Add the list Loads; with Gravity 0 it has no weight.");
-  if (!scene.statics.geometricStiffness)
-    refuse("Static/Geometric Stiffness",
-           "is false, but buckling needs geometric stiffness. Leave it out.");
-  if (scene.held[at(nodal::perNode * (scene.string.nodeCount() - 1) + nodal::w)] != 0)
-    refuse("Supports/Bit",
-           "holds w, so that the weight on bit cannot move the bit. Release w of the bit and hold "
-           "that of Top.");
-}
-
-/// Everything that the path is made of.
-class Model {
- public:
-  Model(const Scene& scene, double last)
-      : scene_(atRest(scene)),
-        path_(bendIntoWell(scene_)),
-        input_(restProblem(scene_, path_, equationsOnPath(scene_, path_), {}, scene_.contactPoints,
-                           scene_.statics.reference)) {
-    load_.direction = Vector::Zero(nodal::perNode * input_.nodes);
-    load_.direction(nodal::perNode * (input_.nodes - 1) + nodal::w) = -1.0;
-    load_.contained = load_.scale = last;  // the largest load is the scale of the residual
-    load_.pathWeights = pathWeights();
-    input_.load += last * load_.direction;
-  }
-
-  /// Dofs of the static state of the straight string without weight on bit, as exact as states of
-  /// the path: relative to the largest load of the path.
-  Vector start(const equilibrium::LoadPath& problem) const {
-    auto input = input_;
-    input.load -= load_.contained * load_.direction;
-    auto options = scene_.statics;
-    options.tolerance *= std::max(
-        1.0, problem.problem().largestLoad() / equilibrium::StaticProblem(input).largestLoad());
-    return problem.problem().restrict(
-        equilibrium::solveStatic(input, options, staticSolver(scene_)).displacement);
-  }
-
-  /// Makes the string crooked, and its state without weight on bit one of the crooked string: x
-  /// from the straight one, in a path of its own. ConvergenceError.
-  void bend(double amplitude, double pitch, statics::PathOptions options, Vector& x) {
-    const Vector lateral = crooked(amplitude, pitch);
-    auto input = input_;
-    input.load += lateral - load_.contained * load_.direction;
-    auto growing = load_;
-    growing.direction = lateral;
-    growing.contained = growing.scale = 1.0;
-    options.from = 0.0, options.to = 1.0;
-    options.maxSteps = stepsOfBending;  // those of the deck are of the weight on bit
-    const equilibrium::LoadPath bending(input, growing);
-    options.tolerance *= std::max(1.0, scaleOfPath() / bending.problem().largestLoad());
-    const auto report =
-        statics::followPath(bending, x, options, [&](const statics::PathPoint& point) {
-          x = point.x;
-          return true;
-        });
-    if (report.end != statics::PathEnd::Reached)
-      throw ConvergenceError(
-          "The state of the crooked string without weight on bit was not found: " +
-          report.explanation + " Reduce Buckling/Crookedness.");
-    input_.load += lateral;
-  }
-
-  /// The string of bend(), whose state is known.
-  void setCrooked(double amplitude, double pitch) { input_.load += crooked(amplitude, pitch); }
-
-  /// The state that a string finds under the weight `weight` when it leaves the unstable state `x`
-  /// of the path in the direction `towards`. ConvergenceError: none.
-  Vector jump(const equilibrium::LoadPath& problem, const Vector& x, const Vector& towards,
-              double weight) const {
-    auto input = input_;
-    input.load += (weight - load_.contained) * load_.direction;
-    equilibrium::StaticProblem rest(input);
-    auto switches = problem.problem().switches();
-    switches.lateralStepLimit = scene_.statics.lateralStepLimit;
-    switches.slideAlongWall = true;
-    rest.set(switches);
-    Vector found = x;
-    equilibrium::settle(input, rest, unstableMode(problem, x, towards), scene_.statics.tolerance,
-                        staticSolver(scene_), found);
-    // where hardly anything resists a motion, as a turn of a helix about the axis of a vertical
-    // hole, the state is not there yet though its residual is small
-    model::SolveRequest request;
-    request.what = "the state after a jump";
-    request.tolerance = scene_.statics.tolerance;
-    request.updateTolerance = smallUpdate;
-    request.maxIterations = scene_.statics.maxIterations;
-    request.search = model::LineSearch::Work;
-    const auto outcome = staticSolver(scene_)(rest, found, request);
-    if (!outcome.converged)
-      throw ConvergenceError("The state after a jump of the string was not found: " +
-                             outcome.message);
-    return found;
-  }
-
-  equilibrium::LoadPath problem() const { return {input_, load_}; }
-  BucklingMeasure measure(const equilibrium::LoadPath& problem) const {
-    return {scene_, path_, input_, problem.problem()};
-  }
-  const Scene& scene() const { return scene_; }
-
- private:
-  /// Lateral motion in clearances, root mean square along the string.
-  Vector pathWeights() const {
-    Vector weights = Vector::Zero(nodal::perNode * input_.nodes);
-    const auto& string = scene_.string;
-    for (int e = 0; e < string.elementCount(); ++e)
-      for (const int n : {e, e + 1}) {
-        const double r = string.nodes[at(n)].clearance;
-        if (!(r > 0.0)) continue;
-        const double share = 0.5 * string.elements[at(e)].length() / (string.length() * r * r);
-        weights(nodal::perNode * n + nodal::u) += share;
-        weights(nodal::perNode * n + nodal::v) += share;
-      }
-    return weights;
-  }
-
-  /// A lateral load under which a straight string would take the shape, to first order:
-  /// E I q^4 A (cos q s, sin q s) per length, q = 2 pi/pitch.
-  Vector crooked(double amplitude, double pitch) const {
-    Vector load = Vector::Zero(nodal::perNode * input_.nodes);
-    const auto depth = scene_.string.depths();
-    const double q = constants::twoPi / pitch;
-    for (int e = 0; e < scene_.string.elementCount(); ++e) {
-      const auto& element = scene_.string.elements[at(e)];
-      const auto& section = element.section();
-      const double EI = section.youngModulus() * section.inertiaX();
-      for (const int n : {e, e + 1}) {
-        const double force = 0.5 * element.length() * EI * std::pow(q, 4) * amplitude;
-        load(nodal::perNode * n + nodal::u) += force * std::cos(q * depth[at(n)]);
-        load(nodal::perNode * n + nodal::v) += force * std::sin(q * depth[at(n)]);
-      }
-    }
-    return load;
-  }
-
-  equilibrium::UnstableMode unstableMode(const equilibrium::LoadPath& problem, const Vector& x,
-                                         const Vector& towards) const {
-    auto equations = equationsOnPath(scene_, path_).model;
-    equations.held = input_.held;
-    const Sparse mass = assemble(equations).mass;
-    const auto modes = linalg::lowestModes(problem.symmetricTangent(x), mass, 2);
-    equilibrium::UnstableMode mode;
-    const Vector shape = modes.vectors.col(0);
-    mode.shape = problem.problem().expand(shape.dot(towards) < 0.0 ? Vector(-shape) : shape);
-    mode.mass = problem.problem().expand(mass.diagonal());
-    // on the way the string is less stable than here, where it has just become unstable
-    mode.growthRate = std::sqrt(modes.values.cwiseAbs().maxCoeff());
-    return mode;
-  }
-
-  double scaleOfPath() const { return equilibrium::StaticProblem(input_).largestLoad(); }
-
-  Scene scene_;
-  path::PathState path_;
-  equilibrium::StaticInput input_;
-  equilibrium::GrowingLoad load_;
-};
 
 statics::PathOptions pathOptions(const Scene& scene, const BucklingSettings& settings) {
   statics::PathOptions options;
@@ -250,19 +56,20 @@ void addBranch(const statics::PathReport& branch, statics::PathReport& all) {
   all.failedSteps += before.failedSteps;
 }
 
-constexpr int storeFormat = 1;  ///< raised when the meaning of a kept path changes
+constexpr int storeFormat = 2;  ///< raised when the meaning of a kept path changes
 
 /// How far the path is: where a branch begins.
 struct Reached {
   std::size_t done = 0;  ///< states
   BucklingPath path;
-  double from = 0.0;  ///< weight on bit [N]
+  double from = 0.0;  ///< parameter of the path [N]
   Vector x;
   int branch = 0;
+  bool unloads = false;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(done, path, from, x, branch);
+    archive(done, path, from, x, branch, unloads);
   }
 };
 
@@ -285,7 +92,7 @@ Store storeOf(const cases::RowFolder& folder) {
 class Branches {
  public:
   /// \param start of the crooked string without weight on bit, or where a later branch begins
-  Branches(const Model& model, const BucklingSettings& settings,
+  Branches(const BucklingModel& model, const BucklingSettings& settings,
            const statics::PathOptions& options, Vector start, BucklingPath& found,
            const Store& store, int branch)
       : model_(model),
@@ -306,6 +113,7 @@ class Branches {
       const auto report = statics::followPath(
           problem_, x_, options_, [this](const statics::PathPoint& point) { return add(point); });
       addBranch(report, found_.report);
+      found_.report.parameter = model_.weightOnBit(report.parameter);
       const bool ended = report.end == statics::PathEnd::Reached ||
                          report.end == statics::PathEnd::Steps || found_.states.empty();
       if (ended || settings_.atLimit == LimitRule::Follow) return;
@@ -315,6 +123,9 @@ class Branches {
       if (!jump(report)) return;
     }
   }
+
+  const Vector& x() const { return x_; }
+  int branch() const { return branch_; }
 
  private:
   /// Whether the path goes on: a string that jumps does so where the weight would have to shrink,
@@ -330,29 +141,32 @@ class Branches {
     const bool jumps = settings_.atLimit == LimitRule::Jump && point.step > 0;
     before_ = point.step == 0 ? point.x : x_;
     x_ = point.x;
-    if (jumps && point.parameter <= found_.states.back().weight) return false;
-    auto state = measure_.state(point.parameter, problem_.problem().expand(x_));
+    if (jumps && point.parameter <= last_) return false;
+    last_ = point.parameter;
+    auto state = measure_.state(model_.weightOnBit(point.parameter), problem_.problem().expand(x_));
     state.branch = branch_;
     state.negativePivots = point.negativePivots.value_or(0);
     allowed_ = point.step == 0 ? state.negativePivots : std::min(allowed_, state.negativePivots);
-    found_.states.push_back(state);
+    const bool known = !found_.states.empty() && found_.states.back().branch == branch_ &&
+                       found_.states.back().weight == state.weight;
+    if (!known) found_.states.push_back(state);
     return !jumps || state.negativePivots <= allowed_;
   }
 
   /// To another state under a little more weight; where there is none, under more.
   bool jump(const statics::PathReport& report) {
-    const double most = found_.states.back().weight;
+    const double most = last_;
     const Vector from = x_, towards = x_ - before_;
     std::string why;
     for (const double beyond : beyondLimit) {
-      options_.from = std::min(options_.to, most + beyond * options_.to);
+      options_.from = std::min(options_.to, most + beyond * model_.last());
       try {
         x_ = model_.jump(problem_, from, towards, options_.from);
         if (statics::startsPath(problem_, x_, options_)) {
           ++branch_;
           kept_ = found_.states.size();
           cases::keepReached(store_.folder, store_.keys,
-                             Reached{kept_, found_, options_.from, x_, branch_});
+                             Reached{kept_, found_, options_.from, x_, branch_, model_.unloads()});
           return true;
         }
       } catch (const ConvergenceError& error) {
@@ -362,7 +176,8 @@ class Branches {
     fail((report.end == statics::PathEnd::Stopped
               ? fmt::format(
                     "The state becomes unstable under {}, and no other state was found up to {}.",
-                    deck::printed(most, "kN", 6), deck::printed(options_.from, "kN", 6))
+                    deck::printed(model_.weightOnBit(most), "kN", 6),
+                    deck::printed(model_.weightOnBit(options_.from), "kN", 6))
               : report.explanation) +
          why);
     return false;
@@ -372,7 +187,7 @@ class Branches {
   void end() {
     add({0, options_.to, x_, problem_.negativePivots(x_, options_.to)});
     found_.report.end = statics::PathEnd::Reached;
-    found_.report.parameter = options_.to;
+    found_.report.parameter = model_.weightOnBit(options_.to);
   }
 
   void fail(const std::string& why) {
@@ -380,7 +195,7 @@ class Branches {
     found_.report.explanation = why;
   }
 
-  const Model& model_;
+  const BucklingModel& model_;
   const equilibrium::LoadPath problem_;
   const BucklingMeasure measure_;
   const BucklingSettings& settings_;
@@ -389,6 +204,7 @@ class Branches {
   const Store& store_;
   std::size_t kept_;  ///< states that are kept
   Vector x_, before_;
+  double last_ = 0.0;  ///< parameter of the last state
   int branch_ = 0;
   /// Negative pivots that are no reason for a jump, since they were there from the first state of
   /// the branch on: a string that winds about the axis of a vertical hole can come to rest in any
@@ -430,6 +246,29 @@ std::optional<double> limitOf(const equilibrium::LoadPath& problem, Vector x,
 
 }  // namespace
 
+namespace {
+
+/// The path of the crooked string from a state on, to the last weight and down again.
+void followBranches(BucklingModel& model, const BucklingSettings& settings,
+                    statics::PathOptions options, Vector x, BucklingPath& found, const Store& store,
+                    int branch) {
+  if (!model.unloads()) {
+    Branches loading(model, settings, options, std::move(x), found, store, branch);
+    loading.follow();
+    if (!settings.unloadTo || found.report.end != statics::PathEnd::Reached) return;
+    x = loading.x(), branch = loading.branch(), options.from = 0.0;
+    model.unload();
+    cases::keepReached(store.folder, store.keys,
+                       Reached{found.states.size(), found, 0.0, x, branch, true});
+  }
+  options.to = model.last() - *settings.unloadTo;
+  Branches(model, settings, options, std::move(x), found, store, branch).follow();
+  if (found.report.end != statics::PathEnd::Reached)
+    found.report.explanation = "While the weight falls: " + found.report.explanation;
+}
+
+}  // namespace
+
 BucklingSettings bucklingSettings(const Scene& scene) {
   const auto spec = bucklingParameters();
   BucklingSettings settings;
@@ -440,24 +279,29 @@ BucklingSettings bucklingSettings(const Scene& scene) {
   if (!settings.lastWeight)
     throw DeckError(scene.deck.file() + ": the last weight on bit is not given. Give " + listName +
                     "/Last Weight On Bit or Loads/Weight On Bit.");
+  if (settings.unloadTo && !(*settings.unloadTo < *settings.lastWeight))
+    throw DeckError(scene.deck.error(
+        listName + "/Unload To",
+        "is " + deck::printed(*settings.unloadTo, "kN", 6) + ", but the last weight on bit is " +
+            deck::printed(*settings.lastWeight, "kN", 6) + ". Give a smaller one."));
   return settings;
 }
 
 BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings,
                           const cases::RowFolder& folder) {
   const Stage stage("path of buckling");
-  check(scene);
   BucklingPath found;
   found.depth = scene.string.depths();
   auto options = pathOptions(scene, settings);
-  Model model(scene, options.to);
+  BucklingModel model(scene, options.to);
   const auto store = storeOf(folder);
   auto reached = cases::restoreReached<Reached>(folder, store.keys);
   if (reached.done > 0) {
     found = std::move(reached.path);
     options.from = reached.from;
     if (found.crookedness > 0.0) model.setCrooked(found.crookedness, found.pitch);
-    Branches(model, settings, options, reached.x, found, store, reached.branch).follow();
+    if (reached.unloads) model.unload();
+    followBranches(model, settings, options, reached.x, found, store, reached.branch);
     return found;
   }
 
@@ -493,7 +337,7 @@ BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings,
                         : found.depth.back());
   if (found.crookedness > 0.0) model.bend(found.crookedness, found.pitch, options, start);
 
-  Branches(model, settings, options, start, found, store, 0).follow();
+  followBranches(model, settings, options, start, found, store, 0);
   return found;
 }
 

@@ -90,7 +90,7 @@ class Report {
                                               : "has a negative pivot",
                           path_.limit
                               ? "from " + quantity(*path_.limit, "kN", 2) + " on the bit on"
-                              : "nowhere up to " + quantity(last(), "kN", 2) + " on the bit"));
+                              : "nowhere up to " + quantity(most(), "kN", 2) + " on the bit"));
     log::info(fmt::format(
         "formulas    sinusoidal {}, helical {}, sinusoidal no longer {}{}",
         inKilo(theory.sinusoidal), inKilo(theory.helical), inKilo(theory.spontaneous),
@@ -149,7 +149,11 @@ class Report {
   }
 
  private:
-  double last() const { return path_.states.empty() ? 0.0 : path_.states.back().weight; }
+  double most() const {
+    double weight = 0.0;
+    for (const auto& state : path_.states) weight = std::max(weight, state.weight);
+    return weight;
+  }
 
   static std::string inKilo(double force) {
     return std::isfinite(force) && force > 0.0 ? quantity(force, "kN", 2) : "none";

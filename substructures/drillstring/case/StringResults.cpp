@@ -324,10 +324,11 @@ std::string describeBuckling(const Scene& scene) {
   const auto settings = readBuckling(scene.list().sublist("Buckling"));
   const double last = settings.lastWeight.value_or(scene.weightOnBit());
   return fmt::sprintf(
-      "\nbuckling    `tooljoint buckling` lets the weight on bit grow to %s: crookedness %.3g "
-      "of "
-      "the clearance, %s",
-      deck::printed(last, "kN", 4), settings.crookedness,
+      "\nbuckling    `tooljoint buckling` lets the weight on bit grow to %s%s: crookedness %.3g "
+      "of the clearance, %s",
+      deck::printed(last, "kN", 4),
+      settings.unloadTo ? " and fall to " + deck::printed(*settings.unloadTo, "kN", 4) : "",
+      settings.crookedness,
       settings.atLimit == LimitRule::Jump ? "jumps where states become unstable"
                                           : "through unstable states too");
 }

@@ -18,6 +18,9 @@ deck::ListSpec bucklingParameters() {
   list.real("Last Weight On Bit", "N", Optional{}, Range::positive(),
             "Where the path ends, which begins without weight on bit; Weight On Bit of Loads when "
             "absent.");
+  list.real("Unload To", "N", Optional{}, Range::nonNegative(),
+            "Weight on bit to which the path goes back after the last one; when absent it ends "
+            "there. Shows how far down a helix stays that a growing weight would not yet make.");
   list.real("Crookedness", "", 0.02, Range{0.0, 0.5, false, false},
             "Amplitude of the stress-free shape of the string, a helix about its axis, as a part "
             "of the radial clearance: what makes it leave the straight state, and to one side. 0: "
@@ -52,6 +55,7 @@ BucklingSettings readBuckling(const Teuchos::ParameterList& list) {
   };
   BucklingSettings settings;
   settings.lastWeight = optional("Last Weight On Bit");
+  settings.unloadTo = optional("Unload To");
   settings.crookedness = list.get<double>("Crookedness");
   settings.pitch = optional("Crookedness Pitch");
   settings.atLimit =

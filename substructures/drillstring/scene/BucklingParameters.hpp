@@ -21,6 +21,7 @@ enum class LimitRule {
 
 struct BucklingSettings {
   std::optional<double> lastWeight;  ///< on bit [N]; none: that of the list Loads
+  std::optional<double> unloadTo;    ///< weight to which the path goes back [N]; none: it ends
   double crookedness = 0.0;          ///< amplitude, as a part of the clearance
   std::optional<double> pitch;       ///< of the crookedness [m]; none: that of the first buckling
   LimitRule atLimit = LimitRule::Jump;

@@ -112,11 +112,11 @@ def growth(t, x, floor, ceiling):
     return np.polyfit(t[peaks], np.log(size[peaks]), 1)[0]
 
 
-def growth_of_pair(t, x):
-    """Rate [1/s] of the growing pair that is left at the end of equal samples, by linear prediction:
-    x_{k+1} = a x_k + b x_{k-1}, whose roots are exp(s dt) (Prony)."""
-    late = x[len(x) // 2:]
-    prediction = np.linalg.lstsq(np.column_stack([late[1:-1], late[:-2]]), late[2:], rcond=None)[0]
+def growth_of_pair(t, x, pairs=1):
+    """Rate [1/s] of the fastest of the pairs that are left at the end of equal samples, by linear prediction:
+    x_{k+1} = a x_k + b x_{k-1} ..., whose roots are exp(s dt) (Prony)."""
+    late, order = x[len(x) // 2:], 2 * pairs
+    prediction = np.linalg.lstsq(np.column_stack([late[order - 1 - k:len(late) - 1 - k] for k in range(order)]), late[order:], rcond=None)[0]
     return float(np.log(np.abs(np.roots([1.0, *-prediction])).max()) / (t[1] - t[0]))
 
 

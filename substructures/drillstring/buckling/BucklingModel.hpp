@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The string of `tooljoint buckling` as a problem of the weight on bit.
+#pragma once
+
+#include "statics/PathContinuation.hpp"
+#include "substructures/drillstring/buckling/BucklingState.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/equilibrium/LoadPath.hpp"
+#include "substructures/equilibrium/Settling.hpp"
+
+namespace tooljoint::drillstring {
+
+/// Without friction, laws of bit and drive, and motion. The parameter p of its paths is the weight
+/// on bit, or what is taken off the last one.
+class BucklingModel {
+ public:
+  /// \param last weight on bit [N]. DeckError: no wall, the bit is held along the hole, the
+  /// geometric stiffness is left out.
+  BucklingModel(const Scene& scene, double last);
+  BucklingModel(const BucklingModel&) = delete;  // its problems point into it
+  BucklingModel& operator=(const BucklingModel&) = delete;
+
+  /// Dofs of the static state of the straight string without weight on bit, as exact as states of
+  /// the path: relative to the largest load of the path.
+  Vector start(const equilibrium::LoadPath& problem) const;
+  /// Makes the string crooked, and its state without weight on bit one of the crooked string: x
+  /// from the straight one, in a path of its own. ConvergenceError.
+  void bend(double amplitude, double pitch, statics::PathOptions options, Vector& x);
+  /// The string of bend(), whose state is known.
+  void setCrooked(double amplitude, double pitch);
+  /// From now on p is what is taken off the last weight.
+  void unload();
+  bool unloads() const { return unloads_; }
+  double last() const { return last_; }
+  /// [N]
+  double weightOnBit(double p) const { return unloads_ ? last_ - p : p; }
+
+  /// The state that a string finds at p when it leaves the unstable state `x` of the path in the
+  /// direction `towards`. ConvergenceError: none.
+  Vector jump(const equilibrium::LoadPath& problem, const Vector& x, const Vector& towards,
+              double p) const;
+
+  equilibrium::LoadPath problem() const { return {input_, load_}; }
+  BucklingMeasure measure(const equilibrium::LoadPath& problem) const {
+    return {scene_, path_, input_, problem.problem()};
+  }
+
+ private:
+  Vector pathWeights() const;
+  Vector crooked(double amplitude, double pitch) const;
+  equilibrium::UnstableMode unstableMode(const equilibrium::LoadPath& problem, const Vector& x,
+                                         const Vector& towards) const;
+  double scaleOfPath() const { return equilibrium::StaticProblem(input_).largestLoad(); }
+
+  Scene scene_;
+  path::PathState path_;
+  equilibrium::StaticInput input_;
+  equilibrium::GrowingLoad load_;
+  double last_;
+  bool unloads_ = false;
+};
+
+}  // namespace tooljoint::drillstring
