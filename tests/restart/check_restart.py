@@ -242,7 +242,8 @@ def full_disk():
 def other_ranks():
     for title, deck in (("string", STRING), ("frame", FRAME)):
         interrupted_twice(f"{title} on 1, 2 and 1 ranks", deck, LONG, ranks=(1, 2, 1))
-        interrupted_twice(f"{title} on 2, 1 and 2 ranks", deck, LONG, ranks=(2, 1, 2))
+    interrupted_twice("string on 2, 1 and 2 ranks", STRING, LONG, ranks=(2, 1, 2))
+    interrupted_twice("frame divided among 2, 3 and 2 ranks", FRAME, [*LONG, "--set", "Transient/Ranks=Divide"], ranks=(2, 3, 2), tolerance=1e-6)
     # two ranks find its static state to other last digits than one
     options = ["--set", "Transient/End Time=24", "--set", "Transient/Checkpoint Interval=2", "--set", "Transient/Progress=false"]
     interrupted_twice("string with a law of the bit on 2, 1 and 2 ranks", str(ROOT / "xml" / "stick_slip_2500m.xml"), options, ranks=(2, 1, 2), tolerance=1e-6, but="figures/axial")
