@@ -10,7 +10,7 @@ import sys
 import xml.etree.ElementTree as xml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from checks import expect, finish, tooljoint  # noqa: E402
+from checks import COLUMNS, expect, finish, tooljoint, wide  # noqa: E402
 
 SHORT = ("--set", "Transient/End Time=0.05")
 
@@ -19,6 +19,7 @@ def printed(file, *words):
     """The template in a file."""
     done = tooljoint("template", *words)
     expect(f"template {' '.join(words)}: exit code 0", done.returncode == 0, done.stderr)
+    expect(f"template {' '.join(words)}: at most {COLUMNS} columns", not wide(done.stdout), "\n".join(wide(done.stdout)))
     pathlib.Path(file).write_text(done.stdout, encoding="utf-8")
     return done.stdout
 
@@ -64,6 +65,10 @@ def wells():
     drilling = [float(row["hook_load"]) for row in rows if float(row["bit_depth"]) == deepest and row["operation"] == "Drill rotating"]
     expect("the hook load is that of torque and drag within 1 %", done.returncode == 0 and len(drilling) == 1 and abs(loads[0] / drilling[0] - 1) < 0.01,
            f"{loads} {drilling}")
+
+
+def components():
+    printed("components.xml", "components")
 
 
 def refusals():
@@ -120,7 +125,7 @@ def first_words():
 
 
 def main():
-    for part in (wells, refusals, parts, study, scenes, first_words):
+    for part in (wells, components, refusals, parts, study, scenes, first_words):
         part()
     return finish()
 
