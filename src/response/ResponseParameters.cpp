@@ -139,6 +139,7 @@ ListSpec responseParameters() {
             "Last speed; this or Highest Frequency.")
       .real("Order", "", 1.0, Range::positive(),
             "Excitation frequency over the rotary speed in a sweep by speed.")
+      .expert()
       .real("Lowest Frequency", "Hz", 0.0, Range::nonNegative(),
             "First frequency of a sweep by frequency.")
       .real("Highest Frequency", "Hz", deck::Optional{}, Range::positive(), "Last frequency.")

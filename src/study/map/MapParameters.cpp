@@ -205,7 +205,8 @@ ListSpec valueParameters() {
       .real("Unsafe Above", "", deck::Optional{}, Range::any(),
             "Larger values are marked as unsafe; in the unit of the key.")
       .real("Unsafe Below", "", deck::Optional{}, Range::any(),
-            "Smaller values are marked as unsafe.");
+            "Smaller values are marked as unsafe.")
+      .expert();
 }
 
 }  // namespace
