@@ -171,7 +171,7 @@ class ComponentReader {
     if (!list.isParameter("Length")) fail(path, "The segment has no Length.");
     Segment piece;
     piece.length = list.get<double>("Length");
-    piece.elements = list.isParameter("Elements") ? list.get<int>("Elements") : 1;
+    if (list.isParameter("Elements")) piece.elements = list.get<int>("Elements");
     const SegmentDefaults own = readDefaults(list, standard);
     piece.section = section(path, list, own.material);
     piece.element = own.element;
