@@ -263,7 +263,7 @@ void addLooks(CLI::App& program, Options& options, std::function<void()>& comman
                          "the vectors of the basis of each part too, behind the frequencies");
   modesCommand
       ->add_option("--time", options.modeTime,
-                   "when the laws of time (rotary speed) are looked at for damped modes "
+                   "time at which damped modes take the laws of time (rotary speed) "
                    "[s] (default: the end of the motion)")
       ->check(anyNumber);
   modesCommand->callback([&] { command = [&] { tooljoint::app::modes(options); }; });

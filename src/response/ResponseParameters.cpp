@@ -47,7 +47,7 @@ ListSpec unbalanceParameters() {
 
 ListSpec outputParameters() {
   ListSpec list("output", "A dof whose response is wanted; the name is that of its columns.");
-  cases::declareNode(list, "that is looked at");
+  cases::declareNode(list, "whose response is written");
   return list.text("Component", deck::Required{},
                    "Component of the node, in the frame of the results.");
 }
