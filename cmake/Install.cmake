@@ -9,7 +9,7 @@ foreach(target toolkit drillstring)
   if(TARGET tooljoint_${target})
     set_property(TARGET tooljoint_${target} PROPERTY EXPORT_NAME ${target})
     install(TARGETS tooljoint_${target} EXPORT TooljointTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} NAMELINK_COMPONENT dev
-      INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint)  # for clients; for the headers among themselves
+      INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   endif()
 endforeach()
 if(TARGET tooljoint)
@@ -18,6 +18,8 @@ if(TARGET tooljoint)
 endif()
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint COMPONENT dev FILES_MATCHING PATTERN "*.hpp" PATTERN app EXCLUDE)
 install(DIRECTORY substructures DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
+install(CODE "set(HEADERS \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/tooljoint\")
+  include(\"${PROJECT_SOURCE_DIR}/cmake/InstalledIncludes.cmake\")" COMPONENT dev)
 # As in the source tree, so that the documents find what they link to.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint)
 install(DIRECTORY docs examples xml DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint PATTERN ".*" EXCLUDE PATTERN "__pycache__" EXCLUDE

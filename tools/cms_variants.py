@@ -77,7 +77,8 @@ class Bench:
         except subprocess.TimeoutExpired:
             print(f"{time.time() - begin:6.1f} s  {command} {name}: given up", flush=True)
             return folder, "", f"given up after {self.limit:g} s"
-        reason = "" if run.returncode == 0 else (run.stderr.strip().splitlines() or [f"ended with {run.returncode}"])[-1].removeprefix("tooljoint: ")
+        said = re.sub(r"\n {2,}", " ", run.stderr.strip()).splitlines()  # without breaks of lines
+        reason = "" if run.returncode == 0 else (said or [f"ended with {run.returncode}"])[-1].removeprefix("tooljoint: ")
         print(f"{time.time() - begin:6.1f} s  {command} {name}" + (f": {reason[:120]}" if reason else ""), flush=True)
         kept.write_text(json.dumps({"arguments": arguments, "printed": run.stdout, "reason": reason}))
         return folder, run.stdout, reason

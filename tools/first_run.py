@@ -4,13 +4,15 @@
 
     tools/first_run.py [--program build/release/tooljoint] [--output results/first_run]
 
-The output folder gets the runs `reduced` and `full`, a picture, and comparison.json: what is printed, in SI units. Needs h5py and numpy,
-and matplotlib for the picture.
+The output folder gets the runs `reduced` and `full`, a picture, and comparison.json: what is
+printed, in SI units. Needs h5py and numpy, and matplotlib for the picture.
 """
 import argparse
 import json
 import math
+import os
 import pathlib
+import shlex
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -21,11 +23,13 @@ try:
 
     from report import checks
 except ImportError as missing:
-    sys.exit(f"{missing}: first_run.py needs h5py and numpy (Debian: python3-h5py, then /usr/bin/python3).")
+    sys.exit(f"{missing}: first_run.py needs h5py and numpy "
+             "(Debian: python3-h5py, then /usr/bin/python3).")
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DECK = ROOT / "xml" / "first_run.xml"
 FULL = ["--without", "Reduction", "--without", "Substructures"]
+COLUMNS = 100  # of a printed line
 UNITS = {"": 1.0, "in": 0.0254, "m": 1.0, "kN": 1e3, "kN m": 1e3, "g/cm3": 1e3}
 
 
@@ -71,10 +75,26 @@ def loads(deck):
         (steel - mud) * math.pi * (outer**2 - inner**2) * g)
 
 
+def short(path):
+    """As a shell in the working folder reads it."""
+    relative = os.path.relpath(path)
+    return relative if os.sep in relative else os.path.join(".", relative)
+
+
+def lines(label, command):
+    """LABEL and a command, broken as a shell reads it where that is wide."""
+    text, width = label, len(label)
+    for word in map(shlex.quote, command):
+        if width + len(word) > COLUMNS - 2:
+            text, width = text + "\\\n" + " " * len(label), len(label)
+        text, width = text + word + " ", width + len(word) + 1
+    return text.rstrip()
+
+
 def run(program, folder, more):
-    """Runs the scene into `folder` and returns its summary; ends with the exit code of the program where that fails."""
-    command = [str(program), "run", str(DECK), "--output", str(folder), *more]
-    print("\n== " + " ".join(command), flush=True)
+    """Runs the scene into `folder`, with warnings printed only, and returns its summary; ends with the exit code of the program where that fails."""
+    command = [short(program), "run", short(DECK), "--output", short(folder), "--quiet", *more]
+    print(lines("== ", command), flush=True)
     code = subprocess.run(command, check=False).returncode
     if code:
         sys.exit(code)
@@ -121,14 +141,16 @@ full     {f['dofs']['full']:6d} {cpu['full']:23.3f}         (reference)
 reduced  {f['dofs']['reduced']:6d} {cpu['reduced']:23.3f} {f['vibration_error']:17.2%}
 The reduced model is {f['speed_up']:.1f} times as fast.
 
-hook load           {f['hook_load'] / 1e3:7.1f} kN    weight in mud {f['weight_in_mud'] / 1e3:.1f} - weight on bit {f['weight_on_bit'] / 1e3:.1f} - carried by the wall {wall / 1e3:.1f}
+hook load           {f['hook_load'] / 1e3:7.1f} kN    weight in mud {f['weight_in_mud'] / 1e3:.1f} - on the bit {f['weight_on_bit'] / 1e3:.1f} - on the wall {wall / 1e3:.1f}
 surface torque      {f['surface_torque'] / 1e3:7.2f} kN m  torque on bit {f['torque_on_bit'] / 1e3:.2f} + friction on the wall {(f['surface_torque'] - f['torque_on_bit']) / 1e3:.2f}
 largest side force  {side['value'] / 1e3:7.2f} kN    at a measured depth of {side['depth']:.1f} m, {side['component']}
 bit speed           {bit['mean']:7.1f} rpm   {bit['min']:.1f} to {bit['max']:.1f}
 worst check         {verdict}: {check['name']} {check['value']:.1e}, bound {check['bound']:.0e}
 
-Open    {output / 'reduced' / 'report.html'} (in a browser: figures, plots, the motion in space), or results.png beside it
-Type    {program} new my_well && {program} run my_well/my_well.xml"""
+open    {short(output / 'reduced' / 'report.html')}
+        in a browser: figures, plots, the motion in space; results.png beside it is a picture
+type    {short(program)} new my_well
+        {short(program)} run my_well/my_well.xml"""
 
 
 def main():
@@ -138,8 +160,9 @@ def main():
     options = parser.parse_args()
     found = figures(options.program, options.output)
     (options.output / "comparison.json").write_text(json.dumps(found, indent=2) + "\n", encoding="utf-8")
-    print("\n== Drawing", flush=True)
-    subprocess.run([sys.executable, str(ROOT / "tools" / "plot_results.py"), str(options.output / "reduced")], check=True)
+    drawing = [sys.executable, short(ROOT / "tools" / "plot_results.py"), short(options.output / "reduced")]
+    print(lines("== ", drawing), flush=True)
+    subprocess.run(drawing, check=True, stdout=subprocess.DEVNULL)
     print(report(found, options.program, options.output))
     return 0 if found["worst_check"]["value"] <= found["worst_check"]["bound"] else 4
 

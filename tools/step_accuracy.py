@@ -85,7 +85,7 @@ class Run:
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
             self.folder.parent.mkdir(parents=True, exist_ok=True)
             log.write_text(done.stdout)
-        said, summary = log.read_text(), json.loads((self.folder / "summary.json").read_text())
+        said, summary = " ".join(log.read_text().split()), json.loads((self.folder / "summary.json").read_text())
         self.refused = "is too large: step error" in said
         self.warned = not self.refused and SAID.search(said) is not None
         self.finished = summary["status"] == "finished" or self.refused

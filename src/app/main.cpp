@@ -13,7 +13,6 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <unistd.h>
 
 #include "app/commands/Commands.hpp"
 #include "app/text/FirstWords.hpp"
@@ -64,8 +63,7 @@ const auto zeroOrMore =
 int failed(ExitCode why, const std::string& sentence) {
   using tooljoint::terminal::Colour;
   tooljoint::parallel::meetFailing(why, sentence);
-  say(std::cerr, tooljoint::terminal::coloured("tooljoint:", Colour::Red, STDERR_FILENO) + " " +
-                     sentence + "\n");
+  say(std::cerr, tooljoint::terminal::labelled("tooljoint:", Colour::Red, sentence) + "\n");
   return code(why);
 }
 
@@ -139,19 +137,21 @@ void addVerbose(CLI::App& command, Options& options) {
 /// Reads the command line; an exit code where nothing is left to do (help, or an error that has
 /// been told).
 std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
+  using tooljoint::terminal::wrapped;
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // CLI11 takes --help before it looks at words it does not know.
     if (const auto unknown = program.remaining(true); !unknown.empty()) {
-      say(std::cerr, "tooljoint: " + tooljoint::app::describeUnknown(program, unknown) + "\n");
+      say(std::cerr,
+          wrapped("tooljoint: " + tooljoint::app::describeUnknown(program, unknown)) + "\n");
       return ExitCode::Usage;
     }
     std::ostringstream out;
     std::ostringstream err;
     const int cliCode = program.exit(error, out, err);
-    say(std::cout, out.str());
-    if (!err.str().empty()) say(std::cerr, "tooljoint: " + err.str());
+    say(std::cout, wrapped(out.str()));
+    if (!err.str().empty()) say(std::cerr, wrapped("tooljoint: " + err.str()));
     return cliCode == 0 ? ExitCode::Done : ExitCode::Usage;
   }
   return std::nullopt;
@@ -272,7 +272,7 @@ void addLooks(CLI::App& program, Options& options, std::function<void()>& comman
                          "the vectors of the basis of each part too, behind the frequencies");
   modesCommand
       ->add_option("--time", options.modeTime,
-                   "when the laws of time (rotary speed) are looked at for damped modes "
+                   "time at which damped modes take the laws of time (rotary speed) "
                    "[s] (default: the end of the motion)")
       ->check(anyNumber);
   modesCommand->callback([&] { command = [&] { tooljoint::app::modes(options); }; });

@@ -12,6 +12,7 @@
 
 #include "common/Communicator.hpp"
 #include "common/Message.hpp"
+#include "common/report/Terminal.hpp"
 
 namespace tooljoint::parallel {
 namespace {
@@ -48,7 +49,9 @@ void awaitOthers(std::vector<MPI_Request>& messages, ExitCode code, const std::s
     if (answered != 0) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (std::chrono::steady_clock::now() - start < patience) continue;
-    std::cerr << "tooljoint: rank " << rank() << " alone: " << sentence << "\n"
+    std::cerr << terminal::wrapped("tooljoint: rank " + std::to_string(rank()) +
+                                   " alone: " + sentence)
+              << "\n"
               << "tooljoint: The other ranks did not fail with it; all are ended." << std::endl;
     MPI_Abort(world, static_cast<int>(code));
   }

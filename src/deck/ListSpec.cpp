@@ -150,6 +150,11 @@ ListSpec& ListSpec::formerly(std::string name) {
   return *this;
 }
 
+ListSpec& ListSpec::removed(const std::vector<std::string>& names, const std::string& instead) {
+  for (const auto& name : names) removed_[name] = instead;
+  return *this;
+}
+
 ListSpec& ListSpec::integer(std::string name, Default value, Range range, std::string doc) {
   return add({std::move(name), Kind::Integer, "", std::move(value), range, {}, std::move(doc)});
 }
@@ -231,6 +236,7 @@ ListSpec& ListSpec::merge(const ListSpec& other) {
                              "\" is declared otherwise in \"" + name_ + "\"");
     }
   }
+  removed_.insert(other.removed_.begin(), other.removed_.end());
   for (const ListSpec& sublist : other.lists_) {
     const auto mine = std::find_if(lists_.begin(), lists_.end(),
                                    [&](const ListSpec& l) { return l.name_ == sublist.name_; });
@@ -262,6 +268,11 @@ const ParameterSpec* ListSpec::findFormer(const std::string& name) const {
     return std::find(p.formerNames.begin(), p.formerNames.end(), name) != p.formerNames.end();
   });
   return it == parameters_.end() ? nullptr : &*it;
+}
+
+const std::string* ListSpec::findRemoved(const std::string& name) const {
+  const auto it = removed_.find(name);
+  return it == removed_.end() ? nullptr : &it->second;
 }
 
 const ParameterSpec* ListSpec::diameterOf(const std::string& radius) const {

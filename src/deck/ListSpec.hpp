@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -80,6 +81,9 @@ class ListSpec {
   ListSpec& expert();
   /// The parameter declared last was called `name` in earlier versions; "../X": X, one list up.
   ListSpec& formerly(std::string name);
+  /// The list had parameters of these names in earlier versions; `instead`: a sentence that follows
+  /// "was removed: ".
+  ListSpec& removed(const std::vector<std::string>& names, const std::string& instead);
   ListSpec& integer(std::string name, Default value, Range range, std::string doc);
   ListSpec& boolean(std::string name, Default value, std::string doc);
   ListSpec& text(std::string name, Default value, std::string doc);
@@ -115,6 +119,8 @@ class ListSpec {
   const ParameterSpec* findParameter(const std::string& name) const;
   /// The parameter that was called `name` in earlier versions; null when there is none.
   const ParameterSpec* findFormer(const std::string& name) const;
+  /// What is said of a parameter of earlier versions; null for a name that was none.
+  const std::string* findRemoved(const std::string& name) const;
   /// The diameter that may stand for this radius; null when there is none.
   const ParameterSpec* diameterOf(const std::string& radius) const;
   const ListSpec* findList(
@@ -131,6 +137,7 @@ class ListSpec {
   std::string name_;
   std::string doc_;
   std::vector<ParameterSpec> parameters_;
+  std::map<std::string, std::string> removed_;
   std::vector<ListSpec> lists_;
   std::vector<ListSpec> pattern_;  ///< none or one
   bool required_ = false;

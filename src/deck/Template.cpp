@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/Text.hpp"
+#include "common/report/Terminal.hpp"
 #include "deck/Describe.hpp"
 
 namespace tooljoint::deck {
@@ -51,7 +52,7 @@ class Writer {
   Writer(const Examples& examples, Level most) : examples_(examples), most_(most) {}
 
   std::string write(const ListSpec& root, const std::string& name) {
-    text_ = remark(root.doc()) + "\n";
+    note(0, root.doc());
     writeList(root, name, "", 0, true);
     return text_;
   }
@@ -74,8 +75,15 @@ class Writer {
     return given != nullptr ? *given : exampleValue(parameter);
   }
 
-  void line(int depth, const std::string& content) {
-    text_ += std::string(static_cast<std::size_t>(2 * depth), ' ') + content + "\n";
+  /// `hanging`: how much further in the second line stands.
+  void line(int depth, const std::string& content, std::size_t hanging = 4) {
+    const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
+    text_ += terminal::wrapped(indent + content, hanging) + "\n";
+  }
+
+  /// A sentence about what is below it.
+  void note(int depth, const std::string& text) {
+    line(depth, remark(text), std::string("<!-- ").size());
   }
 
   /// `active` lines stand as they are, the others are commented out (an XML comment must not hold
@@ -113,17 +121,15 @@ class Writer {
         if (parameter.level == level && parameter.radius.empty())
           writeParameter(parameter, list.diameterOf(parameter.name), path, depth + 1, active);
     for (const ListSpec& sublist : list.lists()) {
-      line(depth + 1,
-           remark(sublist.name() + (sublist.required() ? " (required): " : " (optional): ") +
-                  sublist.doc()));
+      note(depth + 1, sublist.name() + (sublist.required() ? " (required): " : " (optional): ") +
+                          sublist.doc());
       const std::string below = path + sublist.name() + "/";
       writeList(sublist, sublist.name(), below, depth + 1,
                 active && (sublist.required() || chosen(list, sublist, path) ||
                            !exampleIn(below).empty()));
     }
     if (list.pattern() != nullptr) {
-      line(depth + 1,
-           remark("any number of lists with names of your own: " + list.pattern()->doc()));
+      note(depth + 1, "any number of lists with names of your own: " + list.pattern()->doc());
       const std::string given = exampleIn(path);
       const bool stands = active && !path.empty() && !given.empty();
       const std::string own =
@@ -140,12 +146,12 @@ class Writer {
     const bool required = std::holds_alternative<Required>(parameter.value);
     const bool stands = required || example(path + parameter.name) != nullptr;
     if (!stands && most_ == Level::Basic && parameter.level == Level::Expert) return;
-    std::string note = describe(parameter);
-    if (parameter.level == Level::Expert) note += "; for experts";
-    if (required) note += "; required";
-    if (diameter != nullptr) note += "; or give " + diameter->name;
-    if (std::holds_alternative<Optional>(parameter.value)) note += "; optional";
-    line(depth, remark(note));
+    std::string words = describe(parameter);
+    if (parameter.level == Level::Expert) words += "; for experts";
+    if (required) words += "; required";
+    if (diameter != nullptr) words += "; or give " + diameter->name;
+    if (std::holds_alternative<Optional>(parameter.value)) words += "; optional";
+    note(depth, words);
     const std::string value = escaped(valueOf(parameter, path));
     element(depth,
             "<Parameter name=\"" + escaped(parameter.name) + "\" type=\"" +
@@ -167,20 +173,16 @@ std::string templateXml(const ListSpec& root, const std::string& name, const Exa
 
 std::string uncommented(const std::string& templateText) {
   std::string result;
-  for (const std::string& whole : split(templateText, '\n')) {
-    const std::string content = trim(whole);
-    const bool commented =
-        content.size() > openMark.size() + closeMark.size() &&
-        content.compare(0, openMark.size(), openMark) == 0 &&
-        content.compare(content.size() - closeMark.size(), closeMark.size(), closeMark) == 0;
-    if (commented) {
-      const std::string indent = whole.substr(0, whole.find('<'));
-      result += indent + content.substr(5, content.size() - 9) + "\n";
-    } else {
-      result += whole + "\n";
-    }
+  std::size_t done = 0;
+  for (std::size_t open = templateText.find(openMark); open != std::string::npos;
+       open = templateText.find(openMark, done)) {
+    const std::size_t close = templateText.find(closeMark, open);
+    const std::size_t element = open + openMark.size() - 1;
+    result +=
+        templateText.substr(done, open - done) + templateText.substr(element, close + 1 - element);
+    done = close + closeMark.size();
   }
-  return result;
+  return result + templateText.substr(done);
 }
 
 }  // namespace tooljoint::deck

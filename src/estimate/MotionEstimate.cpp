@@ -145,8 +145,8 @@ struct MotionEstimator::Impl {
     double worst = 0;  ///< errors of one sample
     long samples = 0;
     double ways = 0, rates = 0;  ///< (x(t + h) - x(t))^2 and (h x')^2
+    double wall = 0;             ///< time spent on them [s]
   } sums;
-  double wall = 0;
 
   void begin(double t);
   void advance(double t, const Vector& qNew, const Vector& qDotNew);
@@ -186,7 +186,8 @@ void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot,
     } catch (const ConvergenceError&) {
       coarse_.reset();
     }
-  impl_->wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  impl_->sums.wall +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void MotionEstimator::look(Impl& m, double t, const Vector& q, const Vector& qDot) {
@@ -445,7 +446,7 @@ MotionEstimate MotionEstimator::result() const {
   MotionEstimate estimate;
   estimate.samples = m.sums.samples;
   estimate.motion = m.sums.motions;
-  estimate.wall = m.wall;
+  estimate.wall = m.sums.wall;
   if (m.sums.ways > 0) estimate.roughness = m.sums.rates / m.sums.ways;
   if (coarse_ && coarse_->sums.samples > fewSamples && coarse_->sums.motions > 0)
     estimate.ofEverySecond = std::sqrt(coarse_->sums.errors / coarse_->sums.motions);

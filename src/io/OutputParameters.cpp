@@ -24,7 +24,8 @@ deck::ListSpec figureParameters() {
       .real("End", "s", deck::Optional{}, Range::any(),
             "End of the window; by default that of the motion.")
       .real("Stuck Speed", "rad/s", FigureSettings().stuckSpeed, Range::positive(),
-            "The bit counts as stuck where its speed is smaller.");
+            "The bit counts as stuck where its speed is smaller.")
+      .expert();
   deck::ListSpec line("S-N Line",
                       "Life of the pipe under bending: N = Cycles (Stress Range/S)^Slope cycles of "
                       "the stress range S at the outer wall. The damage of all cycles is their sum "
@@ -86,6 +87,7 @@ deck::ListSpec parameters() {
           "HDF5 file or a folder of Matrix Market files, to be used again as an imported part; "
           "or its matrices for another code, as DMIG entries of a Nastran punch file or as a "
           "superelement of the OpenFAST module ExtPtfm.")
+      .expert()
       .integer("Compression", defaults.compression, Range::between(0, 9),
                "Deflate level of the time series in results.h5. Level 1 takes a tenth to a fifth "
                "off the file, and a reduced motion may take four times as long; 0 is off.")

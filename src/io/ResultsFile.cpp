@@ -231,7 +231,7 @@ void ResultsFile::writeValues(const std::string& path, std::int64_t type, const 
                               const std::string& longName) {
   if (product(shape) != count) {
     wrongUse("The result " + path + " has " + std::to_string(count) +
-             " values, but its shape asks for " + std::to_string(product(shape)) + ".");
+             " values, but its shape has " + std::to_string(product(shape)) + ".");
   }
   if (file_ >= 0 && !hdf5::fits(file_, count * sizeof(double))) fail("making " + path);
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
@@ -260,7 +260,7 @@ void ResultsFile::write(const std::string& path, const std::vector<double>& valu
                         const Shape& shape, const std::string& unit, const std::string& longName) {
   if (product(shape) != values.size()) {
     wrongUse("The result " + path + " has " + std::to_string(values.size()) +
-             " values, but its shape asks for " + std::to_string(product(shape)) + ".");
+             " values, but its shape has " + std::to_string(product(shape)) + ".");
   }
   write(path, values.data(), shape, unit, longName);
 }

@@ -38,7 +38,8 @@ ListSpec importedParameters() {
                  "Retained dofs beside those of the file, written as in \"Fixed\".")
       .boolean("Reduce", true,
                "Let the list Reduction reduce this part; false keeps all its dofs, for a part that "
-               "was reduced before.");
+               "was reduced before.")
+      .expert();
 }
 
 ListSpec loadParameters() {

@@ -155,10 +155,13 @@ bool add(ListSpec parameters) {
     add<Harmonic>(ListSpec("Harmonic", "Mean + Amplitude sin(2 pi Frequency t + Phase).")
                       .real("Mean", "", 0.0, Range::any(),
                             "Mean value; also the value before the start and after the end.")
+                      .expert()
                       .real("Amplitude", "", 1.0, Range::any(), "Amplitude.")
+                      .expert()
                       .real("Frequency", "Hz", deck::Required{}, Range::nonNegative(), "Frequency.")
                       .real("Phase", "rad", 0.0, Range::any(), "Phase at time 0.")
                       .real("Start Time", "s", 0.0, Range::any(), "Start of the oscillation.")
+                      .expert()
                       .real("End Time", "s", deck::Optional{}, Range::any(),
                             "End of the oscillation; none by default."));
 
@@ -167,6 +170,7 @@ bool add(ListSpec parameters) {
         .real("From", "", 0.0, Range::any(), "Value before the ramp.")
         .real("To", "", 1.0, Range::any(), "Value after it.")
         .real("Start Time", "s", 0.0, Range::any(), "Start of the ramp.")
+        .expert()
         .real("Duration", "s", deck::Required{}, Range::positive(), "Duration of the ramp."));
 
 [[maybe_unused]] const bool table = add<Table>(
@@ -188,8 +192,10 @@ bool add(ListSpec parameters) {
                              "Factor |Omega|^Exponent of the rotary speed, the law \"Omega\" of "
                              "the same list.")
                         .real("Factor", "", 1.0, Range::any(), "Factor; the speed is in rad/s.")
+                        .expert()
                         .real("Exponent", "", deck::Required{}, Range::nonNegative(), "Exponent.")
-                        .boolean("Odd", false, "Takes the sign of Omega."));
+                        .boolean("Odd", false, "Takes the sign of Omega.")
+                        .expert());
 
 }  // namespace
 

@@ -40,6 +40,8 @@ deck::ListSpec parameters() {
   deck::ListSpec list("Reduction",
                       "Component mode synthesis of the substructures; without this list the full "
                       "model runs. The list \"Mode Selection\" says how many modes are kept.");
+  list.removed({"Pair Tolerance", "Tolerance Safety"},
+               "one value holds for every case; it is a constant. Leave it out.");
   list.list(modeSelection());
   deck::declareVariants<ReductionMethod, const Teuchos::ParameterList&>(
       list, "Basis", std::string("Craig-Bampton"), "Family of the reduction basis.");

@@ -52,7 +52,7 @@ ListSpec unbalanceParameters() {
 
 ListSpec outputParameters() {
   ListSpec list("output", "A dof whose response is wanted; the name is that of its columns.");
-  cases::declareNode(list, "that is looked at");
+  cases::declareNode(list, "whose response is written");
   return list.text("Component", deck::Required{},
                    "Component of the node, in the frame of the results.");
 }
@@ -182,6 +182,7 @@ ListSpec responseParameters() {
             "Excitation frequency over the speed of the motor. Default: Order, an excitation by "
             "the bit. With Order 0 the lobes of the motor: its rotor goes round so many times in "
             "its turn.")
+      .expert()
       .real("Lowest Frequency", "Hz", 0.0, Range::nonNegative(),
             "First frequency of a sweep by frequency.")
       .real("Highest Frequency", "Hz", deck::Optional{}, Range::positive(), "Last frequency.")

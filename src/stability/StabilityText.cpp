@@ -27,12 +27,15 @@ std::string modeText(const ShapeOutline& mode, const std::string& place) {
 
 std::string inWords(const StateStability& found, const std::string& leaver,
                     const std::string& place) {
-  std::string text = counted(found.negativePivots, "negative pivot") + " of the symmetric tangent";
+  const std::string text =
+      counted(found.negativePivots, "negative pivot") + " of the symmetric tangent";
   if (found.stable()) {
-    if (found.examined > 0)
-      text += ", no damped motion in the space of its " + counted(found.examined, "lowest mode") +
-              " grows";
-    return "stable: " + text + "." + withoutStates(found.held);
+    const std::string modes =
+        "no damped motion in the space of its " + counted(found.examined, "lowest mode") + " grows";
+    const std::string reason = found.examined == 0        ? "the symmetric tangent is definite"
+                               : found.negativePivots > 0 ? text + ", " + modes
+                                                          : modes;
+    return "stable: " + reason + "." + withoutStates(found.held);
   }
   const std::string motion =
       found.diverges() ? leaver : fmt::format("a vibration of {:.4g} Hz grows", found.frequency);

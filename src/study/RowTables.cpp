@@ -198,7 +198,7 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
     if (!more.empty()) out += "\n  " + more;
   }
   if (beyond)
-    out += "\n* below the error of the reference itself: how wrong this run is cannot be told.";
+    out += "\n* below the error of the reference itself: the error of this run is not known.";
   return out;
 }
 

@@ -14,6 +14,7 @@ deck::ListSpec parameters() {
   spec.choice("Integrator", std::string("Generalized-alpha"), registry.names(),
               "Time integration method; its own parameters stand in the sublist of that name.")
       .real("Start Time", "s", 0.0, deck::Range::any(), "Time at which the motion starts.")
+      .expert()
       .real("End Time", "s", deck::Required{}, deck::Range::any(),
             "Time at which the motion ends; later than Start Time.")
       .real("Step", "s", deck::Optional{}, deck::Range::positive(),

@@ -160,7 +160,7 @@ ContactSettings readContact(const Teuchos::ParameterList& list) {
     return settings;
   }
   const auto& entry = LawRegistry::instance().find(settings.lawName);
-  settings.law = entry.make(own(entry.parameters));
+  settings.law = LawRegistry::instance().make(settings.lawName, own(entry.parameters));
   if (settings.lawName == "Hunt-Crossley" && settings.values.damping > 0.0)
     throw DeckError(list.name() +
                     "/Damping is not used by the law Hunt-Crossley; give its Dissipation instead.");

@@ -44,13 +44,11 @@ const bool huntCrossleyRegistered = LawRegistry::instance().add(
                "n; above 1 the Stiffness k is in N/m^n.")
          .expert()
          .real("Dissipation", "s/m", 0.0, deck::Range::nonNegative(),
-               "chi; a body hitting the wall at v comes back with about (1 - 2 chi v/3) v."),
+               "chi; a body hitting the wall at v comes back with about (1 - 2 chi v/3) v.")
+         .expert(),
      [](const Teuchos::ParameterList& list) {
-       const auto value = [&list](const char* name, double standard) {
-         return list.isParameter(name) ? list.get<double>(name) : standard;
-       };
        return std::make_unique<ContactLawOf<HuntCrossleyKernel>>(
-           HuntCrossleyKernel(value("Exponent", 1.0), value("Dissipation", 0.0)));
+           HuntCrossleyKernel(list.get<double>("Exponent"), list.get<double>("Dissipation")));
      }});
 
 }  // namespace

@@ -58,6 +58,7 @@ const bool frictionBitRegistered = addBitLaw<Stribeck>(
               "Friction coefficient mu_d of a fast bit; at most the static one.")
         .real("Decay Speed", "rad/s", 1.1, Range::positive(),
               "Speed over which the coefficient falls from the one to the other by e.")
+        .expert()
         .real("Viscous Damping", "N m s/rad", 0.0, Range::nonNegative(),
               "Coefficient c of a torque that grows with the speed."));
 

@@ -43,11 +43,7 @@ struct Penetration : model::Formula<2> {
   }
   /// Everything the rock takes is lost.
   Power power(const model::PointAt<double>& at, const double*) const {
-    double f[2] = {0.0, 0.0};
-    (*this)(at, f, static_cast<double*>(nullptr));
-    Power p;
-    p.friction = -f[0] * at.v[0] - f[1] * at.v[1];
-    return p;
+    return model::lostPower(*this, at);
   }
 };
 

@@ -65,12 +65,15 @@ const bool tanhBitRegistered = addBitLaw<Tanh>(
                    "are those of the group of acoustics and vibration of COPPE/UFRJ, given for "
                    "244.2 kN.")
         .real("Lever", "m", 0.0239, Range::positive(), "b_0: torque over weight of a fast bit.")
+        .expert()
         .real("Rise", "s/rad", 1.91, Range::positive(),
               "b_1: the inverse of the speed over which the torque rises from zero.")
+        .expert()
         .real("Peak", "s/rad", 8.5, Range::nonNegative(),
               "b_2: size of the peak at low speed, from which the torque falls; 0 for none.")
         .real("Peak Width", "s2/rad2", 5.47, Range::positive(),
-              "b_3: the peak lies near the speed 1/sqrt(b_3)."));
+              "b_3: the peak lies near the speed 1/sqrt(b_3).")
+        .expert());
 
 }  // namespace
 }  // namespace tooljoint::drilling

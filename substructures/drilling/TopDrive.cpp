@@ -99,6 +99,7 @@ deck::ListSpec topDriveParameters() {
       .real("High-Pass Frequency", "Hz", Optional{}, Range::positive(),
             "Instead of it: the drive holds its set speed against torques below this frequency and "
             "yields to those above as the pipe would; control Impedance Matched.")
+      .expert()
       .real("Impedance Ratio", "", Optional{}, Range::positive(),
             "k_p over the impedance of the uppermost tenth of the string, 1 without it; control "
             "Impedance Matched.")
@@ -115,6 +116,7 @@ deck::ListSpec topDriveParameters() {
       .choice("Hook", std::string("Block"), {"Block", "Constant Load"},
               "Block: the top moves with the block. Constant Load: the top is free along the well "
               "under the hook load of the static state at the Block Speed.")
+      .expert()
       .list(autodrillerParameters());
 }
 

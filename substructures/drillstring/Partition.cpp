@@ -26,7 +26,8 @@ deck::ListSpec partitionParameters() {
   list.real("Length", "m", deck::Optional{}, Range::positive(),
             "Shortest part of the rule \"By length\"; required there.");
   list.integerArray("Cut Nodes", deck::Optional{}, Range::atLeast(2),
-                    "Nodes (1-based) where the rule \"By nodes\" cuts; required there.");
+                    "Nodes (1-based) where the rule \"By nodes\" cuts; required there.")
+      .expert();
   list.choice("Retained Dofs", deck::Optional{}, {"Nodes", "Contact", "Translations"},
               "Dofs that stay physical at a retained node: all six, u v theta_z (and w with "
               "Contact/Friction/Axial), or u v. Default: "

@@ -9,6 +9,9 @@ deck::ListSpec parameters() {
   using deck::Range;
   deck::ListSpec spec("Static",
                       "Solution of the static equilibrium (Nguyen et al. 2020, section 3.2).");
+  spec.removed({"Lambda Stages"},
+               "the contact regularisations of the recipe \"Continuation\" are constants. Leave it "
+               "out.");
   spec.choice(
       "Recipe", std::string("Continuation"), {"Continuation", "Source"},
       "\"Continuation\" starts on the axis with a soft contact law without attraction and stiffens "

@@ -51,6 +51,7 @@ deck::ListSpec forceParameters() {
       .real("Start Time", "s", 0.0, Range::nonNegative(),
             "Time from which it acts; one that acts from 0 on and is steady acts in the static "
             "state too.")
+      .expert()
       .real("End Time", "s", deck::Optional{}, Range::positive(),
             "Time from which it acts no more; never when not given.");
   return deck::ListSpec("Forces", "Forces and torques at nodes, one list each.").namedLists(entry);

@@ -133,6 +133,7 @@ bool add(ListSpec parameters, const std::string& doc) {
         .real("Final Speed", "rad/s", deck::Required{}, Range::any(),
               "Speed approached as time goes on.")
         .real("Initial Speed", "rad/s", 0.0, Range::any(), "Speed at time 0.")
+        .expert()
         .real("Time Constant", "s", deck::Required{}, Range::positive(),
               "Time after which 63 % of the change is done."),
     "Exponential approach to a final speed (section 5.3 of Nguyen et al. 2020: 120 - 120 exp(-6 t) "
@@ -141,11 +142,14 @@ bool add(ListSpec parameters, const std::string& doc) {
 [[maybe_unused]] const bool ramp = add<Ramp>(
     ListSpec("Ramp", "From one speed to another in a given time, constant before and after.")
         .real("Initial Speed", "rad/s", 0.0, Range::any(), "Speed before the ramp.")
+        .expert()
         .real("Final Speed", "rad/s", deck::Required{}, Range::any(), "Speed after the ramp.")
         .real("Start Time", "s", 0.0, Range::nonNegative(), "Time at which the ramp begins.")
+        .expert()
         .real("Duration", "s", deck::Required{}, Range::positive(), "Time the ramp takes.")
         .boolean("Smooth", true,
-                 "Cubic ramp whose angular acceleration has no jumps; false for a straight one."),
+                 "Cubic ramp whose angular acceleration has no jumps; false for a straight one.")
+        .expert(),
     "Straight or smooth ramp between two speeds, then hold.");
 
 [[maybe_unused]] const bool harmonic = add<Harmonic>(

@@ -142,7 +142,8 @@ class Table : public SpeedLaw {
          .realArray("Speeds", "rad/s", deck::Required{}, deck::Range::any(),
                     "Rotary speed at each time; may change its sign.")
          .choice("Interpolation", std::string("Monotone cubic"), {"Monotone cubic", "Linear"},
-                 "Curve between the entries: a cubic without overshoot, or straight lines."),
+                 "Curve between the entries: a cubic without overshoot, or straight lines.")
+         .expert(),
      [](const ParameterList& list) -> std::unique_ptr<SpeedLaw> {
        return std::make_unique<Table>(list);
      }});

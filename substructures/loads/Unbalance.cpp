@@ -27,8 +27,10 @@ deck::ListSpec unbalanceParameters() {
   entry
       .real("Mass", "kg", deck::Optional{}, Range::positive(),
             "Mass off the axis; together with Eccentricity.")
+      .expert()
       .real("Eccentricity", "m", deck::Optional{}, Range::nonNegative(),
             "Distance of the mass from the axis; together with Mass.")
+      .expert()
       .real("Moment", "kg m", deck::Optional{}, Range::nonNegative(),
             "Mass times eccentricity; give this, or Mass and Eccentricity.")
       .real("Phase", "rad", 0.0, Range::any(), "Angle of the mass from local x at time 0.");

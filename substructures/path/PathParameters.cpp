@@ -10,6 +10,9 @@ deck::ListSpec parameters() {
   using deck::Range;
   deck::ListSpec spec(
       "Path", "Bending of the straight string into the well (Nguyen et al. 2020, section 3.1).");
+  spec.removed(
+      {"Imposition", "Penalty Factor"},
+      "displacements are imposed by elimination, which gives the same path. Leave it out.");
   spec.choice("Mode", std::string("Centre line"), {"Centre line", "Imposed nodes"},
               "\"Centre line\": every node is fixed laterally on the axis and free to slide and to "
               "rotate. \"Imposed nodes\": X and Y of some nodes are moved from the vertical to the "

@@ -56,7 +56,8 @@ deck::ListSpec torqueDragParameters() {
             "Speed of the operations that turn; without it that of the list Rotary Speed after its "
             "start, else, or where that is 0, 120 rpm.");
   list.real("Reaming Speed", "m/s", 0.05, deck::Range::positive(),
-            "Axial speed of Ream and Back-ream, which turn at the same time.");
+            "Axial speed of Ream and Back-ream, which turn at the same time.")
+      .expert();
   list.real("Rate Of Penetration", "m/s", 0.005, deck::Range::positive(),
             "Axial speed of drilling.");
   list.real("Yield Strength", "Pa", deck::Optional{}, deck::Range::positive(),
@@ -65,23 +66,27 @@ deck::ListSpec torqueDragParameters() {
   list.real("Pump Pressure", "Pa", deck::Optional{}, deck::Range::nonNegative(),
             "Pressure of the mud inside the string over that in the annulus, at the surface: part "
             "of the margin to yield. Without it what the friction of Mud/Flow Rate takes down the "
-            "string and up the annulus, so that no pressure is left at the bit.");
+            "string and up the annulus, so that no pressure is left at the bit.")
+      .expert();
   list.real("Joint Length", "m", 9.45, deck::Range::positive(),
             "Length of a joint of pipe: side forces are summed over it, since its tool joint bears "
-            "them.");
+            "them.")
+      .expert();
   list.boolean(
-      "After Run", false,
-      "Computes this at the end of `tooljoint run`, too: its report shows torque, drag and "
-      "buckling limits beside the motion.");
+          "After Run", false,
+          "Computes this at the end of `tooljoint run`, too: its report shows torque, drag and "
+          "buckling limits beside the motion.")
+      .expert();
   list.choice(
       "Stiff String", std::string("Deepest Bit"), {"None", "Deepest Bit", "All Depths"},
       "Depths at which the string with bending stiffness, clearance and contact (Static) is "
       "computed beside the soft string.");
   list.text(
-      "Measured", deck::Optional{},
-      "CSV file of measured hook loads and surface torques (columns bit depth, operation, hook "
-      "load, surface torque, units in the header), to which friction coefficients and block "
-      "weight are fitted. Relative to the folder of the deck.");
+          "Measured", deck::Optional{},
+          "CSV file of measured hook loads and surface torques (columns bit depth, operation, hook "
+          "load, surface torque, units in the header), to which friction coefficients and block "
+          "weight are fitted. Relative to the folder of the deck.")
+      .expert();
   list.real("Hook Load Uncertainty", "N", 1e4, deck::Range::positive(),
             "Of a measured hook load: the weight of its error in the fit.")
       .expert();

@@ -43,6 +43,7 @@ const bool arcRegistered = TrajectoryRegistry::instance().add(
                "Change of inclination per length, for example \"3 deg/30m\"; or give the Radius.")
          .real("Start Inclination", "rad", 0.0, deck::Range{0.0, pi, false, true},
                "Angle from the vertical above the arc.")
+         .expert()
          .real("End Inclination", "rad", deck::Required{}, deck::Range{0.0, pi, false, true},
                "Angle from the vertical below the arc; below the Start Inclination the arc drops.")
          .real("Azimuth", "rad", 0.0, deck::Range::any(),

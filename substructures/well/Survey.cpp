@@ -64,7 +64,8 @@ const bool surveyRegistered = TrajectoryRegistry::instance().add(
          .choice("Depth Unit", std::string("m"), {"m", "ft", "km"},
                  "Unit of the measured depth where no header gives one.")
          .choice("Angle Unit", std::string("deg"), {"deg", "rad"},
-                 "Unit of inclination and azimuth where no header gives one."),
+                 "Unit of inclination and azimuth where no header gives one.")
+         .expert(),
      surveyFrom});
 
 }  // namespace

@@ -16,17 +16,16 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from checks import expect, finish, tooljoint  # noqa: E402
+from checks import COLUMNS, expect, finish, tooljoint, wide  # noqa: E402
 
 PROGRAM, MPIEXEC, DECK, PARTS_DECK, PLOTTER = sys.argv[1:6]
-COMMANDS = ("run", "study", "check", "modes", "export", "compare", "doc", "template", "new", "report", "torque-drag", "bha", "buckling", "campbell", "response")
+COMMANDS = ("run", "study", "check", "modes", "export", "compare", "doc", "template", "new", "report", "torque-drag", "bha", "buckling", "campbell", "response", "map", "paraview")
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 
 
 def narrow(what, done):
-    """A word that is longer than a line, such as a path, may be whole."""
-    wide = [line for line in done.stdout.splitlines() if len(line) > 100 and " " in line.strip()]
-    expect(f"{what}: no line of the log is longer than 100 columns", done.stdout and not wide, "\n".join(wide))
+    """Warnings and errors: tooljoint() of checks.py looks at those of all tests."""
+    expect(f"{what}: no printed line has more than {COLUMNS} columns", done.stdout and not wide(done.stdout), "\n".join(wide(done.stdout)))
 
 
 def help_is_our_own():
@@ -39,6 +38,7 @@ def help_is_our_own():
                 expect(f"{name}, {ranks} rank(s): says once how the command is used", done.stdout.count("Usage: ") == 1 and "Usage: " + " ".join(["tooljoint", *arguments]) in done.stdout,
                        done.stdout)
                 expect(f"{name}, {ranks} rank(s): nothing of Kokkos", "kokkos" not in (done.stdout + done.stderr).lower(), done.stdout[:300])
+        narrow(" ".join(["tooljoint", *arguments, "--help"]), done)
     whole = tooljoint("--help").stdout
     expect("the program's help names every command", all(f"\n  {command} " in whole for command in COMMANDS), whole)
 

@@ -25,7 +25,8 @@ RUN = (*[f"docs/guide/{page}.md" for page in ("torque-drag", "buckling", "bottom
 CHECKED = "docs/validation.md"
 SHORT = {"run": ["Transient/End Time=0.02"], "study": ["Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"],
          "map": ["Transient/End Time=0.02", "Map/Pictures=false", "Map/Grid/speed/Count=2", "Map/Grid/weight on bit/Values={10 kN, 20 kN}"],
-         "torque-drag": ["Torque and Drag/Count=1", "Torque and Drag/Operations={Drill rotating}"], "campbell": ["Campbell/Points=2", "Campbell/Modes=2"]}
+         "torque-drag": ["Torque and Drag/Count=1", "Torque and Drag/Operations={Drill rotating}"], "campbell": ["Campbell/Points=2", "Campbell/Modes=2"], "response": ["Response/Points=3"]}
+COMPARED = ["Transient/End Time=1", "Measured Log/Begin=0 s", "Measured Log/End=0.9 s"]  # of a motion with a log, which needs samples
 OPTIONS_OF_DECKS = ("--set", "--without")
 PLACES = re.compile(r"\b(DECK|DIR|FILE|NAME|[A-Z]{2,})\b")
 
@@ -62,7 +63,8 @@ def shortened(words):
     """The words of a command with overrides that make it quick."""
     if words[0] != "tooljoint" or words[1] not in SHORT or "Transient" in words:
         return words
-    return [*words, *(word for text in SHORT[words[1]] for word in ("--set", text))]
+    compared = words[1] == "run" and "Measured Log" in (PROJECT / words[2]).read_text(encoding="utf-8")
+    return [*words, *(word for text in (COMPARED if compared else SHORT[words[1]]) for word in ("--set", text))]
 
 
 def run_pages(folder):

@@ -21,6 +21,9 @@ import sys
 import h5py
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import wide  # noqa: E402
+
 MU_STATIC, MU_DYNAMIC, V_R, OMEGA = 0.3, 0.25, 0.1, 120 * math.pi / 30
 
 
@@ -69,6 +72,10 @@ def main():
                   "worst check", "results.png", "new my_well"):
         if words not in said.stdout:
             faults.append(f"it does not print \"{words}\"")
+    printed = said.stdout.splitlines()
+    faults += [f"a line of {len(line)} columns: {line}" for line in wide(said.stdout)]
+    if len(printed) > 25 or sum(line.startswith("hook load") for line in printed) != 1:
+        faults.append(f"{len(printed)} lines instead of a short log with one summary")
     if not (out / "reduced" / "results.png").is_file():
         faults.append("no picture")
     print("wrong: " + "; ".join(faults) if faults else "all as it should be")

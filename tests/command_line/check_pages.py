@@ -4,8 +4,10 @@
 
 PAGES is the folder the build has written them to. What the help of a command names stands in its page, in the page of the program and in
 both completions, and no page has anything else. Pages are set by man, and the zsh function is read by zsh, where these are installed.
+Parameters that the manual shows first are in a deck, an example or a tool.
 """
 import functools
+import json
 import pathlib
 import re
 import shutil
@@ -16,6 +18,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
 
 PAGES = pathlib.Path(sys.argv[2])
+PROJECT = pathlib.Path(__file__).resolve().parents[2]
 OPTION = re.compile(r"^  ((?:-\w,)?--[\w-]+|-\w)\b", re.M)
 
 
@@ -110,6 +113,26 @@ def refusals():
         expect(f"{' '.join(words)}: exit code 1", done.returncode == 1 and sentence in done.stderr, done.stderr)
 
 
+def walked(described, path):
+    """(path, parameter) of a list and those inside it."""
+    yield from ((path, parameter) for parameter in described["parameters"])
+    for inner in described["lists"]:
+        yield from walked(inner, f"{path}{inner['name']}/")
+    if described.get("named_lists"):
+        yield from walked(described["named_lists"], f"{path}*/")
+
+
+def levels():
+    """A parameter that no deck, example or tool shows is for experts, unless a user of its list must give it."""
+    needed = {"Top Drive/Tuning Frequency", *(f"Coupling/{kind}/*/Second" for kind in ("Springs", "Stops", "Sliders", "Point Laws"))}
+    files = [file for folder in ("xml", "examples", "tools", "python") for file in (PROJECT / folder).rglob("*") if file.suffix in (".xml", ".py", ".cpp", ".md", ".sh")]
+    shown = "\n".join(file.read_text(encoding="utf-8") for file in files)
+    lists = json.loads(tooljoint("doc", "--format", "json").stdout)
+    basic = [(f"{path}{parameter['name']}".partition("/")[2], parameter) for one in lists for path, parameter in walked(one, f"{one['name']}/") if parameter["level"] == "basic"]
+    hidden = sorted({path for path, parameter in basic if not parameter["required"] and not re.search(rf"[\"'/]{re.escape(parameter['name'])}[\"'=]", shown)} - needed)
+    expect("basic parameters are shown", len(basic) > 300 and not hidden, f"{len(basic)} {hidden}")
+
+
 def main():
     names = commands()
     expect("the program has commands", len(names) > 10, str(names))
@@ -117,6 +140,7 @@ def main():
     bash(names)
     zsh(names)
     refusals()
+    levels()
     return finish()
 
 

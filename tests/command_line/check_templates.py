@@ -11,7 +11,7 @@ import sys
 import xml.etree.ElementTree as xml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from checks import expect, finish, tooljoint  # noqa: E402
+from checks import COLUMNS, expect, finish, tooljoint, wide  # noqa: E402
 from screens import expect_screen  # noqa: E402
 
 FOOT = 0.3048  # m
@@ -22,6 +22,7 @@ def printed(file, *words):
     """The template in a file."""
     done = tooljoint("template", *words)
     expect(f"template {' '.join(words)}: exit code 0", done.returncode == 0, done.stderr)
+    expect(f"template {' '.join(words)}: at most {COLUMNS} columns", not wide(done.stdout), "\n".join(wide(done.stdout)))
     pathlib.Path(file).write_text(done.stdout, encoding="utf-8")
     return done.stdout
 
@@ -86,6 +87,10 @@ def wells():
            f"{loads} {drilling}")
 
 
+def components():
+    printed("components.xml", "components")
+
+
 def refusals():
     pathlib.Path("taken").mkdir(exist_ok=True)
     pathlib.Path("taken/mine.txt").write_text("mine", encoding="utf-8")
@@ -148,7 +153,7 @@ def first_words():
 
 
 def main():
-    for part in (wells, refusals, parts, study, scenes, first_words):
+    for part in (wells, components, refusals, parts, study, scenes, first_words):
         part()
     return finish()
 

@@ -19,6 +19,9 @@ import sys
 
 import h5py
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import unwrapped  # noqa: E402
+
 HERE = pathlib.Path(__file__).resolve().parent
 STUDY = "../study/study.xml"
 MAP = "../study/map.xml"
@@ -59,7 +62,7 @@ class Runs:
             result = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
             pointless = command == "map" and result.returncode == 4  # its tables say why
             if result.returncode != 0 and not pointless:
-                raise RuntimeError(result.stdout.strip().splitlines()[-1])
+                raise RuntimeError(unwrapped(result.stdout).strip().splitlines()[-1])
             self.done[key] = folder
         return self.done[key]
 

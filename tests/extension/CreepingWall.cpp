@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point law outside of the library: one file, compiled by itself, named in decks.
-#include "model/laws/PointLawRegistry.hpp"
+#include <tooljoint/model/laws/PointLawRegistry.hpp>
 
 using namespace tooljoint;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mud model outside of the library: one file, compiled by itself, named in decks as Mud/Model.
-#include "substructures/mud/MudModel.hpp"
+#include <tooljoint/substructures/mud/MudModel.hpp>
 
 using namespace tooljoint;
 

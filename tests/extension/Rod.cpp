@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An element outside of the library: one file, compiled by itself, named in decks.
-#include "substructures/beam/Element.hpp"
+#include <tooljoint/substructures/beam/Element.hpp>
 
 using namespace tooljoint;
 

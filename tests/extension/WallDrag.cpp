@@ -2,10 +2,9 @@
 // A load outside of the library: one file, compiled by itself, given in decks as Loads/Wall Drag.
 #include <cstdlib>
 #include <string>
-
-#include "common/Error.hpp"
-#include "common/Parallel.hpp"
-#include "substructures/loads/Load.hpp"
+#include <tooljoint/common/Error.hpp>
+#include <tooljoint/common/Parallel.hpp>
+#include <tooljoint/substructures/loads/Load.hpp>
 
 using namespace tooljoint;
 

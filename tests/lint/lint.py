@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds the rules of the source tree that a compiler does not: who may include whom, names that stay out, licence lines, length.
+"""Holds the rules of the source tree that a compiler does not: who may include whom, names that stay out, licence lines, sizes.
 
     lint.py PROJECT         prints file:line: what is wrong, exit code 1 if anything is
     lint.py --self-test     shows that each rule catches what it is for
     lint.py --rooms         prints the table of rooms for docs/architecture.md
-    lint.py --counts PROJECT  prints the lines of product code and of tests, and the fullest folders
+    lint.py --counts PROJECT  prints the lines of product code, room by room, and of tests, and the fullest folders
 """
 import pathlib
 import re
@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 import rooms
+import sizes
 
 LONGEST = 500  # lines of a source file; beyond, it is two ideas
 ROOMS = ["src", "substructures", "python", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
@@ -46,6 +47,9 @@ def lint_file(root, path):
             yield 1, "has no SPDX-License-Identifier: BSD-3-Clause on its first line"
         if len(lines) > LONGEST:
             yield LONGEST + 1, f"has {len(lines)} lines, more than {LONGEST}: which two ideas are in it?"
+    yield from sizes.of_source(relative.as_posix(), "\n".join(lines))
+    if relative.as_posix() == "docs/architecture.md":
+        yield from sizes.of_recipes("\n".join(lines))
     toolkit = parts[0] == "src" and parts[1] != "app"
     bad_deck = parts[:2] == ("tests", "decks") and path.suffix == ".xml"
     for number, line in enumerate(lines, 1):
@@ -96,21 +100,25 @@ def lint(root):
     files = [root / name for name in TOP if (root / name).is_file()]
     for room in ROOMS:
         files += sorted(path for path in files_of(root, room) if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
-    complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)] + [*modes(root), *house(root), *strangers(root)]
+    complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)]
+    complaints += [*modes(root), *house(root), *strangers(root), *sizes.of_folders(path.relative_to(root).as_posix() for path in files)]
     return complaints, len(files)
 
 
 def counts(root):
-    """Lines and files of each half, and the folders of product code with the most sources."""
-    folders = {}
+    """Lines and files of each half and of the rooms of product code, and the folders with the most sources."""
+    folders, inside = {}, {}
     for room in ["src", "substructures", "python", "tests", "tools"]:
         paths = [path for path in (root / room).rglob("*") if path.is_file() and path.suffix in (".cpp", ".hpp", ".py") and "__pycache__" not in path.parts]
         lines = sum(len(path.read_text(encoding="utf-8").splitlines()) for path in paths)
         yield f"{room:<15}{lines:>8} lines{len(paths):>6} files"
         if room in ("src", "substructures", "python"):
             for path in paths:
+                own = "/".join(path.relative_to(root).parts[:2])
+                inside[own] = inside.get(own, 0) + len(path.read_text(encoding="utf-8").splitlines())
                 folder = path.parent.relative_to(root).as_posix()
                 folders[folder] = folders.get(folder, 0) + 1
+    yield from (f"{own:<27}{lines:>6} lines" for own, lines in sorted(inside.items()) if not own.startswith("python"))
     for folder, files in sorted(folders.items(), key=lambda item: -item[1])[:5]:
         yield f"{folder:<40}{files:>4} sources"
 
@@ -135,12 +143,17 @@ def self_test():
         "python/core/V.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n', "python/core binds the toolkit"),
         "python/core/W.cpp": (spdx + '#include "study/Row.hpp"\n// a drill' + 'string\n', None),
         "src/attic/U.cpp": (spdx + '#include "common/Error.hpp"\n', "is not in tests/lint/rooms.py"),
-        "docs/architecture.md": ("an old table\n", "lint.py --rooms"),
+        "docs/architecture.md": ("## Recipes\n\n**A long one.**\n" + "a line\n" * sizes.RECIPE + "\n**A short one.**\n", ("lint.py --rooms", "a recipe of 21 lines")),
         "tests/unit/a/H.cpp": ("int x;\n", "no SPDX"),
         "cmake/I.cmake": ("# SPDX-License-Identifier: BSD-3-Clause\n# TO" + "DO later\n", "says"),
         "docs/J.md": ("see /wo" + "rk/main\n", "says"),
         "docs/K.md": ("this is not " + "implemented\n", "says"),
         "src/io/L.cpp": (spdx + "\n" * LONGEST, "more than"),
+        **{f"src/crowd/V{i}.cpp": (spdx, None) for i in range(sizes.FILES + 1)},
+        "src/crowd": (None, "more than"),
+        "src/io/W.hpp": (spdx + "class Full {\n" + "".join(f"  std::map<int, double> m{i}_{{1, 2}};\n  int f{i}(int a) const {{ return a; }}\n" for i in range(sizes.MEMBERS)) + "};\n", None),
+        "src/io/X.hpp": (spdx + "class Wide : public Base {\n int a_, b_ = 2;\n struct S {\n  int c;\n } s_;\n" + " std::function<void(int)> f_;\n" * (sizes.MEMBERS - 2) + "};\n", "Wide has 26 data members"),
+        "src/transient/compiled/Y.hpp": (spdx + "struct Kernel {\n" + "  int a;\n" * 30 + "};\n", None),
         "tools/M.py": ("#!/usr/bin/env python3\n# SPDX-License-Identifier: BSD-3-Clause\n", "is not executable"),
         "run2/summary.json": ("{}\n", "stay out of git"),
         "quickstart": ("#!/usr/bin/env bash\n# SPDX-License-Identifier: BSD-3-Clause\n", None),
@@ -149,6 +162,8 @@ def self_test():
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         for name, (text, _) in cases.items():
+            if text is None:  # a folder
+                continue
             (root / name).parent.mkdir(parents=True, exist_ok=True)
             (root / name).write_text(text, encoding="utf-8")
         subprocess.run(["git", "init", "-q", str(root)], check=True)
@@ -156,7 +171,8 @@ def self_test():
         complaints, _ = lint(root)
         for name, (_, expected) in cases.items():
             mine = [one for one in complaints if one.startswith(name + ":")]
-            good = not mine if expected is None else any(expected in one for one in mine)
+            wanted = (expected,) if isinstance(expected, str) else expected
+            good = not mine if wanted is None else all(any(one in complaint for complaint in mine) for one in wanted)
             failures += not good
             print(f"{'ok    ' if good else 'FAILED'} {name}: {mine}")
     return 1 if failures else 0

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <tooljoint/common/Error.hpp>
 #include <tooljoint/run.hpp>
 
 namespace {
@@ -46,6 +47,13 @@ void runStringCase() {
   if (std::abs(stretch / expected - 1.0) > 1e-6)
     throw std::runtime_error("the pipes stretch by " + std::to_string(stretch) + " m, not by " +
                              std::to_string(expected) + " m");
+  try {
+    results.number("transient.local_error");
+    throw std::runtime_error("a key of earlier versions is taken");
+  } catch (const tooljoint::UsageError& error) {
+    if (std::string(error.what()).find("now called \"transient.step_error\"") == std::string::npos)
+      throw std::runtime_error("the new name of a key is not told: " + std::string(error.what()));
+  }
   if (results.status() != "finished" || !std::ifstream("hanging/results.h5"))
     throw std::runtime_error("a run by the installed libraries left no results");
 }

@@ -12,6 +12,9 @@
 #include <tooljoint/model/SecondOrderModel.hpp>
 
 #include "StringCase.hpp"
+#if __has_include("common/Error.hpp")
+#error "Headers of Tooljoint are found without tooljoint/: they take names of the client's folders."
+#endif
 
 int main(int argc, char** argv) {
   const Tpetra::ScopeGuard scope(&argc, &argv);

@@ -195,7 +195,7 @@ def cost_energy_and_remarks():
     """A run of parts says what a run of a string says: cost of a step, energy balance, remarks of the coupling; a failed one leaves a summary."""
     deck = ROOT / "xml" / "frame.xml"
     short = ["--set", "Transient/End Time=0.2"]
-    done = tooljoint("run", str(deck), "--output", "said", *short)
+    done = tooljoint("run", str(deck), "--output", "said", "--verbose", *short)
     summary = json.loads(pathlib.Path("said", "summary.json").read_text(encoding="utf-8"))
     ratio, energy = summary["reduction"]["cost_ratio"], summary["transient"]["energy_residual"]
     expect("cost of a step of both models", f"reduced model {ratio:.2f} of the full model" in done.stdout and 0 < ratio < 2, str(ratio))

@@ -2,6 +2,7 @@
 """Decks in process: read, changed, written, run; results with units; the sentences of the program as exceptions."""
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -22,9 +23,9 @@ SHORT = {"Transient/End Time": "0.05 s", "Output/XDMF": False}
 
 
 def sentence_of_program(*arguments):
-    """What the program prints on standard error, without its name, and its exit code."""
+    """What the program prints on standard error, without its name and its breaks of lines, and its exit code."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
-    return done.stderr.removeprefix("tooljoint: ").rstrip("\n"), done.returncode
+    return re.sub(r"\n {2,}", " ", done.stderr.removeprefix("tooljoint: ").rstrip("\n")), done.returncode
 
 
 class Decks(unittest.TestCase):

@@ -20,7 +20,7 @@ import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from checks import expect, finish, of_ranks  # noqa: E402
+from checks import expect, finish, of_ranks, unwrapped  # noqa: E402
 from same_numbers import differences  # noqa: E402
 
 PROGRAM, MPIEXEC, PART = sys.argv[1:4]
@@ -38,7 +38,9 @@ def command(*arguments, ranks=1):
 
 def run(*arguments, ranks=1, largest=None):
     limit = (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (largest, largest))) if largest else None
-    return subprocess.run(command(*arguments, ranks=ranks), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120, preexec_fn=limit, env=of_ranks(ranks))
+    done = subprocess.run(command(*arguments, ranks=ranks), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120, preexec_fn=limit, env=of_ranks(ranks))
+    done.stderr = unwrapped(done.stderr)
+    return done
 
 
 def fresh(*folders):

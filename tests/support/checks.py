@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the scripts that check the program share: running it, saying what held, how it ended."""
 import os
+import re
 import subprocess
 import sys
 
@@ -14,11 +15,29 @@ def of_ranks(ranks):
     return {**os.environ, **(single if ranks == 1 else {})}
 
 
+COLUMNS = 100  # of a line that is printed
+
+
+def wide(text):
+    """Lines wider than COLUMNS. A word that is longer than a line, such as a path, may be whole."""
+    return [line for line in text.splitlines() if len(line) > COLUMNS and " " in line.strip()]
+
+
+def unwrapped(text):
+    """Warnings and errors with what is wrapped joined to the line it belongs to."""
+    return re.sub(r"\n {2,}(?=\S)", " ", text)
+
+
 def tooljoint(*arguments, ranks=1, seconds=240):
-    """Runs the program of the first argument of the script, on more ranks with the mpiexec of the second."""
+    """Runs the program of the first argument of the script, on more ranks with the mpiexec of the second; its `stderr` is unwrapped()."""
     command = ([sys.argv[2], "-np", str(ranks)] if ranks > 1 else []) + [sys.argv[1], *arguments]
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=seconds * TIME_FACTOR,
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=seconds * TIME_FACTOR,
                           env=of_ranks(ranks))
+    own = [line for line in wide(done.stderr) if line.startswith(("warning:", "tooljoint:", "  "))]
+    if own:
+        expect(f"tooljoint {' '.join(map(str, arguments))}: warnings and errors have at most {COLUMNS} columns", False, "\n".join(own))
+    done.stderr = unwrapped(done.stderr)
+    return done
 
 
 def expect(what, condition, shown=""):

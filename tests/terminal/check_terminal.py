@@ -130,7 +130,13 @@ def words():
     expect("--verbose prints the counters of the motion and the memory", verbose.returncode == 0 and "counters    steps " in verbose.stdout and "memory  " in verbose.stdout,
            verbose.stdout[-800:])
     usual = tooljoint(*run("usual", "--without", "Reduction", "--without", "Substructures", "--set", "Transient/End Time=0.05", "--set", "Output/Report=false"))
-    expect("which nobody else sees", usual.returncode == 0 and "counters    " not in usual.stdout)
+    diagnostics = ("counters    ", "iterations", "residual", "balance of torque", "multiplications", "negative pivot", "energy balance")
+    shown = " ".join(usual.stdout.split())
+    expect("a usual run prints no diagnostics", usual.returncode == 0 and not any(words in shown for words in diagnostics), usual.stdout)
+    energy = json.loads(pathlib.Path("verbose/summary.json").read_text(encoding="utf-8"))["transient"]["energy_residual"]
+    shown = " ".join(verbose.stdout.split())
+    wanted = ("path iterations ", " iterations, residual ", " by the balance of torque, defect ", " multiplications)", f"energy balance closes to {energy:.2g} of", " unconverged_steps ")
+    expect("--verbose prints them", all(words in shown for words in wanted), verbose.stdout)
     expect("a full model has torque and drag next, in the folder of the run", re.search(r"^next        tooljoint torque-drag \S+ (\\\n +)?--output usual ", usual.stdout, re.M) is not None, usual.stdout[-600:])
     both = tooljoint(*run("both", "--quiet", "--verbose"))
     expect("both exclude each other", both.returncode == 1 and "--quiet" in both.stderr, both.stderr)

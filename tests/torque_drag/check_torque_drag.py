@@ -279,7 +279,7 @@ def weight_on_bit():
 def buckled():
     """A state of the stiff string that its weight on bit buckles is warned of."""
     for weight, unstable in (("60 kN", False), ("200 kN", True)):
-        done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output", "buckled", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Operations={Drill sliding}",
+        done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output", "buckled", "--without", "Torque and Drag", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Operations={Drill sliding}",
                          "--set", f"Loads/Weight On Bit={weight}")
         said = " ".join((done.stdout + done.stderr).split())
         expect(f"{weight}: states of the stiff string are said to be {'un' if unstable else ''}stable", ("of the stiff string are unstable" in said) == unstable, said[-800:])
@@ -291,7 +291,7 @@ def pulled():
         '<Parameter name="Component" type="string" value="w"/><Parameter name="Value" type="double" value="-3e4"/></ParameterList></ParameterList>'
     text = (SOURCES / "xml/vertical_1000m.xml").read_text(encoding="utf-8").replace("components/", f"{SOURCES}/xml/components/")
     pathlib.Path("pulled.xml").write_text(text.replace('<ParameterList name="Loads">', force), encoding="utf-8")
-    done = tooljoint("torque-drag", "pulled.xml", "--output", "pulled", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Stiff String=None")
+    done = tooljoint("torque-drag", "pulled.xml", "--output", "pulled", "--without", "Torque and Drag", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Stiff String=None")
     expect("forces of the deck are warned of", done.returncode == 0 and "Loads/Forces has no part in torque and drag" in " ".join(done.stderr.split()), done.stderr)
 
 

@@ -7,6 +7,7 @@
 #include "app/text/Templates.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "common/report/Terminal.hpp"
 #include "substructures/drillstring/assembly/Components.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 
@@ -49,7 +50,7 @@ std::string wellAlone() {
       R"~(<Parameter name="Stations" type="Array(double)" value="{)~" + stations() + R"~(}"/>
       <!-- measured depth, inclination and azimuth of each; or File, a table -->
       <Parameter name="Depth Unit" type="string" value="ft"/>)~";
-  return text.replace(at, file.size(), inDeck);
+  return terminal::wrapped(text.replace(at, file.size(), inDeck), 4);
 }
 
 }  // namespace

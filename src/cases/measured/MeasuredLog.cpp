@@ -41,6 +41,7 @@ deck::ListSpec columnParameters() {
           "first node; Weight on bit and Torque on bit are there with a list Bit. Displacement, "
           "Velocity and Acceleration are of a Component of a Node.")
       .text("Unit", deck::Optional{}, "Unit of the column where the file gives none.")
+      .expert()
       .text("Part", deck::Optional{},
             "Name of the part; needed where parts number their nodes on their own.")
       .integer("Node", deck::Optional{}, Range::atLeast(1),
@@ -144,6 +145,7 @@ deck::ListSpec measuredLogParameters() {
           "Name of the column of the time; by default Time, of a LAS file the index. Times of day "
           "(hh:mm:ss, also behind a date YYYY-MM-DD) count from the first row.")
       .text("Time Unit", deck::Optional{}, "Unit of the time where the file gives none.")
+      .expert()
       .real("Time Offset", "s", 0.0, Range::any(), "Time of the motion at time 0 of the log.")
       .real("Begin", "s", deck::Optional{}, Range::any(),
             "Begin of the comparison, time of the motion; by default where both have begun.")

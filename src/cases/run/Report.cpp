@@ -3,6 +3,7 @@
 
 #include <fmt/printf.h>
 
+#include "common/report/Detail.hpp"
 #include "common/report/Percent.hpp"
 
 namespace tooljoint::cases {
@@ -19,7 +20,7 @@ constexpr double largeCutOffEnergy = 0.01;
 /// The same where the error of the reduced motion is estimated.
 constexpr double muchCutOffEnergy = 0.03;
 
-/// Integrator, steps and counters, two lines.
+/// Integrator and steps; the counters are printed behind the last screen.
 std::string describeSteps(const transient::TransientReport& report) {
   const auto& c = report.counters;
   std::string text = fmt::sprintf(
@@ -28,12 +29,6 @@ std::string describeSteps(const transient::TransientReport& report) {
       report.integrator.c_str(), report.start, report.end, c.steps, c.minStep, c.maxStep,
       report.wall, report.cpu, report.realTimeFactor);
   if (report.ranks > 1) text += fmt::sprintf("            divided among %d ranks\n", report.ranks);
-  text += fmt::sprintf(
-      "            %ld Newton iterations, %ld factorisations, %ld right-hand sides, %ld halved, "
-      "%ld rejected, %ld unconverged "
-      "steps\n",
-      c.newtonIterations, c.factorisations, c.rightHandSides, c.halved, c.rejected,
-      c.unconvergedSteps);
   return text;
 }
 
@@ -50,10 +45,11 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
 std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced,
                          const std::string& switches) {
   const double ratio = reduced.total() / full.total();
-  const std::string text = fmt::sprintf(
-      "cost        predicted work of a step: reduced model %.2f of the full model (%.3g of %.3g "
-      "multiplications)\n            ",
-      ratio, reduced.total(), full.total());
+  std::string text = fmt::sprintf(
+      "cost        predicted work of a step: reduced model %.2f of the full model", ratio);
+  if (log::verbose())
+    text += fmt::sprintf(" (%.3g of %.3g multiplications)", reduced.total(), full.total());
+  text += "\n            ";
   if (ratio < transient::worthReducing) return text + "The reduced model is faster.";
   return text + "The full model is as fast and has no reduction error: run it with" + switches +
          ".";
@@ -120,7 +116,7 @@ std::vector<std::string> remarks(const transient::TransientReport& report) {
 std::string describeTransient(const transient::TransientReport& report,
                               const MotionRecord& record) {
   std::string text = describeSteps(report) + record.describe();
-  if (report.hasEnergy)
+  if (report.hasEnergy && log::verbose())
     text += fmt::sprintf("\n            energy balance closes to %.2g of the energy exchanged",
                          report.energy.residual());
   return text;

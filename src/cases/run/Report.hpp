@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a run tells a person of its reduction and its motion: short blocks of text, one per stage.
+/// What a run prints of its reduction and its motion: short blocks of text, one per stage;
+/// diagnostics with log::verbose() only.
 #pragma once
 
 #include <string>
@@ -30,7 +31,7 @@ std::vector<std::string> remarks(const estimate::MotionEstimate& error);
 std::vector<std::string> remarks(const transient::TransientReport& report);
 /// The same where the error of a reduced motion is estimated.
 std::vector<std::string> remarksBesideEstimate(const transient::TransientReport& report);
-/// Integrator, steps and counters, the figures of the case, and the energy balance.
+/// Integrator and steps, the figures of the case, and the energy balance.
 std::string describeTransient(const transient::TransientReport& report, const MotionRecord& record);
 
 }  // namespace tooljoint::cases

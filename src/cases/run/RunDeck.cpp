@@ -15,6 +15,7 @@
 #include "common/report/Log.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/TextFile.hpp"
+#include "io/summary/SummaryKeys.hpp"
 
 namespace tooljoint {
 
@@ -68,6 +69,8 @@ bool Results::has(const std::string& key) const {
 const std::string& Results::find(const std::string& key) const {
   const auto it = values_.find(key);
   if (it == values_.end()) {
+    if (const auto now = io::renamedKey(key); !now.empty())
+      throw UsageError("\"" + key + "\" of summary.json is now called \"" + now + "\".");
     std::vector<std::string> keys;
     for (const auto& [name, value] : values_) keys.push_back(name);
     const auto meant = closest(key, keys);

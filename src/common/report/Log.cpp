@@ -5,10 +5,8 @@
 #include <iostream>
 #include <map>
 #include <optional>
-#include <unistd.h>
 
 #include "common/Parallel.hpp"
-#include "common/Text.hpp"
 #include "common/report/Likewise.hpp"
 #include "common/report/Terminal.hpp"
 #include "common/report/WarnOnce.hpp"
@@ -30,37 +28,7 @@ std::vector<std::string>* hearing_ = nullptr;  ///< of a Hearing
 
 void print(const std::string& warning) {
   if (parallel::rank() == 0)
-    std::cerr << terminal::coloured("warning:", terminal::Colour::Yellow, STDERR_FILENO) << " "
-              << warning << std::endl;
-}
-
-/// Lines of the log have at most so many columns.
-constexpr std::size_t columns = 100;
-/// Labels end before this column.
-constexpr std::size_t labels = 40;
-
-/// Column at which the text of a line begins: behind its label, which ends with two blanks, or two
-/// columns further in than the line.
-std::size_t hangingIndent(const std::string& line) {
-  const std::size_t gap = line.substr(0, labels).rfind("  ");
-  const std::size_t first = line.find_first_not_of(' ');
-  return gap == std::string::npos || gap < first ? first + 2 : line.find_first_not_of(' ', gap);
-}
-
-/// The line broken at blanks; a word longer than a line stays whole.
-std::string wrapped(std::string line) {
-  std::string text;
-  const std::size_t indent = hangingIndent(line);
-  while (line.size() > columns) {
-    std::size_t end = line.rfind(' ', columns);
-    if (end <= indent) end = line.find(' ', columns);
-    if (end == std::string::npos) break;
-    text += line.substr(0, line.find_last_not_of(' ', end) + 1) + "\n";
-    const std::string rest = trim(line.substr(end));
-    if (rest.empty()) return text.substr(0, text.size() - 1);
-    line = std::string(indent, ' ') + rest;
-  }
-  return text + line;
+    std::cerr << terminal::labelled("warning:", terminal::Colour::Yellow, warning) << std::endl;
 }
 
 }  // namespace
@@ -70,9 +38,7 @@ bool quiet() { return quiet_; }
 
 void info(const std::string& line) {
   if (quiet_ || parallel::rank() != 0) return;
-  std::vector<std::string> lines = split(line, '\n');
-  for (std::string& one : lines) one = wrapped(one);
-  std::cout << join(lines, "\n") << std::endl;
+  std::cout << terminal::wrapped(line) << std::endl;
 }
 
 Hearing::Hearing() { hearing_ = &lines_; }

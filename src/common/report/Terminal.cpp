@@ -3,6 +3,9 @@
 
 #include <cstdlib>
 #include <unistd.h>
+#include <vector>
+
+#include "common/Text.hpp"
 
 namespace tooljoint::terminal {
 
@@ -23,6 +26,33 @@ const char* code(Colour colour) {
   return "0";
 }
 
+/// Labels end before this column.
+constexpr std::size_t labels = 40;
+
+/// Column at which the text of a line begins: behind its label, which ends with two blanks, or
+/// `hanging` columns further in than the line.
+std::size_t hangingIndent(const std::string& line, std::size_t hanging) {
+  const std::size_t gap = line.substr(0, labels).rfind("  ");
+  const std::size_t first = line.find_first_not_of(' ');
+  return gap == std::string::npos || gap < first ? first + hanging
+                                                 : line.find_first_not_of(' ', gap);
+}
+
+std::string wrappedLine(std::string line, std::size_t hanging) {
+  std::string text;
+  const std::size_t indent = hangingIndent(line, hanging);
+  while (line.size() > columns) {
+    std::size_t end = line.rfind(' ', columns);
+    if (end <= indent) end = line.find(' ', columns);
+    if (end == std::string::npos) break;
+    text += line.substr(0, line.find_last_not_of(' ', end) + 1) + "\n";
+    const std::string rest = trim(line.substr(end));
+    if (rest.empty()) return text.substr(0, text.size() - 1);
+    line = std::string(indent, ' ') + rest;
+  }
+  return text + line;
+}
+
 }  // namespace
 
 bool hasColours(int descriptor) {
@@ -36,6 +66,16 @@ bool hasColours(int descriptor) {
 std::string coloured(const std::string& text, Colour colour, int descriptor) {
   if (!hasColours(descriptor)) return text;
   return std::string("\033[") + code(colour) + "m" + text + "\033[0m";
+}
+
+std::string wrapped(const std::string& text, std::size_t hanging) {
+  std::vector<std::string> lines = split(text, '\n');
+  for (std::string& line : lines) line = wrappedLine(line, hanging);
+  return join(lines, "\n");
+}
+
+std::string labelled(const std::string& label, Colour colour, const std::string& text) {
+  return coloured(label, colour, STDERR_FILENO) + wrapped(label + " " + text).substr(label.size());
 }
 
 }  // namespace tooljoint::terminal

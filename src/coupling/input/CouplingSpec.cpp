@@ -89,6 +89,7 @@ deck::ListSpec& ends(deck::ListSpec& entry) {
       .realArray("Direction", "", deck::Optional{}, Range::any(),
                  "Direction of the separation (Second minus First) in the common frame, three "
                  "numbers of any length; this or Component.")
+      .expert()
       .text("Component", deck::Optional{},
             "Component whose difference is the separation, a rotation for instance; this or "
             "Direction.");

@@ -105,6 +105,8 @@ std::string unknownParameter(const ListSpec& root, const ListSpec& list, const s
   if (const ListSpec* parent = parentOf(root, path))
     if (const ParameterSpec* moved = parent->findFormer(list.name() + "/" + name))
       return nowCalled(path, name, parent->name() + "/" + moved->name, *moved);
+  if (const std::string* instead = list.findRemoved(name))
+    return path + "/" + name + " was removed: " + *instead;
   std::string text = path + "/" + name + " is not a parameter.";
   if (declares(list, name))
     return text + " It is a list: write <ParameterList name=\"" + name + "\">.";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/summary/SummaryKeys.hpp"
 
+#include <map>
+
 namespace tooljoint::io {
 
 const std::vector<std::string>& documentedKeys() {
@@ -419,6 +421,18 @@ const std::vector<std::string>& documentedKeys() {
       "response.contact_node",
   };
   return keys;
+}
+
+std::string renamedKey(const std::string& key) {
+  static const std::map<std::string, std::string> whole{
+      {"transient.local_error", "transient.step_error"},
+      {"transient.halving_error", "transient.step_error"}};
+  static const std::map<std::string, std::string> last{{"dyn", "vibration_error"}};
+  if (const auto found = whole.find(key); found != whole.end()) return found->second;
+  const auto dot = key.rfind('.');
+  const auto begin = dot == std::string::npos ? 0 : dot + 1;
+  const auto found = last.find(key.substr(begin));
+  return found == last.end() ? "" : key.substr(0, begin) + found->second;
 }
 
 }  // namespace tooljoint::io

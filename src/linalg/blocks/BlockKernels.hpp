@@ -106,8 +106,8 @@ TOOLJOINT_INLINED void addSixTransposed(const double* A, const double* x, Six& y
 #endif
 }
 
-/// Matrices of more doubles than this (4 MB) are asked for ahead: shorter ones stay in caches that
-/// are fast enough, and asking costs time.
+/// Matrices of more doubles than this (4 MB) are prefetched: shorter ones stay in caches that are
+/// fast enough, and prefetching costs time.
 constexpr std::size_t nearCache = std::size_t{1} << 19;
 
 /// Ask for what a sweep over a long array reads some blocks (8 kB) after `A`; beyond its end that

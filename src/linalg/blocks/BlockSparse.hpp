@@ -99,7 +99,7 @@ std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions);
 
 /// y += A x for matrices on one pattern; which blocks are zero or diagonal, and whether all is
 /// symmetric, is found once, from samples that have every nonzero the products will see. Matrices
-/// that do not fit a near cache are asked for ahead, and where blocks below the diagonal mirror
+/// that do not fit a near cache are prefetched, and where blocks below the diagonal mirror
 /// those above they are not read: they were seen a row ago. That is so for stiffness under varying
 /// torque too, whose skew part stands in the diagonal blocks of beams.
 class BlockProduct {
@@ -161,7 +161,7 @@ class BlockProduct {
     int begin;
     int end;
     int diagonal;  ///< first entry on or above the diagonal
-    bool inSix;    ///< six rows, summed in registers (where blocks are asked for ahead, all of six
+    bool inSix;    ///< six rows, summed in registers (where blocks are prefetched, all of six
                    ///< columns)
     bool operator==(const Row& other) const {
       return start == other.start && width == other.width && begin == other.begin &&

@@ -40,7 +40,7 @@ void shareLargePages(std::size_t bytes) {
   }
   const std::uintptr_t begin = (before + page - 1) / page * page;
   if (begin < end())
-    madvise(reinterpret_cast<void*>(begin), end() - begin, MADV_HUGEPAGE);  // a wish
+    madvise(reinterpret_cast<void*>(begin), end() - begin, MADV_HUGEPAGE);  // advice
   for (void* each : held) std::free(each);
   mallopt(M_TOP_PAD, usualPad);
 }

@@ -30,7 +30,7 @@ struct LargePages {
     if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     if (unit == page)
-      madvise(memory, whole, MADV_HUGEPAGE);  // a wish: without it the array is only slower
+      madvise(memory, whole, MADV_HUGEPAGE);  // advice: without it the array is slower
 #endif
     return static_cast<T*>(memory);
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <dmumps_c.h>
 #include <limits>
 #include <mpi.h>
 #include <optional>
@@ -28,15 +27,14 @@ using namespace mumps;
 
 }  // namespace
 
-struct MumpsFactor::Impl {
-  DMUMPS_STRUC_C id{};
-  bool open = false, factored = false;
+struct MumpsFactor::Impl : mumps::Instance {
+  bool factored = false;
   Symmetry symmetry = Symmetry::None;
   std::vector<int> rows, columns;  ///< of the entries that were analysed, counted from 1
   std::optional<long> memory;      ///< [MB] given, instead of what is free
   MPI_Comm comm = MPI_COMM_SELF;
 
-  ~Impl() { close(); }
+  ~Impl() { close(); }  // while the entries are there
 
   bool divided() const { return comm != MPI_COMM_SELF; }
 
@@ -55,31 +53,11 @@ struct MumpsFactor::Impl {
     MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_LONG, MPI_MIN, comm);
     return least == unknown ? std::nullopt : std::optional(least);
   }
-  int& control(int number) { return id.icntl[number - 1]; }
-  int status() const { return id.infog[0]; }
-  int info(int number) const { return id.infog[number - 1]; }
-
-  void call(int job) {
-    id.job = job;
-    dmumps_c(&id);
-  }
-
-  void close() {
-    if (open) call(finish);
-    open = factored = false;
-  }
 
   void start(Symmetry kind) {
-    close();
-    id = {};
+    factored = false;
     symmetry = kind;
-    id.par = 1;
-    id.sym = kind == Symmetry::None ? 0 : kind == Symmetry::Definite ? 1 : 2;
-    id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm));
-    call(initialise);
-    open = true;
-    for (const int stream : {1, 2, 3}) control(stream) = -1;  // no output
-    control(4) = 0;
+    begin(kind == Symmetry::None ? 0 : kind == Symmetry::Definite ? 1 : 2, comm);
     control(7) = 7;  // an ordering that this MUMPS has and deems best
     control(14) = firstRoom;
     control(27) = blockOfColumns;

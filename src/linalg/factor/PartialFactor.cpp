@@ -2,7 +2,6 @@
 #include "linalg/factor/PartialFactor.hpp"
 
 #include <algorithm>
-#include <dmumps_c.h>
 #include <mpi.h>
 #include <string>
 #include <utility>
@@ -18,38 +17,15 @@ namespace tooljoint::linalg {
 
 using namespace mumps;
 
-struct PartialFactor::Impl {
-  DMUMPS_STRUC_C id{};
-  bool open = false;
+struct PartialFactor::Impl : mumps::Instance {
   int inner = 0;
   std::vector<int> rows, columns, others;  ///< counted from 1
   std::vector<double> values;
 
-  ~Impl() { close(); }
-  int& control(int number) { return id.icntl[number - 1]; }
-  int info(int number) const { return id.infog[number - 1]; }
-  int status() const { return info(1); }
-
-  void call(int job) {
-    id.job = job;
-    dmumps_c(&id);
-  }
-
-  void close() {
-    if (open) call(finish);
-    open = false;
-  }
+  ~Impl() { close(); }  // while the entries are there
 
   void start() {
-    close();
-    id = {};
-    id.par = 1;
-    id.sym = 1;
-    id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(MPI_COMM_SELF));
-    call(initialise);
-    open = true;
-    for (const int stream : {1, 2, 3}) control(stream) = -1;  // no output
-    control(4) = 0;
+    begin(1, MPI_COMM_SELF);
     control(7) = 5;  // ordering by METIS
     control(14) = firstRoom;
     control(27) = blockOfColumns;

@@ -58,6 +58,16 @@ struct Formula {
   Channel channel() const { return {"force", "N", "Force along the first coordinate"}; }
 };
 
+/// The power [W] of a formula without rated states whose forces lose all they take: -f' v.
+template <class Law>
+PointLaw::Power lostPower(const Law& law, const PointAt<double>& at) {
+  double f[Law::width] = {};
+  law(at, f, static_cast<double*>(nullptr));
+  PointLaw::Power power;
+  for (int i = 0; i < Law::width; ++i) power.friction -= f[i] * at.v[i];
+  return power;
+}
+
 /// Points that obey one formula with the same parameters.
 template <class Law>
 class FormulaLaw final : public StatefulPointLaw {

@@ -108,13 +108,7 @@ class RegenerativeCutting : public Formula<2> {
   }
 
   /// Everything the rock takes is lost in cutting and friction.
-  Power power(const PointAt<double>& at, const double*) const {
-    double f[2] = {0.0, 0.0};
-    (*this)(at, f, static_cast<double*>(nullptr));
-    Power p;
-    p.friction = -f[0] * at.v[0] - f[1] * at.v[1];
-    return p;
-  }
+  Power power(const PointAt<double>& at, const double*) const { return lostPower(*this, at); }
 
   /// Weight [N] and torque [N m] of steady drilling at an advance `depth` of one blade [m].
   double weight(double depth) const { return cutting_ * p_.inclination * depth + wear_; }

@@ -75,8 +75,10 @@ const bool speedControlRegistered = registerFormula<SpeedControl>(
               "Gain k_i on the integral of the speed error, zero at the start.")
         .real("Initial Force", "N", 0.0, deck::Range::any(),
               "Force F_0 without any speed error, or moment about a rotation.")
+        .expert()
         .real("Force Limit", "N", deck::Optional{}, deck::Range::positive(),
-              "Largest force either way; no limit without it."));
+              "Largest force either way; no limit without it.")
+        .expert());
 
 }  // namespace
 }  // namespace tooljoint::model

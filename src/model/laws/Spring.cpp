@@ -81,6 +81,7 @@ const bool springRegistered = PointLawRegistry::instance().add(
                          "Stiffness, along a translation or about a rotation.")
                    .real("Cubic Stiffness", "N/m3", 0.0, deck::Range::nonNegative(),
                          "Factor of the cube of the separation.")
+                   .expert()
                    .real("Damping", "N s/m", 0.0, deck::Range::nonNegative(),
                          "Damping, along a translation or about a rotation."),
                makeSpring});

@@ -236,6 +236,8 @@ deck::ListSpec complexCraigBamptonParameters() {
   deck::ListSpec list(
       "Complex Craig-Bampton",
       "Complex modes of the interior with its damping, gyroscopics and unsymmetric stiffness.");
+  list.removed({"Independence"},
+               "the part of a vector that must be new is a constant. Leave it out.");
   list.real("Time", "s", 0.0, Range::any(),
             "Time at which damping and stiffness are evaluated. Gyroscopic terms need a time at "
             "which the rotor turns.");

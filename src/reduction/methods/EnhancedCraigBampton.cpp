@@ -159,6 +159,8 @@ deck::ListSpec enhancedCraigBamptonParameters() {
   deck::ListSpec list("Enhanced Craig-Bampton",
                       "Residual flexibility of the modes left out, as far as the inertia of the "
                       "constraint modes excites it.");
+  list.removed({"Independence"},
+               "the part of a vector that must be new is a constant. Leave it out.");
   list.choice(
       "Residual Coordinates", std::string("Tied"), {"Tied", "Free"},
       "\"Tied\": the residual coordinates depend on the others by M^-1 K of the coupled model (Kim "

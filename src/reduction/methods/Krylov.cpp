@@ -29,6 +29,7 @@ deck::ListSpec krylovParameters() {
   deck::ListSpec list("Krylov",
                       "Vectors that match moments of the response of the interior to motions of "
                       "the boundary dofs.");
+  list.removed({"Deflation"}, "the part of a vector that must be new is a constant. Leave it out.");
   list.real("Expansion Frequency", "Hz", 0.0, Range::nonNegative(),
             "Expansion point of the moments: this frequency, or with \"Damped\" s = 2 pi times "
             "this on the real axis. Use the middle of the frequency band of interest; 0 gives "

@@ -176,13 +176,16 @@ deck::ListSpec multilevelParameters() {
                "cannot be cut so often has fewer.");
   list.real("Cut-off Factor", "", 2.5, Range::atLeast(1.0),
             "Substructures and the separators between them have their modes up to so many times "
-            "the highest frequency wanted.");
+            "the highest frequency wanted.")
+      .expert();
   list.real("Accuracy", "", 1e-4, Range::positive(),
             "Estimated relative error of the frequencies of the modes above which they are "
-            "corrected.");
+            "corrected.")
+      .expert();
   list.integer("Corrections", 3, Range::atLeast(0),
                "Corrections at most: each is a Rayleigh-Ritz step on the modes and their static "
-               "responses to the residuals, and about squares the errors.");
+               "responses to the residuals, and about squares the errors.")
+      .expert();
   return list;
 }
 

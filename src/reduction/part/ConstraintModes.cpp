@@ -39,17 +39,17 @@ void ConstraintModeBuilder::add(const Sparse& KII, const Matrix& KIC, Matrix phi
     double& residual = residuals_[touched[at(j)]];
     if (scale > 0.0) residual = std::max(residual, defect.col(j).cwiseAbs().maxCoeff() / scale);
   }
-  pieces_.push_back({inner, touched, std::move(phi)});
+  blocks_.push_back({inner, touched, std::move(phi)});
 }
 
 ConstraintModes ConstraintModeBuilder::result() const {
   RowFiller vectors(partition_.size, residuals_.size());
   for (int i : partition_.boundary) vectors.expect(i, 1);
-  for (const Piece& piece : pieces_) vectors.expect(piece.inner, piece.shapes);
+  for (const InteriorBlock& block : blocks_) vectors.expect(block.inner, block.shapes);
   vectors.start();
   for (int j = 0; j < sizeOf(partition_.boundary); ++j)
     vectors.put(partition_.boundary[at(j)], j, 1.0);
-  for (const Piece& piece : pieces_) vectors.put(piece.inner, piece.touched, piece.shapes);
+  for (const InteriorBlock& block : blocks_) vectors.put(block.inner, block.touched, block.shapes);
   return {vectors.result(), residuals_};
 }
 

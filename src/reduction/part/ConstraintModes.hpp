@@ -25,19 +25,19 @@ class ConstraintModeBuilder {
  public:
   explicit ConstraintModeBuilder(const Partition& partition);
   /// Takes `phi`, a solution of K_II phi = -K_IC for the interior dofs at the positions `inner` and
-  /// the boundary dofs with the indices `touched`. Pieces with the same `inner` follow each other
+  /// the boundary dofs with the indices `touched`. Blocks with the same `inner` follow each other
   /// in the order of their boundary dofs.
   void add(const Sparse& KII, const Matrix& KIC, Matrix phi, const std::vector<int>& inner,
            const std::vector<int>& touched);
   ConstraintModes result() const;
 
  private:
-  struct Piece {
+  struct InteriorBlock {
     std::vector<int> inner, touched;
     Matrix shapes;
   };
   const Partition& partition_;
-  std::vector<Piece> pieces_;
+  std::vector<InteriorBlock> blocks_;
   Vector residuals_;
 };
 

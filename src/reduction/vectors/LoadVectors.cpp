@@ -145,7 +145,8 @@ void declareLoadVectors(deck::ListSpec& list) {
   list.boolean("Start State Vectors", false,
                "Add displacement and velocity of the interior at the start to the modes of a basis "
                "with fixed interface, so that the reduced motion starts as the full one. Needed "
-               "where a run warns that the basis does not represent the initial state.");
+               "where a run warns that the basis does not represent the initial state.")
+      .expert();
   list.integerArray("Load Vector Nodes", deck::Optional{}, deck::Range::atLeast(1),
                     "Nodes whose points get load vectors; all nodes without it.")
       .expert();

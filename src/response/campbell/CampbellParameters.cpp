@@ -25,6 +25,7 @@ deck::ListSpec campbellParameters() {
                "Target Frequency.")
       .real("Target Frequency", "Hz", deck::Optional{}, deck::Range::positive(),
             "The modes nearest this frequency are followed, not the lowest ones.")
+      .expert()
       .real("Lowest Frequency", "Hz", 0.0, deck::Range::nonNegative(),
             "Lower end of a window of frequencies; with Highest Frequency.")
       .real("Highest Frequency", "Hz", deck::Optional{}, deck::Range::positive(),
@@ -47,9 +48,11 @@ deck::ListSpec campbellParameters() {
       .real("Motor Speed", "rad/s", 0.0, deck::Range::nonNegative(),
             "Speed of the bit over that of the string, of a mud motor between them. Adds an "
             "excitation with the speed of the bit.")
+      .expert()
       .integer("Motor Lobes", deck::Optional{}, deck::Range::atLeast(1),
                "Lobes of the motor's rotor: its centre goes round Motor Lobes times in a turn of "
-               "the rotor, at the same frequency whatever the rotary speed.");
+               "the rotor, at the same frequency whatever the rotary speed.")
+      .expert();
   declareCommon(list);
   return list;
 }

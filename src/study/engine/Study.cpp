@@ -92,7 +92,7 @@ class Study {
     open();
     rows_.emplace(plan_, folder_->folder(), timing_);
     rows_->takeReference();
-    rows_->copyTwins();
+    rows_->copyRepeatedRows();
     nameMissing();
     finish();
   }
@@ -138,7 +138,7 @@ class Study {
         progress_.report(i, rows_->result().rows[i], timed, watch.wall());
       }
     }
-    rows_->copyTwins();
+    rows_->copyRepeatedRows();
   }
 
   /// What all groups have left in the folder.
@@ -146,11 +146,11 @@ class Study {
     if (groups_.count() == 1) return;
     rows_.emplace(plan_, folder_->folder(), timing_);
     if (rows_->timed()[0] > 0) rows_->takeReference();
-    rows_->copyTwins();
+    rows_->copyRepeatedRows();
   }
 
   void stageTable() {
-    rows_->copyTwins();
+    rows_->copyRepeatedRows();
     parallel::agree([&] { stageStudyTable(rows_->result(), *folder_); });
   }
 

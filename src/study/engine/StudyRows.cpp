@@ -171,7 +171,7 @@ void StudyRows::sayCost(const PreparedModel& prepared) {
             (all > longReference ? ". Study/Reference and Study/Check make it cheaper." : ""));
 }
 
-void StudyRows::copyTwins() {
+void StudyRows::copyRepeatedRows() {
   for (std::size_t i = plan_.referenceRuns(); i < plan_.runs.size(); ++i) {
     if (isFirst(i)) continue;
     const auto plan = result_.rows[i].plan;

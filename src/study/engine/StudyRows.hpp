@@ -45,7 +45,7 @@ class StudyRows {
   /// One more repeat of a run. What fails of it is its row. `title` is that of the progress bar.
   void run(std::size_t i, const std::string& title);
   /// Runs of the same deck as an earlier one get its row.
-  void copyTwins();
+  void copyRepeatedRows();
 
  private:
   void makeKeys();

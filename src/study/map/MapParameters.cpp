@@ -10,6 +10,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "io/summary/Summary.hpp"
+#include "io/summary/SummaryKeys.hpp"
 
 namespace tooljoint::study {
 namespace {
@@ -151,6 +152,11 @@ class MapReader {
         if (key.rfind(part, 0) == 0 && key.find("[]") == std::string::npos) known.push_back(key);
     for (const auto& key : known)
       if (key == value.key) return value;
+    if (const auto now = io::renamedKey(value.key); !now.empty()) {
+      fault("Map/Values/" + name + "/Key",
+            "is " + inQuotes(value.key) + ", which is now called " + inQuotes(now) + ".");
+      return value;
+    }
     const auto near = closest(value.key, known);
     fault("Map/Values/" + name + "/Key",
           "is " + inQuotes(value.key) + ", which a run does not leave in summary.json." +
@@ -205,7 +211,8 @@ ListSpec valueParameters() {
       .real("Unsafe Above", "", deck::Optional{}, Range::any(),
             "Larger values are marked as unsafe; in the unit of the key.")
       .real("Unsafe Below", "", deck::Optional{}, Range::any(),
-            "Smaller values are marked as unsafe.");
+            "Smaller values are marked as unsafe.")
+      .expert();
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ deck::ListSpec generalizedAlphaParameters() {
       .real("Step Tolerance", "m", deck::Optional{}, deck::Range::positive(),
             "Error of the displacement allowed in one step, as root of the mean square over the "
             "mass. Steps are then Transient/Step "
-            "cut into halves as often as this asks for; without it all steps are equal.")
+            "halved until their error is below it; without it all steps are equal.")
       .real("Smallest Step", "s", deck::Optional{}, deck::Range::positive(),
             "With Step Tolerance: a step that would have to be shorter than this ends the run; by "
             "default 1/1024 of Transient/Step.")

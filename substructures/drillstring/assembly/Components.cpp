@@ -71,7 +71,8 @@ deck::ListSpec sidedSpec(const std::string& name, const std::string& doc, const 
       .real("Position", "m", Required{}, Range::nonNegative(),
             "Distance from the top of the component; a node must stand there.")
       .real("Direction", "rad", 0.0, Range::any(),
-            "Side it points to, from Drillstring/Tool Face, clockwise looking down the hole.");
+            "Side it points to, from Drillstring/Tool Face, clockwise looking down the hole.")
+      .expert();
 }
 
 double valueOr(const ParameterList& list, const char* name, double standard) {
@@ -170,7 +171,7 @@ class ComponentReader {
     if (!list.isParameter("Length")) fail(path, "The segment has no Length.");
     Segment piece;
     piece.length = list.get<double>("Length");
-    piece.elements = list.isParameter("Elements") ? list.get<int>("Elements") : 1;
+    if (list.isParameter("Elements")) piece.elements = list.get<int>("Elements");
     const SegmentDefaults own = readDefaults(list, standard);
     piece.section = section(path, list, own.material);
     piece.element = own.element;

@@ -101,6 +101,7 @@ deck::ListSpec drillstringParameters() {
             "Table of drill pipe, a CSV file relative to the deck: a row is a component of that "
             "name, as \"5 in 19.50 S-135 NC50\", with a stand of three, \"5 in 19.50 S-135 NC50 "
             "stand\".")
+      .expert()
       .list(deck::ListSpec("Components",
                            "Components defined in the deck itself, beside those of the Library.")
                 .namedLists(componentParameters()))

@@ -10,6 +10,7 @@
 #include "common/Constants.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "common/report/Detail.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
@@ -352,14 +353,18 @@ std::string describeScene(const Scene& scene) {
 std::string describeStatic(const StaticStage& stage) {
   const auto& path = stage.path.report;
   const auto& s = stage.state;
-  std::string text = fmt::sprintf(
-      "path        iterations %d, load steps %d, nodes %s the axis\n", path.iterations,
-      path.increments,
-      path.maxPositionError > 0.0 ? "within " + deck::printed(path.maxPositionError, "m", 2) + " of"
-                                  : "on");
-  text += fmt::sprintf(
-      "static      %d iterations, residual %.1e: %d nodes in contact, %d elements in compression\n",
-      s.report.iterations, s.report.residual, s.contactNodes, s.compressedElements);
+  std::string text;
+  if (log::verbose())
+    text += fmt::sprintf("path        iterations %d, load steps %d, nodes %s the axis\n",
+                         path.iterations, path.increments,
+                         path.maxPositionError > 0.0
+                             ? "within " + deck::printed(path.maxPositionError, "m", 2) + " of"
+                             : "on");
+  text += fmt::sprintf("static      %d nodes in contact, %d elements in compression\n",
+                       s.contactNodes, s.compressedElements);
+  if (log::verbose())
+    text += fmt::sprintf("            %d iterations, residual %.1e\n", s.report.iterations,
+                         s.report.residual);
   const auto force = [](double value) { return deck::printed(value, "kN", 4); };
   const auto torque = [](double value) { return deck::printed(value, "kN m", 4); };
   text += fmt::sprintf(
@@ -375,10 +380,11 @@ std::string describeStatic(const StaticStage& stage) {
     text += fmt::sprintf(", %.4g rpm", stage.friction.speed * constants::rpmPerRadianPerSecond);
   if (const double along = stage.friction.sliding.axialSpeed; along != 0.0)
     text += ", " + deck::printed(std::abs(along), "m/s", 4) + (along > 0.0 ? " down" : " up");
-  text += fmt::sprintf(
-      "\n            top torque %s by the balance of torque, defect %s (%.2g %% of %s)",
-      torque(s.topTorqueEquilibrium()), deck::printed(s.torqueBalanceDefect(), "N m", 4),
-      100.0 * s.relativeTorqueDefect(), torque(s.torqueScale));
+  if (log::verbose())
+    text += fmt::sprintf(
+        "\n            top torque %s by the balance of torque, defect %s (%.2g %% of %s)",
+        torque(s.topTorqueEquilibrium()), deck::printed(s.torqueBalanceDefect(), "N m", 4),
+        100.0 * s.relativeTorqueDefect(), torque(s.torqueScale));
   if (stage.perturbations > 0)
     text +=
         fmt::sprintf("\n            perturbed %d times along unstable modes", stage.perturbations);

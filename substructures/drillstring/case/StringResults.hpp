@@ -35,6 +35,7 @@ std::vector<cases::RestFigure> restFigures(const StaticStage& stage);
 
 /// Lines of the log.
 std::string describeScene(const Scene& scene);
+/// With log::verbose() also how the path and the state were found.
 std::string describeStatic(const StaticStage& stage);
 
 }  // namespace tooljoint::drillstring

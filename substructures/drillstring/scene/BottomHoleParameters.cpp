@@ -23,7 +23,8 @@ deck::ListSpec bottomHoleParameters() {
             "Change of inclination per length of the holes of Inclination.");
   list.real("Turn Rate", "rad/m", 0.0, Range::any(),
             "Change of azimuth per length, at the bit, of the holes of Inclination; positive "
-            "turns to the right.");
+            "turns to the right.")
+      .expert();
   list.realArray("Tool Face", "rad", Optional{}, Range::any(),
                  "Tool faces of the string that slides; Drillstring/Tool Face when absent.");
   list.real("Survey Tool", "m", Optional{}, Range::positive(),

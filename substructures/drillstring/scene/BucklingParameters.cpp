@@ -24,14 +24,17 @@ deck::ListSpec bucklingParameters() {
   list.real("Crookedness", "", 0.02, Range{0.0, 0.5, false, false},
             "Amplitude of the stress-free shape of the string, a helix about its axis, as a part "
             "of the radial clearance: what makes it leave the straight state, and to one side. 0: "
-            "a straight string, which passes its buckling load without a deflection.");
+            "a straight string, which passes its buckling load without a deflection.")
+      .expert();
   list.real("Crookedness Pitch", "m", Optional{}, Range::positive(),
             "Length of a turn of that helix; when absent 2 pi sqrt(2 E I/F) at the compression F "
-            "under which the straight string buckles.");
+            "under which the straight string buckles.")
+      .expert();
   list.choice("At A Limit", std::string("Jump"), {"Jump", "Follow"},
               "Where the states become unstable. \"Jump\": the string moves to the stable state it "
               "finds under that weight, and the path goes on from there. \"Follow\": the path "
-              "goes on through unstable states, with less weight where it turns.");
+              "goes on through unstable states, with less weight where it turns.")
+      .expert();
   list.real("First Step", "", 0.01, Range::positive(),
             "Length of the first step of the path. The length is counted in clearances of lateral "
             "motion (root mean square along the string) and in shares of the last weight.")

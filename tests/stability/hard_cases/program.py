@@ -44,8 +44,9 @@ class Run:
         """The sentence of a refusal."""
         text = self.summary.get("message") or ""
         if not text:
-            lines = [line.strip() for line in self.output.splitlines() if line.strip()]
-            text = lines[-1] if lines else "no word"
+            lines = [line for line in self.output.splitlines() if line.strip()]
+            begin = max((i for i, line in enumerate(lines) if not line.startswith("  ")), default=0)
+            text = " ".join(lines[begin:]) or "no word"  # with what is wrapped
         return " ".join(text.split())
 
     def warnings(self):

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/Parallel.hpp"
+#include "common/Text.hpp"
 #include "common/report/WarnOnce.hpp"
 
 namespace LogTest {
@@ -53,6 +54,23 @@ TEST(Log, AWordThatIsLongerThanALineStaysWhole) {
   EXPECT_EQ(printed("results     " + path + " basis.csv"),
             "results     " + path + "\n            basis.csv\n");
   EXPECT_EQ(printed(path), path + "\n");
+}
+
+TEST(Log, WarningsAreWrappedInPrintAndWholeInTheCollection) {
+  log::clearWarnings();
+  std::string sentence = "The clearance is small at node";
+  for (int node = 0; node < 30; ++node) sentence += " " + std::to_string(1000 + node);
+  testing::internal::CaptureStderr();
+  log::warn(sentence);
+  const auto text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(log::warnings(), std::vector<std::string>{sentence});
+  log::clearWarnings();
+  if (parallel::rank() != 0) GTEST_SKIP() << "rank 0 prints";
+  const auto lines = split(text, '\n');
+  ASSERT_EQ(lines.size(), 3U) << text;
+  EXPECT_LE(lines[0].size(), 100U);
+  EXPECT_EQ(lines[0].substr(0, 13), "warning: The ");
+  EXPECT_EQ(lines[0] + lines[1].substr(1), "warning: " + sentence);
 }
 
 TEST(Log, WarningsOfManyRunsThatDifferInNumbersAreToldOnce) {

@@ -127,6 +127,19 @@ TEST(Validation, AFormerNameIsRefusedWithTheNewOne) {
             "run.xml:2: /run/Halvings is now called \"Max Halvings\". It is the halvings, >= 0.");
 }
 
+TEST(Validation, ARemovedNameIsRefusedWithWhatHoldsInstead) {
+  ListSpec run("run", "R.");
+  ListSpec variant("variant", "V.");
+  variant.removed({"Halvings", "Sweeps"}, "a step is halved ten times. Leave it out.");
+  run.merge(variant);
+  EXPECT_EQ(messageOf([&] {
+              Deck::parse("<ParameterList name=\"run\">\n" + parameter("Sweeps", "int", "3") +
+                              "</ParameterList>",
+                          "run.xml", run);
+            }),
+            "run.xml:2: /run/Sweeps was removed: a step is halved ten times. Leave it out.");
+}
+
 TEST(Validation, AFormerNameOfAnotherListIsRefusedWithTheNewPath) {
   ListSpec run("run", "R.");
   run.list(ListSpec("Steps", "S.")

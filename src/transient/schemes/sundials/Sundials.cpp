@@ -74,12 +74,14 @@ void addCommon(deck::ListSpec& spec, double tolerance) {
 deck::ListSpec arkodeSpecification() {
   deck::ListSpec spec(arkode, "Parameters of ARKODE.");
   spec.choice(
-      "Method", std::string("ESDIRK436L2SA_6_3_4"),
-      {"SDIRK_2_1_2", "TRBDF2_3_3_2", "ESDIRK324L2SA_4_2_3", "ESDIRK325L2SA_5_2_3", "SDIRK_5_3_4",
-       "KVAERNO_5_3_4", "ESDIRK436L2SA_6_3_4", "QESDIRK436L2SA_6_3_4", "ESDIRK437L2SA_7_3_4",
-       "KVAERNO_7_4_5", "ESDIRK547L2SA_7_4_5", "ESDIRK547L2SA2_7_4_5"},
-      "Butcher table by its name in SUNDIALS, which ends in stages, order of the error estimate "
-      "and order.");
+          "Method", std::string("ESDIRK436L2SA_6_3_4"),
+          {"SDIRK_2_1_2", "TRBDF2_3_3_2", "ESDIRK324L2SA_4_2_3", "ESDIRK325L2SA_5_2_3",
+           "SDIRK_5_3_4", "KVAERNO_5_3_4", "ESDIRK436L2SA_6_3_4", "QESDIRK436L2SA_6_3_4",
+           "ESDIRK437L2SA_7_3_4", "KVAERNO_7_4_5", "ESDIRK547L2SA_7_4_5", "ESDIRK547L2SA2_7_4_5"},
+          "Butcher table by its name in SUNDIALS, which ends in stages, order of the error "
+          "estimate "
+          "and order.")
+      .expert();
   addCommon(spec, 1e-4);
   return spec;
 }
