@@ -75,7 +75,10 @@ std::vector<double> ReducedCase::cutOffs() const {
   std::vector<double> ends;
   for (const auto& part : parts()) {
     const auto& basis = part.report;
-    const bool whole = basis.modes >= basis.interior;
+    // fewer than dofs where some have no mass
+    const bool all = part.basis && part.basis->complete &&
+                     part.basis->modes() == static_cast<int>(part.basis->candidates.size());
+    const bool whole = all || basis.modes >= basis.interior;
     ends.push_back(whole ? std::numeric_limits<double>::infinity()
                          : constants::twoPi * basis.cutOffHz());
   }
