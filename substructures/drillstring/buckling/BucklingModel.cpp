@@ -4,6 +4,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
