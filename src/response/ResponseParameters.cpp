@@ -174,10 +174,12 @@ ListSpec responseParameters() {
             "Last speed; this or Highest Frequency.")
       .real("Order", "", 1.0, Range::nonNegative(),
             "Excitation frequency over the rotary speed in a sweep by speed.")
+      .expert()
       .real("Motor Speed", "rad/s", 0.0, Range::nonNegative(),
             "Speed of the bit over that of the string, of a mud motor between them, in a sweep by "
             "speed. Adds Motor Order times itself to the frequency; masses of the list Unbalance "
             "turn with the bit.")
+      .expert()
       .real("Motor Order", "", deck::Optional{}, Range::nonNegative(),
             "Excitation frequency over the speed of the motor. Default: Order, an excitation by "
             "the bit. With Order 0 the lobes of the motor: its rotor goes round so many times in "

@@ -14,9 +14,9 @@
 #include "model/SecondOrderModel.hpp"
 #include "transient/Checkpoint.hpp"
 #include "transient/Integrator.hpp"
+#include "transient/MissingModes.hpp"
 #include "transient/TransientParameters.hpp"
 #include "transient/accuracy/EnergyLedger.hpp"
-#include "transient/verdict/MissingModes.hpp"
 
 namespace tooljoint::transient {
 

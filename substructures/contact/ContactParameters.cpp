@@ -80,11 +80,12 @@ deck::ListSpec frictionSpec(bool base) {
             "v_r: the coefficient starts with the slope 1/v_r; smaller is sharper.");
   if (base)
     spec.boolean(
-        "Axial", false,
-        "Friction acts against the whole sliding velocity: around the wall and along the "
-        "hole, where w and Top Drive/Block Speed move the string. Without it, against that "
-        "around the wall alone. Required (true or false) where a block moves a string with "
-        "friction in a hole that is not vertical. torque-drag always has it.");
+            "Axial", false,
+            "Friction acts against the whole sliding velocity: around the wall and along the "
+            "hole, where w and Top Drive/Block Speed move the string. Without it, against that "
+            "around the wall alone. Required (true or false) where a block moves a string with "
+            "friction in a hole that is not vertical. torque-drag always has it.")
+        .expert();
   return spec;
 }
 

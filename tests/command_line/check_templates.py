@@ -58,7 +58,7 @@ def wells():
     expect("template well: a page, of tubulars of the library", "fill*5 in stand" in text and len(text.splitlines()) < 70, str(len(text.splitlines())))
     alone = runs("well.xml", "--set", "Transient/End Time=5", "--set", "Transient/Progress=false")
     said = " ".join(tooljoint("check", "well.xml").stdout.split())
-    stations = [float(number) for number in re.search(r'"\{([\d., ]+)\}"', text)[1].split(",")]
+    stations = [float(number) for number in re.search(r'"\{([\d.,\s]+)\}"', text)[1].split(",")]
     depth, vertical, length = stations[-3] * FOOT, tvd(stations) * FOOT, 8 * 9.45 + 0.35  # collars and bit
     for wanted in (f"bit at MD {depth:.1f} m, TVD {vertical:.1f} m", f"BHA {length:.2f} m below the last 5 in stand"):
         expect(f"check of a well: {wanted}", wanted in said, said[:500])

@@ -47,7 +47,7 @@ class Decks(unittest.TestCase):
             "Transient/Intgrator": '/frame/Transient/Intgrator is not a parameter. Did you mean "Integrator"?',
             "Transent/Step": '/frame/Transent is not a list. Did you mean "Transient"?',
             "Transient/End Time/x": "/frame/Transient/End Time is not a list. It is a parameter",
-            "Output": "The deck does not give Output, which has no default.",
+            "Output": '/frame/Output is not a parameter. It is a list: write <ParameterList name="Output">.',
         }.items():
             with self.assertRaises(tj.DeckError) as caught:
                 deck[path]

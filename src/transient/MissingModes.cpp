@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/verdict/MissingModes.hpp"
+#include "transient/MissingModes.hpp"
 
 #include <algorithm>
 #include <cmath>
