@@ -54,6 +54,7 @@ CUT_CHAPTER = "## Large parts cut into substructures"
 CHAPTER = "## Motions divided among ranks"
 STATICS_CHAPTER = "## Static states divided among ranks"
 REDUCED_CHAPTER = "## Full against reduced, 5 km hanging"
+ROWS_CHAPTER = "## Rows over ranks"
 REDUCED_DECK = "vertical_5000m"
 REDUCED_ERROR = 0.02  # vibration error that is asked for
 REDUCED_METHODS = "cut-off", "long parts"  # lists of the study, whose real time factor is measured on two ranks too
@@ -217,21 +218,32 @@ def strings(options, chosen):
             table(("scene", "dofs", "iterations", "wall [s]", "CPU [s]", "memory [MB]"), lines))
 
 
-def rows(options, end):
-    """The study of the tests with many steps, on one rank and, rows over ranks, on two."""
-    steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms" for i in range(8 if options.short else 54)) + ", 1 ms"
+def study_table(name, options):
+    """(run, vibration error, steps) of the rows of a study, by their names."""
+    path = pathlib.Path(options.work) / name / "out/study.csv"
+    with open(path, encoding="utf-8", newline="") as file:
+        found = [{key.split(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(file)]
+    return sorted((row["method"], row["status"], row["vibration_error"], row["steps"]) for row in found)
+
+
+def rows(options):
+    """The study of the tests with many steps, on one rank and, rows over ranks, on two. The tables have to be the same but for times."""
+    end = 3 if options.short else 15
+    steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms" for i in range(8 if options.short else 58)) + ", 1 ms"
     deck = PROJECT / "tests/study/study.xml"
     common = ["study", str(deck), "--output", "out", "--set", f"Study/End Time={end}", "--set", "Study/Repeats=1",
               "--set", f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}}}"]
     one = measured(options, "rows_1", common)
     two = measured(options, "rows_2", [*common, "--ranks-per-row", "1", "--timing", "shared"], ranks=2)
-    counts = []
-    for name in ("rows_1", "rows_2"):
-        path = pathlib.Path(options.work) / name / "out/study.csv"
-        counts.append(sum(1 for _ in csv.DictReader(open(path, encoding="utf-8"))) if path.exists() else 0)
-    lines = [(ranks, count, *times(row)) for ranks, count, row in ((1, counts[0], one), (2, counts[1], two))]
-    ratio = one["wall_s"] / two["wall_s"] if one["code"] == two["code"] == 0 else float("nan")
-    return (f"## Rows over ranks\n\nThe study of `tests/study` with more steps over {end} s, `--ranks-per-row 1` on two ranks: {ratio:.2f} times the rows per hour of one.\n\n" +
+    for name, row in (("one rank", one), ("two ranks", two)):
+        if row["code"] != 0:
+            raise SystemExit(f"the study on {name}: exit {row['code']}\n{row['output'][-2000:]}")
+    tables = [study_table(name, options) for name in ("rows_1", "rows_2")]
+    if tables[0] != tables[1]:
+        raise SystemExit(f"the tables differ: {[pair for pair in zip(*tables) if pair[0] != pair[1]][:3]}")
+    lines = [(ranks, len(tables[0]), *times(row)) for ranks, row in ((1, one), (2, two))]
+    return (f"{ROWS_CHAPTER}\n\nThe study of `tests/study` with more steps over {end} s, `--ranks-per-row 1` on two ranks: {one['wall_s'] / two['wall_s']:.2f} times the rows\n"
+            "per hour of one, and the same table.\n\n" +
             table(("ranks", "rows", "wall [s]", "CPU [s]", "memory [MB]"), lines))
 
 
@@ -380,7 +392,7 @@ def main():
     parser.add_argument("--work", default="results/scale")
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--most", type=int, default=200000, help="dofs of the largest block")
-    parser.add_argument("--rows", action="store_true", help="a study of 65 rows on one and two ranks, too: minutes of a machine without other work")
+    parser.add_argument("--rows", action="store_true", help="a study of 68 rows on one and two ranks alone; renews its chapter of the document")
     parser.add_argument("--note", default="", help="a sentence about the circumstances, for the head of the document")
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--cut", action="store_true", help="blocks cut into substructures alone; renews their chapter of the document")
@@ -389,7 +401,7 @@ def main():
     parser.add_argument("--reduced", action="store_true", help="full and reduced motions of the same error alone; renews their chapter of the document")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
-    alone = [write for chosen, write in ((options.motions, motions), (options.cut, cuts), (options.statics, statics), (options.reduced, reduced)) if chosen]
+    alone = [write for chosen, write in ((options.motions, motions), (options.cut, cuts), (options.statics, statics), (options.reduced, reduced), (options.rows, rows)) if chosen]
     if alone:
         chapter = alone[0](options)
         print(chapter)
@@ -399,10 +411,8 @@ def main():
     chosen = [each for each in BLOCKS if 3 * math.prod(n + 1 for n in each) <= options.most]
     blocks, found = solids(options, chosen[:2] if options.short else chosen)
     text = blocks + "\n" + strings(options, STRINGS[:1] if options.short else STRINGS)
-    if options.rows:
-        text += "\n" + rows(options, 3 if options.short else 15)
     text += "\n" + statics(options) + "\n" + motions(options)
-    for head in (CUT_CHAPTER, REDUCED_CHAPTER):
+    for head in (CUT_CHAPTER, REDUCED_CHAPTER, ROWS_CHAPTER):
         if not options.short and kept(head):
             text += "\n" + kept(head)
     print(text)
