@@ -32,9 +32,13 @@ struct Job {
 };
 
 /// One group times all runs once, then all again. Of several groups each does a run with all its
-/// repeats, and long runs come first: full models, then short steps.
+/// repeats, the companions of the reference among them, and long runs come first: full models, then
+/// short steps.
 std::vector<Job> jobsOf(const StudyPlan& plan, const StudyRows& rows, bool apart) {
   std::vector<Job> jobs;
+  if (apart)
+    for (std::size_t i = 1; i < plan.referenceRuns(); ++i)
+      if (!rows.isComplete(i)) jobs.push_back({i, 1});
   const int repeats = plan.settings.repeats;
   for (int pass = apart ? repeats : 1; pass <= repeats; ++pass)
     for (std::size_t i = plan.referenceRuns(); i < plan.runs.size(); ++i)
@@ -106,12 +110,14 @@ class Study {
     scene_.summarise(summary_);
   }
 
-  /// The first group computes the reference, which the others then read.
+  /// The first group computes the reference, which the others then read; alone also what checks it.
   void first() {
     if (groups_.mine() != 0) return;
     rows_.emplace(plan_, folder_->folder(), timing_);
     announce();
     rows_->computeReference();
+    if (groups_.count() > 1) return;
+    rows_->computeCompanions();
     log::info(describeReference(rows_->result()));
   }
 

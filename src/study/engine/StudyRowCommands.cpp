@@ -41,7 +41,10 @@ void computeRow(const cases::Case& one, const std::string& row, const StudyOptio
   Timing timing{parallel::size(), std::nullopt, false};
   if (!options.sharedTiming) timing.beside = 0;
   StudyRows rows(plan, cases::analysisFolder(one, options.output, "study"), timing);
-  if (wanted < plan.referenceRuns()) return rows.computeReference();
+  if (wanted < plan.referenceRuns()) {
+    rows.computeReference();
+    return rows.computeCompanions();
+  }
   rows.takeReference();
   while (!rows.isComplete(wanted)) rows.run(wanted, "");
   const auto& found = rows.result().rows[wanted];

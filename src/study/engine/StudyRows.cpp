@@ -121,6 +121,9 @@ void StudyRows::computeReference() {
         std::string("The reference run failed, so there is nothing to compare with. ") +
         error.what() + " Change the deck, or Study/Reference/Set.");
   }
+}
+
+void StudyRows::computeCompanions() {
   for (std::size_t i = 1; i < plan_.referenceRuns(); ++i)
     if (!isComplete(i)) run(i, result_.rows[i].plan.label);
 }

@@ -37,9 +37,11 @@ class StudyRows {
   /// Not the same deck as an earlier run.
   bool isFirst(std::size_t i) const { return plan_.runs[i].twin == i; }
 
-  /// Computes the reference and its companions where they are not known. ConvergenceError: the
-  /// reference fails, so that there is nothing to compare with.
+  /// Computes the reference where it is not known. ConvergenceError: it fails, so that there is
+  /// nothing to compare with.
   void computeReference();
+  /// The check of the reference and the perturbed run, where they are not known.
+  void computeCompanions();
   /// Takes the reference another process has computed. FileError when it is not there.
   void takeReference();
   /// One more repeat of a run. What fails of it is its row. `title` is that of the progress bar.
