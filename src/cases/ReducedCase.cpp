@@ -21,7 +21,7 @@ namespace {
 constexpr double mostSamples = 1024;
 
 /// Of a part without modes: both planes of bending, torsion and tension of a beam among them.
-constexpr int missingModes = 4;
+constexpr int watchedModes = 4;
 
 /// Modes of a part that its basis does not have; rows in the coordinates of the reduced part.
 std::vector<transient::MissingMode> modesBeyond(const model::Substructure& part,
@@ -30,7 +30,7 @@ std::vector<transient::MissingMode> modesBeyond(const model::Substructure& part,
       reduction::PartView(part).withBoundary(basis.partition.interface, basis.partition.retained);
   reduction::ModeRequest request;
   request.kind = reduction::ModeRequest::Kind::Count;
-  request.count = missingModes;
+  request.count = watchedModes;
   const auto found =
       reduction::fixedInterfaceModes(view, request, "modes that the basis does not have");
   const Sparse damping = part.model.dampingAt(time);
@@ -41,25 +41,6 @@ std::vector<transient::MissingMode> modesBeyond(const model::Substructure& part,
     const Vector shape = found.columns({k}, part.model.size());
     out.push_back({std::sqrt(eigenvalue), shape.dot(damping * shape),
                    basis.vectors.sparse().transpose() * Vector(part.model.mass * shape)});
-  }
-  return out;
-}
-
-/// Of all parts; rows in the coordinates of the coupled model.
-std::vector<transient::MissingMode> missingOf(const std::vector<model::Substructure>& parts,
-                                              const coupling::Synthesis& synthesis, double time) {
-  std::map<const reduction::Basis*, std::vector<transient::MissingMode>> known;
-  std::vector<transient::MissingMode> out;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const auto& reduced = synthesis.parts[p];
-    const bool physical = reduced.modes == 0 && !reduced.derivedInterface;
-    if (!physical || reduced.report.interior == 0) continue;
-    const auto [place, isNew] = known.try_emplace(reduced.basis.get());
-    if (isNew) place->second = modesBeyond(parts[p], *reduced.basis, time);
-    for (auto mode : place->second) {
-      mode.row = synthesis.coupled.maps[p].transpose() * mode.row;
-      out.push_back(std::move(mode));
-    }
   }
   return out;
 }
@@ -109,9 +90,24 @@ ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress) {
     }
   };
   out.outcome = estimate::synthesise(parts, one.reduction(), probe, out.unreduced.options);
-  if (one.moves())
-    out.missing =
-        missingOf(parts, out.outcome.synthesis, one.transient().get<double>("Start Time"));
+  return out;
+}
+
+std::vector<transient::MissingMode> missingModes(const Case& one, const ReducedCase& reduced) {
+  const double start = one.transient().get<double>("Start Time");
+  std::map<const reduction::Basis*, std::vector<transient::MissingMode>> known;
+  std::vector<transient::MissingMode> out;
+  for (std::size_t p = 0; p < reduced.parts().size(); ++p) {
+    const auto& part = reduced.parts()[p];
+    const bool physical = part.modes == 0 && !part.derivedInterface;
+    if (!physical || part.report.interior == 0) continue;
+    const auto [place, isNew] = known.try_emplace(part.basis.get());
+    if (isNew) place->second = modesBeyond(reduced.unreduced.parts[p], *part.basis, start);
+    for (auto mode : place->second) {
+      mode.row = reduced.coupled().maps[p].transpose() * mode.row;  // of the coupled model
+      out.push_back(std::move(mode));
+    }
+  }
   return out;
 }
 

@@ -15,8 +15,6 @@ struct ReducedCase {
   coupling::ResolvedCoupling unreduced;  ///< the parts before the reduction, and what joins them
   estimate::Outcome outcome;
   double sampling = 0.0;  ///< of the motion that chose the modes [s]; 0: none did
-  /// Of a case that moves, the first fixed-interface modes of each part that has none in its basis.
-  std::vector<transient::MissingMode> missing;
 
   const std::vector<reduction::ReducedSubstructure>& parts() const {
     return outcome.synthesis.parts;
@@ -34,6 +32,10 @@ struct ReducedCase {
 /// Reduces the parts of a case that has the list Reduction. A motion tolerance moves candidates;
 /// \param progress shows a progress bar then. Throws what estimate::synthesise throws. Collective.
 ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress = true);
+
+/// The first fixed-interface modes of each part that has none in its basis, for the start of the
+/// motion. Throws the errors of reduction::fixedInterfaceModes.
+std::vector<transient::MissingMode> missingModes(const Case& one, const ReducedCase& reduced);
 
 /// True when the list Reduction asks for the error of the motion, or for modes by it.
 bool estimatesMotion(const Case& one);

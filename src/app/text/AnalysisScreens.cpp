@@ -213,7 +213,7 @@ void ofMap(const screen::Json& summary) {
   line("points", fixed(points, 0),
        fixed(*number(summary, "/map/done"), 0) + " done, " +
            fixed(*number(summary, "/map/failed"), 0) + " failed");
-  constexpr std::size_t most = 4;  // values that are told
+  constexpr std::size_t most = 4;  // values that are shown
   const auto& values = summary.at("/map/values"_json_pointer);
   for (std::size_t i = 0; i < std::min(values.size(), most); ++i) {
     const auto& value = values[i];

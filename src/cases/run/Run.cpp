@@ -92,6 +92,7 @@ class Run {
       exportParts(rest_->contents(parts), reduced_.parts(), case_.output().exportFormat,
                   (std::filesystem::path(files_.folder().folder()) / "parts").string(),
                   loadTimes(case_));
+    if (case_.moves()) missing_ = missingModes(case_, reduced_);
     estimates_ = estimatesMotion(case_);
     if (!estimates_) reduced_.unreduced.parts.clear();
     parallel::agree([&] {
@@ -145,7 +146,7 @@ class Run {
   transient::RunHooks hooks() const {
     transient::RunHooks out;
     out.cutOffs = reduced_.cutOffs();
-    out.missing = reduced_.missing;
+    out.missing = missing_;
     return out;
   }
 
@@ -167,6 +168,7 @@ class Run {
   RunFiles files_;
   std::shared_ptr<const RestingCase> rest_;
   ReducedCase reduced_;
+  std::vector<transient::MissingMode> missing_;
   MeasuredLog log_;
   bool estimates_ = false;
   std::unique_ptr<Recorder> recorder_;

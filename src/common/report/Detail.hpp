@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What only somebody asks for who wants to know more: lines of --verbose.
+/// Lines that are printed with --verbose only.
 #pragma once
 
 #include <string>

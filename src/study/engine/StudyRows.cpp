@@ -82,8 +82,8 @@ void StudyRows::find() {
   std::vector<int> found;
   for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
     auto& row = result_.rows[i];
-    if (plan_.runs[i].scene && store_->restore(keys_[i], row) && row.plan.kind == RunKind::Method &&
-        !usable(row))
+    if (plan_.runs[i].scene && store_->restore(keys_[i], row) &&
+        row.plan.kind != RunKind::Reference && !usable(row))
       forget(row);
     found.push_back(row.status == "failed" ? -1 : static_cast<int>(row.cpu.size()));
   }
@@ -224,7 +224,7 @@ void StudyRows::execute(std::size_t i, const std::string& title) {
 /// Where, and beside how many others, it was timed: none beside the reference, which all wait for.
 void StudyRows::sign(StudyRow& row) const {
   row.machine = result_.machine;
-  row.beside = row.plan.kind == RunKind::Method ? timing_.beside : 0;
+  row.beside = row.plan.kind == RunKind::Reference ? 0 : timing_.beside;
 }
 
 /// What was known before the motion is kept.

@@ -17,15 +17,6 @@ namespace tooljoint::drillstring {
 
 using namespace beam::nodal;
 
-namespace {
-
-/// Newton iterations for an operation, from the string without friction and by the whole way again:
-/// twice what the slowest operation of strings that do not buckle takes. Strings that buckle have
-/// no state near the one without friction, and 3000 iterations do not find one.
-constexpr int mostIterations = 200;
-
-}  // namespace
-
 StiffString::StiffString(const Scene& scene, double bit)
     : scene_(hungAt(scene, bit)),
       path_(bendIntoWell(scene_)),
@@ -34,7 +25,9 @@ StiffString::StiffString(const Scene& scene, double bit)
       points_(scene_.contactPoints.slidingFast()) {
   frictionless_ =
       equilibrium::solveStatic(input({}), scene_.statics, staticSolver(scene_)).displacement;
-  scene_.statics.mostIterations = mostIterations;
+  // all stages together take no more than one may: a string that buckles has no state near this
+  // one, and thousands of iterations do not find one
+  scene_.statics.mostIterations = scene_.statics.maxIterations;
 }
 
 equilibrium::StaticInput StiffString::input(const softstring::Operation& operation) const {

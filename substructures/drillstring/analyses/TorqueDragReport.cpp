@@ -7,6 +7,7 @@
 #include "cases/run/AnalysisFiles.hpp"
 #include "cases/run/Run.hpp"
 #include "common/Constants.hpp"
+#include "common/report/Detail.hpp"
 #include "common/report/Log.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "substructures/drillstring/analyses/Calibration.hpp"
@@ -76,9 +77,11 @@ void printStiff(const Scene& scene, const TorqueDragProfile& profile,
                 const softstring::TorqueDragSettings& settings) {
   const TorqueDragRow& row = profile.row;
   const StiffLoads& stiff = *profile.stiff;
-  if (!stiff.found())
+  if (!stiff.found()) {
+    log::detail(stiff.failure);
     return log::warn(fmt::format("{} with the bit at {}: the stiff string has no result. {}",
                                  row.operation, text(row.bit, "m", 0), reason(row, stiff)));
+  }
   const double hookLoad = stiff.hookLoad + settings.blockWeight;
   log::info(fmt::format(
       "{:<18}{:>13}{:>9}{:>15}{:>9}{:>9}{:>14}{:>8}", row.operation, text(hookLoad, "kN", 1),

@@ -32,9 +32,8 @@ std::string unbalanceRemark(const Scene& scene) {
                       scene.list().sublist("Loads").sublist("Unbalance").numParams() > 0;
   if (!loaded || scene.topDrive.control != drilling::DriveControl::Torque) return "";
   return "Loads/Unbalance turns with Rotary Speed, but under the control \"Torque\" of Top Drive "
-         "the "
-         "string turns as fast as the torque makes it: force and phase of the unbalance are not "
-         "those of the string. Set Top Drive/Control to \"Speed\", or leave the unbalance out.";
+         "the string turns as fast as the torque makes it: force and phase of the unbalance are "
+         "not those of the string. Set Top Drive/Control to \"Speed\", or leave the unbalance out.";
 }
 
 }  // namespace tooljoint::drillstring

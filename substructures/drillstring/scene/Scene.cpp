@@ -263,9 +263,9 @@ void checkAxialFriction(const Scene& scene, Faults& faults) {
   });
   if (inclined == depths.end()) return;
   faults.add("Contact/Friction",
-             "does not say whether the wall drags along the hole a string that its block moves, "
-             "and the hole is not vertical. Give its Axial: true counts this drag; false leaves it "
-             "out, and with it the weight that it takes from the bit.");
+             "needs Axial, because the block moves the string in a hole that is not vertical. Give "
+             "true to count friction along the hole, or false to leave it out, and with it the "
+             "weight that it takes from the bit.");
 }
 
 /// What bends and eccentric gauges ask of the other lists.

@@ -57,7 +57,7 @@ def strong_friction(program, short):
             # steps that the verdict refuses, and schemes with all and with no numerical damping: what the tails come from
             ways += [(f"generalized-alpha {1e3 * step:g} ms, radius {radius:g}, full, any step error",
                       {**alpha(step, radius), "Transient/Step Error Warning": 5.0, "Transient/Step Error Limit": 5.0}, FULL, False)
-                     for step in (1e-3, 5e-4) for radius in (0.0, 0.8, 1.0)]
+                     for step in (1e-3, 5e-4, 2.5e-4) for radius in (0.0, 0.8, 1.0)]
         true, true_error = mean_and_error(truth)
         series = {"truth RK4 adaptive": [(q, x) for q, x in zip(QUANTILES, true)]}
         for label, way, without, required in ways:

@@ -12,7 +12,29 @@ double turning(double) { return 7.0; }
 
 class Energy : public ::testing::TestWithParam<const char*> {};
 
-// d(stored)/dt + damping + friction - drive = -(force . velocity) at every state
+/// Both sides of d(stored)/dt + damping + friction - drive = -(force . velocity).
+struct Balance {
+  std::vector<double> force;
+  tooljoint::model::PointLaw::Power power;
+  double storing = 0.0, work = 0.0;  ///< d(stored)/dt by central differences, force . velocity [W]
+
+  Balance(const tooljoint::model::PointLaw& law, const std::vector<int>& points, const State& state)
+      : force(tooljoint::contact::testing::force(law, 0.0, state.d, state.v)),
+        power(law.power(0.0, points, state.d.data(), state.v.data())) {
+    const double h = 2e-7;
+    std::vector<double> before = state.d, after = state.d;
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      work += force[i] * state.v[i];
+      before[i] -= h * state.v[i];
+      after[i] += h * state.v[i];
+    }
+    storing = (law.power(0.0, points, after.data(), state.v.data()).stored -
+               law.power(0.0, points, before.data(), state.v.data()).stored) /
+              (2.0 * h);
+  }
+  double losses() const { return storing + power.damping + power.friction - power.drive; }
+};
+
 TEST_P(Energy, PowersBalance) {
   const auto contact = law(GetParam())->inMotion(batch({steelOnRock(), steelOnRock(5e4)}), turning);
   for (const double G : {-1e-2, -1e-4, 1e-4, 1.5e-3}) {
@@ -20,22 +42,11 @@ TEST_P(Energy, PowersBalance) {
       State state(0.0285 + G, angle);
       state.d.insert(state.d.end(), {0.0285 + 2e-4, 1e-3, 0.0});
       state.v.insert(state.v.end(), {-0.4, 0.2, -3.0});
-      const auto f = force(*contact, 0.0, state.d, state.v);
-      const auto power = contact->power(0.0, {0, 1}, state.d.data(), state.v.data());
-      double work = 0.0;
-      for (std::size_t i = 0; i < f.size(); ++i) work += f[i] * state.v[i];
-      const double h = 2e-7;
-      std::vector<double> before = state.d, after = state.d;
-      for (std::size_t i = 0; i < f.size(); ++i) {
-        before[i] -= h * state.v[i];
-        after[i] += h * state.v[i];
-      }
-      const double storing = (contact->power(0.0, {0, 1}, after.data(), state.v.data()).stored -
-                              contact->power(0.0, {0, 1}, before.data(), state.v.data()).stored) /
-                             (2.0 * h);
-      const double scale = std::abs(storing) + power.damping + std::abs(power.friction) +
+      const Balance found(*contact, {0, 1}, state);
+      const auto& power = found.power;
+      const double scale = std::abs(found.storing) + power.damping + std::abs(power.friction) +
                            std::abs(power.drive) + 1.0;
-      EXPECT_NEAR(storing + power.damping + power.friction - power.drive, -work, 1e-6 * scale)
+      EXPECT_NEAR(found.losses(), -found.work, 1e-6 * scale)
           << GetParam() << " " << G << " " << angle;
       if (std::string(GetParam()) != "Nguyen") {
         EXPECT_GE(power.stored, 0.0);
@@ -53,21 +64,9 @@ INSTANTIATE_TEST_SUITE_P(Laws, Energy, ::testing::Values("Nguyen", "Clamped", "H
 TEST_P(Energy, PowersOfFrictionAlongTheHoleBalance) {
   const auto contact = law(GetParam())->inMotion(batch({steelOnRock()}), turning, along(0.4));
   const State state = State(0.0285 + 1.5e-3, 0.3).with(0.1, -0.15);
-  const auto f = force(*contact, 0.0, state.d, state.v);
-  const auto power = contact->power(0.0, {0}, state.d.data(), state.v.data());
-  double work = 0.0;
-  for (std::size_t i = 0; i < f.size(); ++i) work += f[i] * state.v[i];
-  const double h = 2e-7;
-  std::vector<double> before = state.d, after = state.d;
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    before[i] -= h * state.v[i];
-    after[i] += h * state.v[i];
-  }
-  const double storing = (contact->power(0.0, {0}, after.data(), state.v.data()).stored -
-                          contact->power(0.0, {0}, before.data(), state.v.data()).stored) /
-                         (2.0 * h);
-  EXPECT_NEAR(storing + power.damping + power.friction - power.drive, -work, 1e-6 * std::abs(work));
-  EXPECT_GT(std::abs(f[2] * 0.4), 1e-3 * power.drive) << "the block takes part";
+  const Balance found(*contact, {0}, state);
+  EXPECT_NEAR(found.losses(), -found.work, 1e-6 * std::abs(found.work));
+  EXPECT_GT(std::abs(found.force[2] * 0.4), 1e-3 * found.power.drive) << "the block takes part";
 }
 
 // The closed form against quadrature of F_n dG, from the wall inwards and outwards.

@@ -44,7 +44,7 @@ struct Sticky : model::Formula<3, 1> {
 const bool registered =
     model::registerFormula<Sticky>(deck::ListSpec("Sticky", "A law of the tests."));
 
-std::shared_ptr<const model::PointLaw> inBore() {
+std::shared_ptr<const model::PointLaw> inBore(const AxialSliding& axial = {}) {
   ContactPoints points;
   ContactPoint point;
   point.node = 3;
@@ -52,7 +52,9 @@ std::shared_ptr<const model::PointLaw> inBore() {
   point.clearance = clearance;
   point.contactRadius = radius;
   points.add(point);
-  return pointLawContact("Sticky", {})->inMotion(points, [](double) { return omega; });
+  return pointLawContact("Sticky", {})
+      ->inMotion(
+          points, [](double) { return omega; }, axial);
 }
 
 using Vector4 = Eigen::Vector4d;
@@ -89,15 +91,7 @@ TEST(PointLawContact, ActsInTheDirectionsOfTheWall) {
 /// What slides along is measured against the wall: the speed of the block counts, and its power.
 TEST(PointLawContact, SlidesAlongWithTheBlock) {
   constexpr double feed = 0.3, t = 2.0;
-  ContactPoints points;
-  ContactPoint point;
-  point.node = 3;
-  point.stiffness = 1.0;
-  point.clearance = clearance;
-  point.contactRadius = radius;
-  points.add(point);
-  const auto shared =
-      pointLawContact("Sticky", {})->inMotion(points, [](double) { return omega; }, {feed, false});
+  const auto shared = inBore({feed, false});
   const auto& law = *model::stateful(*shared);
   Vector4 f;
   double rate = 0;
