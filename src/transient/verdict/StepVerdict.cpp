@@ -103,7 +103,7 @@ struct Findings {
   bool isTooLarge() const {
     return isLost() || isSlow() || isFast() || (neighbour && shorter->size > limit && !isChaos());
   }
-  /// Whether neighbours have to be asked.
+  /// Whether neighbours have to be evaluated.
   bool isInDoubt() const {
     return shorter && !isLost() && (shorter->size > limit || (late && !isRight()));
   }

@@ -57,7 +57,7 @@ class StiffString {
   StiffString(const Scene& scene, double bit);
 
   /// The static state that slides as the operation says, with the `Dynamic` friction coefficient.
-  /// An equilibrium that is not found is told in the result.
+  /// An equilibrium that is not found is marked in the result.
   StiffLoads under(const softstring::Operation& operation) const;
 
  private:
