@@ -48,10 +48,9 @@ struct Findings {
   }
   /// max(r, 1/r) - 1
   double speedError() const { return std::exp(std::abs(std::log(speeds()))) - 1; }
-  /// Displacements that are not right; or nearly so, and velocities that are not those at all.
+  /// Velocities that are not those at all, of motion that has a share in the displacements.
   bool isOther() const {
-    return shorter->size > warning ||
-           (shorter->size > nearlyRight * warning && shorter->velocities > lostVelocities);
+    return shorter->size > nearlyRight * warning && shorter->velocities > lostVelocities;
   }
   /// S is as large as the motion, and the motion not found right enough in all its length.
   bool isLost() const {
@@ -78,9 +77,9 @@ struct Findings {
   /// Contact that neither the steps nor what they are compared with resolve.
   bool isUnknown() const { return rests && shorterStep > 0 && (!shorter || shorter->unresolved); }
   /// The step error. S where nothing is compared, which refuses nothing below 1. Else the largest
-  /// of D, where neighbours do not part as far; of the speeds, where the motion is not that of the
-  /// shorter steps; and of V where it is above the warning, which refuses nothing: vibration too
-  /// fast for the step has little of the displacement.
+  /// of D, where neighbours do not part as far; of the speeds, where the motion is another; and of
+  /// V where it is above the warning, which refuses nothing: vibration too fast for the step has
+  /// little of the displacement.
   double stepError() const {
     if (isLost()) return error;
     if (!shorter) return std::min(error, limit);

@@ -15,13 +15,12 @@ namespace tooljoint::transient {
 /// Of `span` seconds from a state on.
 using Comparison = std::function<StepComparison(const State& from, double span)>;
 
-/// Where S is above half of `Step Error Limit`, or the scheme damps more than a fifth of `Step Error
-/// Warning`, or contact rests on walls too stiff for the step, the motion is compared
+/// Where S is above half of `Step Error Limit`, or the scheme damps more than a fifth of `Step
+/// Error Warning`, or contact rests on walls too stiff for the step, the motion is compared
 /// (StepComparison.hpp). The step error is then the largest of
 ///
 ///     D                       unless neighbours part as far: the motion is chaotic
-///     (max(r, 1/r) - 1)/2.5   at most 1, where D is above the warning, or above 0.4 times that
-///                             with V above 0.8
+///     (max(r, 1/r) - 1)/2.5   at most 1, where V is above 0.8 and D above 0.4 times the warning
 ///     min(V/4, limit)         where V/4 is above the warning
 ///
 /// It is min(S, limit) where nothing is compared, and S where that is above 1, unless all of the
