@@ -6,34 +6,21 @@ import numpy as np
 
 from program import FULL
 from rows import Plot, against, case, judged, statement
-from scenes import (DENSITY, AREA, GRAVITY, HELICAL, INERTIA, LYING, OUTER, SHEAR, STRESS, THETA_Z, U, V, alpha,
-                    arkode, bit_speed, lateral_speed, models, parts_deck, relative_error, rk4, rk4_adaptive, times)
-
-RPM = math.pi / 30
-QUANTILES = (5, 25, 50, 75, 95)
+from scenes import (AREA, DENSITY, GRAVITY, HELICAL, INERTIA, LYING, OUTER, QUANTILES, RPM, SHEAR, STRESS, THETA_Z, U, V, alpha, arkode,
+                    bit_quantiles, bit_speed, ensemble, lateral_speed, mean_and_error, models, parts_deck, relative_error, rk4,
+                    rk4_adaptive, times)
 
 
-def mean_and_error(values):
-    """Mean of runs and the half width of its 95 % interval."""
-    values = np.asarray(values, float)
-    return values.mean(axis=0), 2.1 * values.std(axis=0, ddof=1) / math.sqrt(len(values))
-
-
-def ensemble(program, name, settings, without, runs, begin, end):
-    """Statistics of runs whose weight on bit differs by 10 N: bit speed quantiles [rpm] and rms lateral speed [m/s]."""
-    found, last = [], None
-    for i in range(runs):
-        last = program.run(name, STRESS, {**settings, **times(end, 0.005), "Loads/Weight On Bit": 1e4 + 10.0 * i}, without)
-        if not last.done:
-            return last, None
-        speeds = np.percentile(bit_speed(last, begin), QUANTILES) / RPM
-        u, v, du, dv = (last.nodes(c, what)[last.time() >= begin] for what in ("displacement", "velocity") for c in (U, V))
+def whirl(begin):
+    """Measures of a run: quantiles of the bit speed [rpm], rms lateral speed [m/s], share of backward whirl, depth in the wall [m]."""
+    def measure(run):
+        u, v, du, dv = (run.nodes(c, what)[run.time() >= begin] for what in ("displacement", "velocity") for c in (U, V))
         moving = np.hypot(u, v).max(axis=0) > 1e-3
-        whirl = float(np.mean((u * dv - v * du)[:, moving] < 0))
-        clearance = last.data("model/clearance")
+        backward = float(np.mean((u * dv - v * du)[:, moving] < 0))
+        clearance = run.data("model/clearance")
         outside = float((np.hypot(u, v).max(axis=0) - clearance)[1:-1].max())
-        found.append([*speeds, lateral_speed(last, begin), whirl, outside])
-    return last, np.array(found)
+        return [*bit_quantiles(run, begin), lateral_speed(run, begin), backward, outside]
+    return measure
 
 
 @case(4, "Strong friction, hardly any damping", "friction 0.5/0.4, damping 0.002 1/s; stress_170m; 16 perturbed runs of three integrators",
@@ -44,9 +31,10 @@ def strong_friction(program, short):
     easy = None
     for static, dynamic in ((0.5, 0.4),):
         mu = {"Contact/Friction/Static": static, "Contact/Friction/Dynamic": dynamic}
-        reference, truth = ensemble(program, "c4_truth", {**mu, **rk4_adaptive(1e-2)}, FULL, runs, begin, end)
-        if truth is None:
-            yield judged(reference, f"friction {static}/{dynamic}", "RK4 adaptive", None, 0.0, required=True)
+        mu.update(times(end, 0.005))
+        truth, refused, _ = ensemble(program, "c4_truth", {**mu, **rk4_adaptive(1e-2)}, FULL, runs, whirl(begin))
+        if refused:
+            yield judged(refused[0], f"friction {static}/{dynamic}", "RK4 adaptive", None, 0.0, required=True)
             continue
         # over 2.5 s steps of 1 ms miss a fifth of the motion before that is chaotic, and are refused
         ways = [("generalized-alpha 1 ms, full", alpha(1e-3), FULL, short)]
@@ -61,11 +49,11 @@ def strong_friction(program, short):
         true, true_error = mean_and_error(truth)
         series = {"truth RK4 adaptive": [(q, x) for q, x in zip(QUANTILES, true)]}
         for label, way, without, required in ways:
-            run, found = ensemble(program, "c4", {**mu, **way}, without, runs, begin, end)
+            found, refused, run = ensemble(program, "c4", {**mu, **way}, without, runs, whirl(begin))
             easy = easy or run
             variant = f"friction {static}/{dynamic}, {label}"
-            if found is None:
-                yield judged(run, variant, f"{runs} runs", None, 0.0, required=required)
+            if refused:
+                yield judged(refused[0], variant, f"{runs} runs", None, 0.0, required=required)
                 continue
             mean, error = mean_and_error(found)
             series[label] = [(q, x) for q, x in zip(QUANTILES, mean)]

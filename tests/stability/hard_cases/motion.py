@@ -85,7 +85,8 @@ def large_steps(program, short):
                 def wrong():
                     found = program.vibration_error(run, truth, end)
                     series.setdefault(f"{name}, {model}", []).append((1e3 * step, found))
-                    return "0", "vibration error", found
+                    # impacts are followed in shorter steps than the deck asks for
+                    return "0", f"vibration error, {run.motion['steps']} steps", found
                 yield judged(run, f"{name}, {model}", f"step {1e3 * step:g} ms", wrong, 0.05, required=step <= 1e-3, easy=easy, motion=True)
     if not short:
         yield Plot("steps", "Error of the steps that are accepted", "step [ms]", "vibration error", series, "xy")
