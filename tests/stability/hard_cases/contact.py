@@ -341,6 +341,10 @@ def all_at_once(program, short):
             worst = found[np.argmax(np.abs(found - 1))]
             return against(1.0, float(worst))
         yield judged(run, f"{count} balls, Max Iterations 20", f"wall {stiffness:g} N/m", measure, 0.05, required=True, easy=easy)
+        if not short:
+            for label, way in (("RK4 adaptive 1e-4", rk4_adaptive(1e-4)), ("ARKODE 1e-5", arkode(1e-5))):
+                run = ball(program, stiffness, 0.0, height, {**way, **times(0.2, step)}, "c24_balls", count, 1e4)
+                yield judged(run, f"{count} balls, {label}", f"wall {stiffness:g} N/m", measure, 0.05, required=True, easy=easy)
     throw = {}
     nodes = 31
     for factor in (3.0,) if short else (1.5, 3.0, 10.0):
