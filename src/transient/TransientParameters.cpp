@@ -40,8 +40,7 @@ deck::ListSpec parameters() {
       .choice("Ranks", std::string("Automatic"), {"Automatic", "Divide", "Alike"},
               "Of several MPI ranks: each computes a piece of the model (Divide), or all do the "
               "same (Alike). Automatic divides models of 1500 dofs and more. The integrators of "
-              "SUNDIALS do not divide a motion and refuse Divide; models with states of point laws "
-              "are not divided.")
+              "SUNDIALS do not divide a motion and refuse Divide.")
       .expert();
   const TransientOptions usual;
   spec.real("Step Error Warning", "", usual.stepErrorWarning, deck::Range::positive(),
