@@ -53,7 +53,7 @@ struct StudyRow {
   long modes = 0;     ///< kept modal coordinates of all parts
   long dofs = 0;  ///< of the model that was integrated; 0 until there is one. A motion that fails
                   ///< leaves this and `modeErrors`
-  ModeErrors modeErrors;  ///< of a reduced model, where the study wants frequencies
+  ModeErrors modeErrors;  ///< of a reduced model, where the study has frequencies
   std::string integrator;
   std::optional<double> stepOrTolerance;
   double simulated = 0.0;         ///< [s]
@@ -64,7 +64,7 @@ struct StudyRow {
   std::optional<double> energyResidual;
   std::optional<PointwiseErrors> errors;     ///< none for the reference itself
   std::optional<double> estimatedVibration;  ///< of vibration error, without the reference; where
-                                             ///< Reduction/Error Estimate wants it
+                                             ///< Reduction/Error Estimate is set
   std::optional<StatisticsDifference> statistics;
   double maxPenetration = 0.0;
   long missedNodes = 0;       ///< nodes that passed the wall where the model has no contact

@@ -51,7 +51,7 @@ struct Execution {
   double setupCpu = 0.0, setupWall = 0.0;  ///< of the model in kernel form
   long missedNodes = 0;
   double maxPenetration = 0.0;
-  std::optional<double> estimatedVibration;  ///< where Reduction/Error Estimate wants that of
+  std::optional<double> estimatedVibration;  ///< where Reduction/Error Estimate has that of
                                              ///< the transient; its time is not in `cpu` and `wall`
 };
 

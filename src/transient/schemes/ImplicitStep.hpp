@@ -4,7 +4,7 @@
 ///
 ///     M (a + ca delta) + cv C delta + K (q + delta) = F + R' f(q + delta, cv delta, t)
 ///
-/// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme wants it, see
+/// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme has it, see
 /// AlphaStep::setPhaseCorrection) is solved for delta = v / cv, first by relaxation of the point
 /// forces with the effective matrix S = ca M + cv C + K - R'PR factored once
 /// (ContactForceIteration), and where that is slow by modified Newton with exact tangents
