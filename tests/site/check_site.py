@@ -5,10 +5,12 @@
 Every link within the site leads to a file and an anchor that are there, every picture exists, every page of docs/ has become one, every page
 stands in the navigation of the first, and the reference of the Python package has all it offers. In Chromium, where it is installed, a page has no errors and its theme switch works. Links to other hosts are not opened (target `docs-linkcheck`).
 """
+import csv
 import html.parser
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -22,6 +24,7 @@ from pictured import RECORD  # noqa: E402
 
 GENERATED = {"index.html", "genindex.html", "search.html"}  # of Sphinx, or the way to the first page
 LARGEST_PICTURE = 150_000  # bytes; pictures are read over slow lines and stay in the repository for good
+LONGEST_TABLE = 90  # rows of a table in a page; longer ones are files of docs/tables
 
 
 OFFERED = """
@@ -131,11 +134,26 @@ def main():
     written = "".join(path.read_text(encoding="utf-8") for path in [*(project / "docs").rglob("*.md"), project / "README.md"])
     unseen = [path.name for path in figures if f"figures/{path.name}" not in written]
     expect("every figure is on a page", not unseen, ", ".join(unseen))
+    tabulated(project / "docs")
     if (build / "python/tooljoint/__init__.py").exists():
         documented(build / "python", pages, site / "docs/api")
     if browser.program():
         clicked(site / "docs/index.html")
     return finish()
+
+
+def tabulated(docs):
+    """Long tables are CSV files, each linked from a page that says how many rows it has."""
+    texts = {path: path.read_text(encoding="utf-8") for path in docs.rglob("*.md")}
+    long = [f"{path.name}: {rows}" for path, text in texts.items() for table in re.findall(r"(?:^\|.*\n)+", text, re.M) if (rows := table.count("\n") - 2) > LONGEST_TABLE]
+    expect(f"tables in pages have at most {LONGEST_TABLE} rows", not long, ", ".join(long))
+    text = "\n".join(texts.values())
+    said = {name: int(rows) for rows, name in re.findall(r"\b(?:All|of|The) (\d+) [\w ]+\(?\[[^\]]+\]\(tables/(\w+\.csv)\)", text.replace(": [", " ["))}
+    found = {}
+    for path in (docs / "tables").glob("*.csv"):
+        with open(path, newline="", encoding="utf-8") as file:
+            found[path.name] = len(list(csv.reader(file))) - 1
+    expect(f"{len(found)} tables have the rows that the pages say", len(found) > 30 and said == found, sorted(set(said.items()) ^ set(found.items())))
 
 
 def documented(package, pages, folder):
