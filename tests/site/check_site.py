@@ -28,6 +28,10 @@ GENERATED = {"index.html", "genindex.html", "search.html"}  # of Sphinx, or the 
 LARGEST_PICTURE = 150_000  # bytes; pictures are read over slow lines and stay in the repository for good
 ELSEWHERE = {"https://uscilab.github.io/cereal/"}  # links to other hosts, which only `docs-linkcheck` opens
 THEME = {"https://github.com/pradyunsg/furo", "https://pradyunsg.me"}  # those that the theme writes into each page
+# Target or tool of each figure of record; all but the first are part of the target `records`.
+MAKERS = {"architecture.svg": "tests/lint/picture.py", "cms_variants_*.png": "cms-variants", "hard_*.svg": "hard-cases", "map_*.svg": "maps", "step_error.svg": "step_accuracy",
+          "scale_*.svg": "scale", "speed_*.svg": "speed_against_error", "modes_*.svg": "speed_against_error", "drilling_*.png": "docs-pictures", "python_*.png": "docs-pictures",
+          "report_*.png": "docs-pictures", "tutorial_*.png": "docs-pictures"}
 LONGEST_TABLE = 90  # rows of a table in a page; longer ones are files of docs/tables
 
 
@@ -144,6 +148,10 @@ def main():
     figures = sorted(path for path in (project / "docs/figures").iterdir() if path != RECORD)
     large = [path.name for path in figures if path.stat().st_size > LARGEST_PICTURE]
     expect("figures are small", figures and not large, ", ".join(large))
+    unmade = [path.name for path in figures if sum(path.match(pattern) for pattern in MAKERS) != 1]
+    records = re.search(r"if\(PYTHON3_FOR_FIGURES AND .*?\nendif", (project / "cmake/DeveloperTools.cmake").read_text(encoding="utf-8"), re.S)[0]
+    unmade += [maker for maker in list(MAKERS.values())[1:] if not re.search(rf"[ (]{maker}[ )]", records)]
+    expect("every figure has a maker, which the target records runs", not unmade, ", ".join(unmade))
     written = "".join(path.read_text(encoding="utf-8") for path in [*(project / "docs").rglob("*.md"), project / "README.md"])
     unseen = [path.name for path in figures if f"figures/{path.name}" not in written]
     expect("every figure is on a page", not unseen, ", ".join(unseen))
