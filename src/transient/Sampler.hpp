@@ -28,7 +28,7 @@ class Sampler {
  private:
   const State& between(const State& from, const State& to, double x);
   void give(double t, const State& state);
-  void pass(double t, const State& state);
+  void pass(double t);
   template <class Work>
   void guard(const Work& work);
 
@@ -40,6 +40,7 @@ class Sampler {
   long count_;
   State middle_;
   Vector q_, v_, a_;  ///< of the whole, in dofs
+  Vector x_;          ///< states of the point laws of all ranks
   std::exception_ptr failure_;
 };
 

@@ -399,6 +399,27 @@ StaticState solveStaticFrom(const StaticInput& input, const StaticOptions& optio
   return state;
 }
 
+std::optional<StaticState> slideStatic(const StaticInput& input, const StaticOptions& options,
+                                       const SlideRequest& asked,
+                                       const model::NonlinearSolver& solve, const Vector& start) {
+  StaticProblem problem(input);
+  auto switches = switchesOf(input, options);
+  switches.lateralStepLimit = options.lateralStepLimit;
+  switches.slideAlongWall = true;
+  switches.pull = 0.0;
+  switches.frictionScale = asked.frictionScale;
+  problem.set(switches);
+  Vector x = problem.restrict(start);
+  const Slide slide = slideToRest(problem, asked, solve, x);
+  if (!slide.rests) return std::nullopt;
+  StaticState state = describe(input, problem, problem.expand(x));
+  state.report.stages.push_back({"sliding to rest", slide.iterations, slide.residual});
+  state.report.iterations = slide.iterations;
+  state.report.residual = slide.residual;
+  state.report.converged = true;
+  return state;
+}
+
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
                         const model::NonlinearSolver& solve) {
   StaticProblem problem(input);

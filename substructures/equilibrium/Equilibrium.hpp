@@ -4,6 +4,7 @@
 /// 2020, section 3.2).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "deck/ListSpec.hpp"
@@ -82,6 +83,12 @@ StaticState solveStaticFrom(const StaticInput& input, const StaticOptions& optio
 StaticState leaveUnstable(const StaticInput& input, const StaticOptions& options,
                           const model::NonlinearSolver& solve, const StaticState& from,
                           const UnstableMode& mode);
+
+/// The state of rest that the string slides to from the displacement `start`: see slideToRest();
+/// walls only push. None: it does not come to rest.
+std::optional<StaticState> slideStatic(const StaticInput& input, const StaticOptions& options,
+                                       const SlideRequest& asked,
+                                       const model::NonlinearSolver& solve, const Vector& start);
 
 /// The complete state from its displacement (6 per node).
 StaticState describe(const StaticInput& input, const StaticProblem& problem,

@@ -28,6 +28,15 @@ constexpr int mostSteps = 2000, mostFinalSteps = 50, mostIterations = 60;
 /// Accuracy of the steps that only lead to the next one.
 constexpr double stepTolerance = 1e-6;
 
+/// alpha at the start of slideToRest [1/s2]: the square of twice the growth rate, 1 to 5 1/s, with
+/// which drill pipe buckles.
+constexpr double slidingStart = 100.0;
+/// A step that takes no more iterations than this may be followed by one of half the alpha; one
+/// that takes more than the second number is repeated with four times the alpha.
+constexpr int easyIterations = 4, slidingIterations = 12;
+/// Residual of a step of slideToRest over that of its start.
+constexpr double slidingAccuracy = 0.1;
+
 /// r(x) + alpha W (x - x_n).
 class ProximalProblem : public model::InUnknownsOf<model::ChainProblem> {
  public:
@@ -137,6 +146,34 @@ SettlingReport settle(const StaticInput& input, StaticProblem& problem, const Un
       "is " +
       formatNumber(report.residual) + " of the largest load where " + formatNumber(tolerance) +
       " is allowed. Reduce the loads, or set Static/Unstable State to \"Warn\".");
+}
+
+Slide slideToRest(const StaticProblem& problem, const SlideRequest& asked,
+                  const model::NonlinearSolver& solve, Vector& x) {
+  ProximalProblem proximal(problem, problem.restrict(asked.mass));
+  model::SolveRequest request;
+  request.what = "the static equilibrium of a string that slides to rest";
+  request.search = model::LineSearch::None;
+  Slide slide;
+  slide.residual = scaledResidual(problem, x);
+  for (double alpha = slidingStart; slide.iterations < asked.mostIterations;) {
+    proximal.set(alpha, x);
+    request.tolerance = std::max(0.5 * asked.tolerance, slidingAccuracy * slide.residual);
+    request.maxIterations = std::min(slidingIterations, asked.mostIterations - slide.iterations);
+    Vector next = x;
+    const auto outcome = solve(proximal, next, request);
+    slide.iterations += outcome.iterations;
+    if (!outcome.converged || !next.allFinite()) {
+      alpha *= convexity;
+      continue;
+    }
+    x = next;
+    slide.residual = scaledResidual(problem, x);
+    slide.rests = slide.residual <= asked.tolerance;
+    if (slide.rests || asked.stop(problem.expand(x))) break;
+    if (outcome.iterations <= easyIterations) alpha = std::max(0.5 * alpha, finalShare);
+  }
+  return slide;
 }
 
 }  // namespace tooljoint::equilibrium

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// From an unstable state of rest to the next one: along the unstable mode and then downhill, with
-/// inertia-weighted implicit Euler steps in a pseudo-time.
+/// From an unstable state of rest to the next one, with inertia-weighted implicit Euler steps in a
+/// pseudo-time: along the unstable mode and then downhill, or sliding with friction.
 #pragma once
+
+#include <functional>
 
 #include "model/NonlinearSolve.hpp"
 #include "substructures/equilibrium/StaticProblem.hpp"
@@ -33,5 +35,33 @@ struct SettlingReport {
 /// (no contact, or a mode that does not move sideways), or the string does not come to rest.
 SettlingReport settle(const StaticInput& input, StaticProblem& problem, const UnstableMode& mode,
                       double tolerance, const model::NonlinearSolver& solve, Vector& x);
+
+/// How a string slides to rest.
+struct SlideRequest {
+  Vector mass;  ///< diagonal of the mass matrix, 6 entries per node [kg, kg m2]
+  double frictionScale = 1.0;
+  double tolerance = 0.0;
+  int mostIterations = 0;  ///< of Newton's method in all steps together
+  /// True for a displacement (6 entries per node) past which nothing is looked for.
+  std::function<bool(const Vector& full)> stop;
+};
+
+/// What one string did.
+struct Slide {
+  bool rests = false;
+  int iterations = 0;
+  double residual = 0.0;  ///< scaled, of the static equilibrium
+};
+
+/// Moves x (free dofs) to a state of rest under all forces that the switches of `problem` name,
+/// friction included, by the overdamped motion
+///
+///     alpha diag(M) (x_n+1 - x_n) + r(x_n+1) = 0
+///
+/// with less alpha where Newton's method converges at once, more where it does not
+/// (pseudo-transient continuation; C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal. 35 (1998)
+/// 508-523). Friction has no energy that falls, so nothing guarantees that the motion ends.
+Slide slideToRest(const StaticProblem& problem, const SlideRequest& asked,
+                  const model::NonlinearSolver& solve, Vector& x);
 
 }  // namespace tooljoint::equilibrium

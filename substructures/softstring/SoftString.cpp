@@ -11,9 +11,6 @@
 namespace tooljoint::softstring {
 namespace {
 
-/// Axial strain at which a string pushed from above counts as locked up: steel yields before.
-constexpr double lockedStrain = 0.01;
-
 /// Halvings that find where within a step a helix begins or ends: to nanometres.
 constexpr int halvings = 32;
 

@@ -71,6 +71,9 @@ struct Loads {
   double lockUpDepth = -1.0;
 };
 
+/// Axial strain at which a string that is pushed counts as locked up: steel yields before.
+inline constexpr double lockedStrain = 0.01;
+
 /// d, upwards [N/m]; zero where the body fills the hole.
 double mudDrag(const beam::Section& section, double holeRadius, const Circulation& mud);
 

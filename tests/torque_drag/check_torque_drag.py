@@ -277,12 +277,14 @@ def weight_on_bit():
 
 
 def buckled():
-    """A state of the stiff string that its weight on bit buckles is warned of."""
-    for weight, unstable in (("60 kN", False), ("200 kN", True)):
+    """Where its weight on bit buckles it, the stiff string slides to a stable state on the wall."""
+    for weight, buckles in (("60 kN", False), ("200 kN", True)):
         done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output", "buckled", "--without", "Torque and Drag", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Operations={Drill sliding}",
                          "--set", f"Loads/Weight On Bit={weight}")
         said = " ".join((done.stdout + done.stderr).split())
-        expect(f"{weight}: states of the stiff string are said to be {'un' if unstable else ''}stable", ("of the stiff string are unstable" in said) == unstable, said[-800:])
+        expect(f"{weight}: the state of the stiff string is {'' if buckles else 'not '}buckled", ("1 of 1 states of the stiff string are buckled" in said) == buckles, said[-800:])
+        expect(f"{weight}: and stable", "of the stiff string are unstable" not in said, said[-800:])
+        expect(f"{weight}: the table has it", float(rows("buckled")[0]["stiff_buckled"]) == buckles, rows("buckled")[0])
 
 
 def pulled():
@@ -313,15 +315,23 @@ def grouped():
 
 def locked():
     """Pushed so hard that it locks up, a string has no loads at the surface, and its profile ends below the lock-up. With bending stiffness it
-    has no result, which is said after a bounded number of iterations and with the reason."""
+    locks up, too, where its elements resolve the waves; else that is said."""
     survey = pathlib.Path("horizontal.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 90, 0\n2000, 90, 0\n", encoding="utf-8")
     words = ["torque-drag", DECK]
     for setting in ("Well/Trajectory=Survey", f"Well/Survey/File={survey}", "Torque and Drag/Count=1", "Torque and Drag/Operations={Drill sliding}"):
         words += ["--set", setting]
-    for weight, reason in (("600 kN", "has no result. The soft string locks up."), ("200 kN", "times the helical limit (soft string): a string that buckles")):
-        done = tooljoint(*words, "--output", "locked " + weight, "--set", f"Loads/Weight On Bit={weight}")
+    pipe = '<ParameterList name="pipe"><Parameter name="Length" type="double" value="300"/><Parameter name="Elements" type="int" value="300"/>' \
+        '<Parameter name="Outer Radius" type="double" value="0.0635"/><Parameter name="Inner Radius" type="double" value="0.0543"/></ParameterList>'
+    text = pathlib.Path(DECK).read_text(encoding="utf-8").replace('<ParameterList name="Components">', '<ParameterList name="Components">' + pipe)
+    pathlib.Path("fine.xml").write_text(text, encoding="utf-8")
+    for weight, deck, reason in (("600 kN", DECK, "has no result. The soft string locks up. It buckles, and its elements of 9 m are too long for the half waves of a helix"),
+                                 ("200 kN", DECK, "times the helical limit (soft string). It buckles, and its elements of 9 m are too long"),
+                                 ("1200 kN", "fine.xml", "the stiff string locks up.")):
+        fine = ["--set", "Drillstring/Assembly={pipe}", "--set", "Contact/Friction/Static=0.5", "--set", "Contact/Friction/Dynamic=0.5"] if deck != DECK else []
+        done = tooljoint(words[0], deck, *words[2:], *fine, "--output", "locked " + weight, "--set", f"Loads/Weight On Bit={weight}")
         expect(f"{weight}: why the stiff string has no result", done.returncode == 0 and reason in " ".join(done.stderr.split()), done.stderr)
+    expect("the table says that it locks up", float(rows("locked 1200 kN")[0]["stiff_locked_up"]) == 1 and float(rows("locked 600 kN")[0]["stiff_locked_up"]) == 0)
     row = rows("locked 600 kN", "torque_drag.csv")[0]
     expect("it locks up", row["lock_up_depth"] != "" and 0 < float(row["lock_up_depth"]) < 1425, row)
     expect("no loads at the surface", all(row[key] == "" for key in ("hook_load", "surface_torque", "twist", "stretch")), row)

@@ -358,6 +358,8 @@ const std::vector<std::string>& documentedKeys() {
       "torque_drag.rows[].helical_margin",
       "torque_drag.rows[].helical_margin_depth",
       "torque_drag.rows[].lock_up_depth",
+      "torque_drag.rows[].stiff_locked_up",
+      "torque_drag.rows[].stiff_buckled",
       "torque_drag.rows[].stiff_hook_load",
       "torque_drag.rows[].stiff_surface_torque",
       "torque_drag.rows[].stiff_twist",

@@ -65,7 +65,7 @@ LargestRate::Rates LargestRate::operator()(const State& state, double end) {
     y.setZero();
     subtractPoints(&Tangents::state, x, y);
   });
-  return {largestRoot(g, k, c) + ofStates_, std::sqrt(contact)};
+  return {largestRoot(g, k, c) + model_.cut().largest(ofStates_), std::sqrt(contact)};
 }
 
 /// The value of each law where it is largest in size.

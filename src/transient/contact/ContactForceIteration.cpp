@@ -142,19 +142,16 @@ void ContactForceIteration::solveNear(const linalg::BlockFactor& factor, double 
   }
   factor.solveNear(near_.data(), live_, weight_.data(), Tuned::dropped * small);
   const auto& pattern = model_->pattern();
-  double reached = 0;
-  for (int b : live_) {
+  for (int b : live_)
     for (int i = pattern.start(b); i < pattern.start(b + 1); ++i)
       delta[i] += near_[i], near_[i] = 0;
-    reached += model_->cut().owns(pattern.start(b)) ? 1 : 0;
-  }
-  nearShare_ = model_->cut().sum(reached) / model_->wholeBlocks();
   isNear_ = true;
 }
 
-bool ContactForceIteration::isFew(long here) const {
-  const long points = std::lround(model_->cut().sum(static_cast<double>(here)));
-  return Tuned::positionsPerPoint * points < model_->wholeSize();
+bool ContactForceIteration::isFew(long here) {
+  const double points = model_->cut().sum(static_cast<double>(here));
+  nearShare_ = Tuned::positionsPerPoint * points / model_->wholeSize();
+  return nearShare_ < 1.0;
 }
 
 bool ContactForceIteration::correct(double t, double c, double small, bool all) {

@@ -54,8 +54,11 @@ class ContactForceIteration {
   /// The same after a correct() that says so: delta changes by what the forces of the points
   /// corrected have changed, but for residuals below `small`.
   void solveNear(const linalg::BlockFactor& factor, double small, Vector& delta);
-  /// Share of all blocks that the last solveNear() reached.
+  /// What such a solve costs beside one of all, by the number of points: how far it reaches depends
+  /// on where the model is cut for the ranks, and what is decided by costs must not.
   double nearShare() const { return nearShare_; }
+  /// Blocks of this rank that the last solveNear() reached.
+  std::size_t reached() const { return live_.size(); }
   /// Evaluate the laws at delta (v is c delta). Returns max |w R'(f - P y - p)| by rows; `force`
   /// becomes the largest of itself and |w f|; an error below `small` needs no care. After
   /// solveNear() only what moved is evaluated.
@@ -80,7 +83,7 @@ class ContactForceIteration {
 
  private:
   void prepare(std::size_t number, double t, double c);
-  bool isFew(long here) const;
+  bool isFew(long here);
   double largestOfAll(double worst, double& force) const;
 
   CompiledModel* model_ = nullptr;
@@ -97,7 +100,7 @@ class ContactForceIteration {
   bool isNear_ = false;    ///< the last solve was solveNear()
   bool allMoved_ = true;   ///< the last correction was of all points that were wrong: those it did
                            ///< not reach are right
-  double nearShare_ = 0;   ///< of all blocks, that it reached
+  double nearShare_ = 0;
 };
 
 }  // namespace tooljoint::transient

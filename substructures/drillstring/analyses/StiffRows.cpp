@@ -15,7 +15,7 @@ namespace {
 
 using Row = std::vector<StiffLoads>;
 
-constexpr int storeFormat = 2;  ///< raised when the meaning of a kept depth changes
+constexpr int storeFormat = 3;  ///< raised when the meaning of a kept depth changes
 
 /// Without an equilibrium there is nothing to slide from: the first operation has that failure, the
 /// others refer to it.

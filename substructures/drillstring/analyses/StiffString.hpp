@@ -4,12 +4,14 @@
 /// the friction of an operation.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "substructures/drillstring/EquationBuilder.hpp"
 #include "substructures/drillstring/figures/BendingFigures.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/equilibrium/Equilibrium.hpp"
 #include "substructures/path/PathState.hpp"
 #include "substructures/softstring/SoftString.hpp"
 
@@ -24,11 +26,14 @@ struct Margin {
 /// Loads of the stiff string in one operation. Forces and torques as those of softstring::Loads.
 struct StiffLoads {
   std::string failure;                          ///< why there is no equilibrium; empty: there is
+  bool locksUp = false;                         ///< that is why
+  std::string unsettled;                        ///< why no buckled state was found
   double hookLoad = 0.0, surfaceTorque = 0.0;   ///< without block weight [N, N m]
   double twist = 0.0;                           ///< of the surface ahead of the bit [rad]
   double stretch = 0.0;                         ///< by effective tension [m]
   double torqueDefect = 0.0;                    ///< StaticState::relativeTorqueDefect()
   int iterations = 0;                           ///< of Newton's method
+  bool buckled = false;                         ///< it slid to rest from an unstable state
   int negativePivots = 0;                       ///< of the tangent; 0: stable but for friction
   std::vector<double> depth;                    ///< of the nodes, from the surface [m]
   std::vector<double> contactForce;             ///< of each node [N]
@@ -41,8 +46,8 @@ struct StiffLoads {
   bool found() const { return failure.empty(); }
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(failure, hookLoad, surfaceTorque, twist, stretch, torqueDefect, iterations,
-            negativePivots, depth, contactForce, tension, torque, moment);
+    archive(failure, locksUp, unsettled, buckled, hookLoad, surfaceTorque, twist, stretch,
+            torqueDefect, iterations, negativePivots, depth, contactForce, tension, torque, moment);
   }
 };
 
@@ -57,12 +62,18 @@ class StiffString {
   StiffString(const Scene& scene, double bit);
 
   /// The static state that slides as the operation says, with the `Dynamic` friction coefficient.
-  /// An equilibrium that is not found is told in the result.
+  /// Where the one near the string without friction is unstable, or there is none, the one that the
+  /// string slides to from a slight helix. An equilibrium that is not found is told in the result.
   StiffLoads under(const softstring::Operation& operation) const;
 
  private:
   equilibrium::StaticInput input(const softstring::Operation& operation) const;
   equilibrium::StaticState solve(const equilibrium::StaticInput& input) const;
+  std::optional<equilibrium::StaticState> slide(const softstring::Operation& operation,
+                                                StiffLoads& why) const;
+  std::string tooLong(const Vector& axialForce) const;
+  bool compressed(const equilibrium::StaticProblem& problem, const Vector& x) const;
+  Vector withHelix(const Vector& displacement) const;
 
   Scene scene_;
   path::PathState path_;

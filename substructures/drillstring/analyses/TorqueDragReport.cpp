@@ -59,15 +59,13 @@ std::string beside(double stiff, double soft) {
   return (text == "-0.0" || text == "+0.0" ? "0.0" : text) + " %";
 }
 
-/// Why the stiff string has no result, where the soft one tells.
+/// Why the stiff string has no result, with what the soft one tells of it.
 std::string reason(const TorqueDragRow& row, const StiffLoads& stiff) {
-  const auto buckled = [](const Margin& margin, const char* limit) {
-    return fmt::format(
-        "Its compression at {} is {:.1f} times the {} limit (soft string): a string that buckles "
-        "has no state near the one without friction. `tooljoint buckling` follows short strings.",
-        text(margin.depth, "m", 0), 1.0 / margin.factor, limit);
+  const auto buckled = [&](const Margin& margin, const char* limit) {
+    return fmt::format("Its compression at {} is {:.1f} times the {} limit (soft string). {}",
+                       text(margin.depth, "m", 0), 1.0 / margin.factor, limit, stiff.failure);
   };
-  if (row.lockUpDepth >= 0.0) return "The soft string locks up.";
+  if (row.lockUpDepth >= 0.0) return "The soft string locks up. " + stiff.failure;
   if (row.helical.factor < 1.0) return buckled(row.helical, "helical");
   if (row.sinusoidal.factor < 1.0) return buckled(row.sinusoidal, "sinusoidal");
   return stiff.failure;
@@ -79,6 +77,9 @@ void printStiff(const Scene& scene, const TorqueDragProfile& profile,
   const StiffLoads& stiff = *profile.stiff;
   if (!stiff.found()) {
     log::detail(stiff.failure);
+    if (stiff.locksUp)
+      return log::warn(fmt::format("{} with the bit at {}: the stiff string locks up.",
+                                   row.operation, text(row.bit, "m", 0)));
     return log::warn(fmt::format("{} with the bit at {}: the stiff string has no result. {}",
                                  row.operation, text(row.bit, "m", 0), reason(row, stiff)));
   }
@@ -96,21 +97,27 @@ void printStiff(const Scene& scene, const TorqueDragProfile& profile,
 }
 
 void warnOfBuckling(const std::vector<TorqueDragProfile>& profiles) {
-  int all = 0, unstable = 0;
-  const TorqueDragProfile* first = nullptr;
+  int all = 0, unstable = 0, buckled = 0;
+  const TorqueDragProfile *first = nullptr, *bent = nullptr;
   for (const auto& profile : profiles) {
     if (!profile.stiff || !profile.stiff->found()) continue;
     ++all;
+    if (profile.stiff->buckled && buckled++ == 0) bent = &profile;
     if (profile.stiff->negativePivots == 0) continue;
     ++unstable;
     if (first == nullptr) first = &profile;
   }
+  if (bent != nullptr)
+    log::info(fmt::format(
+        "{} of {} states of the stiff string are buckled ({} with the bit at {} first); a buckled "
+        "string can rest in several ways, with other loads",
+        buckled, all, bent->row.operation, text(bent->row.bit, "m", 0)));
   if (first != nullptr)
     log::warn(fmt::format(
-        "{} of {} states of the stiff string are unstable ({} with the bit at {} first): there it "
-        "buckles, and its contact and torque are larger than these. See the state on the wall by "
-        "`tooljoint run` with Static/Unstable State \"Perturb\", or by `tooljoint buckling`.",
-        unstable, all, first->row.operation, text(first->row.bit, "m", 0)));
+        "{} of {} states of the stiff string are unstable ({} with the bit at {} first): there its "
+        "contact and torque are larger than these. {}",
+        unstable, all, first->row.operation, text(first->row.bit, "m", 0),
+        first->stiff->unsettled));
 }
 
 /// The tables of the deepest bit.

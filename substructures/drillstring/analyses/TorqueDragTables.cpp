@@ -93,6 +93,12 @@ std::vector<Column> stiffColumns(const Profiles& profiles, const Settings& setti
       return hasStiff(one) ? value(*one.stiff) : nothing;
     }));
   };
+  columns.push_back(column(profiles, "stiff_locked_up", "1",
+                           "Stiff string: 1 where it locks up, else 0", [](const auto& one) {
+                             return !one.stiff ? nothing : one.stiff->locksUp ? 1.0 : 0.0;
+                           }));
+  add("stiff_buckled", "1", "Stiff string: 1 where its state is buckled, else 0",
+      [](const StiffLoads& one) { return one.buckled ? 1.0 : 0.0; });
   add("stiff_hook_load", "N", "Stiff string: effective tension at the surface and block weight",
       [&](const StiffLoads& one) { return one.hookLoad + settings.blockWeight; });
   add("stiff_surface_torque", "N m", "Stiff string: torque at the surface",

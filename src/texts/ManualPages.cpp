@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/text/ManualPages.hpp"
+#include "texts/ManualPages.hpp"
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 #include "common/Text.hpp"
 #include "common/Version.hpp"
 
-namespace tooljoint::app {
+namespace tooljoint::texts {
 
 namespace {
 
@@ -115,16 +115,16 @@ std::string commandPage(const CLI::App& command) {
 }
 
 std::string programPage(const CLI::App& program) {
-  std::string text = heading("tooljoint", "component mode synthesis and drillstring simulator") +
-                     bold("tooljoint") + " " + italic("COMMAND") + " [" + italic("OPTION") +
-                     "]...\n.br\n.B mpirun \\-np\n" + italic("N") + "\n" + bold("tooljoint") + " " +
-                     italic("COMMAND") + " [" + italic("OPTION") + "]...\n" + ".SH DESCRIPTION\n" +
-                     roff(program.get_description()) +
-                     "\nEvery command but doc, new, template, report and compare reads a deck, a "
-                     "file of lists and parameters.\n" +
-                     bold("tooljoint new") + " writes one that runs, " + bold("tooljoint doc") +
-                     " prints what a deck may hold.\n.SH OPTIONS\n" + options(program) +
-                     ".SH COMMANDS\n";
+  std::string text =
+      heading("tooljoint", "component mode synthesis and drillstring simulator") +
+      bold("tooljoint") + " " + italic("COMMAND") + " [" + italic("OPTION") +
+      "]...\n.br\n.B mpirun \\-np\n" + italic("N") + "\n" + bold("tooljoint") + " " +
+      italic("COMMAND") + " [" + italic("OPTION") + "]...\n" + ".SH DESCRIPTION\n" +
+      roff(program.get_description()) +
+      "\nEvery command but doc, new, template, report, paraview and compare reads a deck, a "
+      "file of lists and parameters.\n" +
+      bold("tooljoint new") + " writes one that runs, " + bold("tooljoint doc") +
+      " prints what a deck may hold.\n.SH OPTIONS\n" + options(program) + ".SH COMMANDS\n";
   for (const auto* command : commandsOf(program))
     text +=
         ".SS " + synopsis(*command) + roff(command->get_description()) + "\n" + options(*command);
@@ -276,4 +276,4 @@ std::string page(const CLI::App& program, const std::string& command, const std:
   return format == "bash" ? bashCompletion(program) : zshCompletion(program);
 }
 
-}  // namespace tooljoint::app
+}  // namespace tooljoint::texts

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/text/AnalysisScreens.hpp"
+#include "texts/AnalysisScreens.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,6 @@
 #include <map>
 #include <vector>
 
-#include "app/commands/Commands.hpp"
-#include "app/text/ScreenLines.hpp"
-#include "cases/run/AnalysisFiles.hpp"
 #include "cases/run/DeckCommand.hpp"
 #include "common/Constants.hpp"
 #include "common/Parallel.hpp"
@@ -18,8 +15,9 @@
 #include "common/report/Log.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "io/TextFile.hpp"
+#include "texts/ScreenLines.hpp"
 
-namespace tooljoint::app {
+namespace tooljoint::texts {
 
 namespace {
 
@@ -264,10 +262,4 @@ void analysisScreen(const std::string& analysis, const std::string& folder,
                        cases::overrideSwitches(deck) + shown.switches});
 }
 
-void endAnalysis(const std::string& analysis, const cases::Case& one, const std::string& output) {
-  const auto folder = cases::analysisFolder(one, output, analysis);
-  reportAtEnd(folder, one.output().report);
-  analysisScreen(analysis, folder, one.deck());
-}
-
-}  // namespace tooljoint::app
+}  // namespace tooljoint::texts

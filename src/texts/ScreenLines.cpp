@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/text/ScreenLines.hpp"
+#include "texts/ScreenLines.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -14,7 +14,7 @@
 #include "common/report/Terminal.hpp"
 #include "deck/PrintedUnits.hpp"
 
-namespace tooljoint::app::screen {
+namespace tooljoint::texts::screen {
 
 namespace {
 
@@ -103,4 +103,4 @@ void openAndNext(const std::string& folder, const std::vector<std::string>& comm
     }
 }
 
-}  // namespace tooljoint::app::screen
+}  // namespace tooljoint::texts::screen

@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
-namespace tooljoint::app {
+namespace tooljoint::texts {
 
 /// File name -> text.
 const std::map<std::string, std::string>& templateFiles();
 
-}  // namespace tooljoint::app
+}  // namespace tooljoint::texts

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/text/UnknownWords.hpp"
+#include "texts/UnknownWords.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include "common/Text.hpp"
 
-namespace tooljoint::app {
+namespace tooljoint::texts {
 
 namespace {
 
@@ -39,4 +39,4 @@ std::string describeUnknown(const CLI::App& program, const std::vector<std::stri
          " Available: " + quotedList(commands) + ".";
 }
 
-}  // namespace tooljoint::app
+}  // namespace tooljoint::texts

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a command line is told that holds words or options no command takes.
+/// The error of a command line with words or options that no command takes.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace CLI {
 class App;
 }
 
-namespace tooljoint::app {
+namespace tooljoint::texts {
 
 /// A sentence with what was probably meant and what there is. \param unknown at least one word
 std::string describeUnknown(const CLI::App& program, const std::vector<std::string>& unknown);
 
-}  // namespace tooljoint::app
+}  // namespace tooljoint::texts

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace tooljoint::app {
+namespace tooljoint::texts {
 
 /// Formats of `tooljoint doc` that describe the command line.
 inline bool isPageFormat(const std::string& format) {
@@ -17,4 +17,4 @@ inline bool isPageFormat(const std::string& format) {
 /// UsageError: no such command, or a command beside a shell.
 std::string page(const CLI::App& program, const std::string& command, const std::string& format);
 
-}  // namespace tooljoint::app
+}  // namespace tooljoint::texts

@@ -7,7 +7,7 @@
 
 #include "deck/Deck.hpp"
 
-namespace tooljoint::app {
+namespace tooljoint::texts {
 
 /// The six numbers that matter of the run in `folder`, where its report is, and what to try next;
 /// with log::verbose() also the times of the stages and the counters of the motion. Reads
@@ -15,4 +15,4 @@ namespace tooljoint::app {
 /// \param deck of the run, for the commands to try next
 void lastScreen(const std::string& folder, const deck::Deck& deck);
 
-}  // namespace tooljoint::app
+}  // namespace tooljoint::texts

@@ -5,16 +5,13 @@
 
 #include <string>
 
-#include "cases/Case.hpp"
+#include "deck/Deck.hpp"
 
-namespace tooljoint::app {
+namespace tooljoint::texts {
 
 /// The numbers that matter of an analysis ("study", "map", "torque_drag", "bha", "buckling",
 /// "campbell", "response" or "modes") in `folder`, where its report is, and what to try next.
 /// Reads summary.json; silent with log::quiet(). Rank 0 prints.
 void analysisScreen(const std::string& analysis, const std::string& folder, const deck::Deck& deck);
 
-/// The report of an analysis, then its screen. `output`: folder of the command line.
-void endAnalysis(const std::string& analysis, const cases::Case& one, const std::string& output);
-
-}  // namespace tooljoint::app
+}  // namespace tooljoint::texts

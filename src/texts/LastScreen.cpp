@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/text/LastScreen.hpp"
+#include "texts/LastScreen.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/text/ScreenLines.hpp"
 #include "cases/run/DeckCommand.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
@@ -17,8 +16,9 @@
 #include "common/report/Terminal.hpp"
 #include "io/ResultsReader.hpp"
 #include "io/TextFile.hpp"
+#include "texts/ScreenLines.hpp"
 
-namespace tooljoint::app {
+namespace tooljoint::texts {
 
 namespace {
 
@@ -187,4 +187,4 @@ void lastScreen(const std::string& folder, const deck::Deck& deck) {
   screen::openAndNext(folder, next(summary, folder, deck));
 }
 
-}  // namespace tooljoint::app
+}  // namespace tooljoint::texts

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tooljoint::app::screen {
+namespace tooljoint::texts::screen {
 
 using Json = nlohmann::json;
 
@@ -29,4 +29,4 @@ void details(const Json& summary);
 /// Says where the report is and what to try next, a command each.
 void openAndNext(const std::string& folder, const std::vector<std::string>& commands);
 
-}  // namespace tooljoint::app::screen
+}  // namespace tooljoint::texts::screen
