@@ -176,7 +176,8 @@ def draw_map(folder):
     changes = [word for text in SHORT["map"] if "Pictures" not in text for word in ("--set", text)]
     done = subprocess.run([PROJECT / "tools/maps.py", "--program", PROGRAM, "--work", folder / "maps", "--figures", folder, "--only", "map_helical_170m", *changes],
                           env={**os.environ, "TOOLJOINT_REPORT": "off"}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-    expect("tools/maps.py draws a map", done.returncode == 0 and "<svg" in (folder / "map_helical_170m.svg").read_text(encoding="utf-8"), done.stderr[-300:])
+    drawn = (folder / "map_helical_170m.svg").read_text(encoding="utf-8") if done.returncode == 0 else ""
+    expect("tools/maps.py draws a map, which says of what scene and with what the axes do not vary", "<svg" in drawn and ">map_helical_170m; TOB 5 kN m, " in drawn, done.stderr[-300:])
 
 
 def check_tests():
