@@ -46,7 +46,7 @@ double largestRoot(double g, double k, double c) {
 LargestRate::Rates LargestRate::operator()(const State& state, double end) {
   const auto laws = largestLaws(state.t, end);
   model_.setTime(state.t);
-  evaluatePoints(state);
+  evaluatePoints(state, Which::All);
   const auto sum = [&](const MatrixSum& matrices, std::vector<double> Tangents::*points) {
     return [this, &matrices, &laws, points](const Vector& x, Vector& y) {
       y.setZero();
@@ -57,15 +57,24 @@ LargestRate::Rates LargestRate::operator()(const State& state, double end) {
   };
   const double k = norm(sum(model_.stiffness(), &Tangents::position));
   const double g = norm(sum(model_.damping(), &Tangents::velocity));
-  const double contact = norm([this](const Vector& x, Vector& y) {
-    y.setZero();
-    subtractPoints(&Tangents::position, x, y);
-  });
-  const double c = norm([this](const Vector& x, Vector& y) {
-    y.setZero();
-    subtractPoints(&Tangents::state, x, y);
-  });
+  const double contact = normOfPoints(&Tangents::position), c = normOfPoints(&Tangents::state);
   return {largestRoot(g, k, c) + model_.cut().largest(ofStates_), std::sqrt(contact)};
+}
+
+double LargestRate::ofDampingLaws(const State& state) {
+  if (std::all_of(model_.points().begin(), model_.points().end(),
+                  [](const PointBatch& batch) { return batch.law().hasWalls(); }))
+    return 0.0;
+  model_.setTime(state.t);
+  evaluatePoints(state, Which::WithoutWalls);
+  return normOfPoints(&Tangents::velocity);
+}
+
+double LargestRate::normOfPoints(std::vector<double> Tangents::*points) const {
+  return norm([this, points](const Vector& x, Vector& y) {
+    y.setZero();
+    subtractPoints(points, x, y);
+  });
 }
 
 /// The value of each law where it is largest in size.
@@ -82,7 +91,7 @@ std::vector<double> LargestRate::largestLaws(double begin, double end) const {
   return largest;
 }
 
-void LargestRate::evaluatePoints(const State& state) {
+void LargestRate::evaluatePoints(const State& state, Which which) {
   model_.bindStates(state.x.data());
   tangents_.clear();
   ofStates_ = 0;
@@ -91,6 +100,7 @@ void LargestRate::evaluatePoints(const State& state) {
     const std::size_t entries = at(batch.points() * w) * at(w);
     const std::vector<double> none(entries, 0.0);
     tangents_.push_back({none, none, none});
+    if (which == Which::WithoutWalls && batch.law().hasWalls()) continue;
     batch.gatherAll(state.q.data(), state.v.data());
     const Vector start = Eigen::Map<const Vector>(batch.d(), batch.points() * w);
     Vector d = start;

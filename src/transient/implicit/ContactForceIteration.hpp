@@ -10,7 +10,9 @@
 
 #include "transient/Integrator.hpp"
 #include "transient/contact/ContactForceUpdate.hpp"
+#include "transient/implicit/MatrixDrift.hpp"
 #include "transient/implicit/StepParts.hpp"
+#include "transient/implicit/Turns.hpp"
 
 namespace tooljoint::transient {
 
@@ -33,11 +35,10 @@ class ContactForceIteration {
 
  private:
   bool settle(const State& to, bool again);
-  bool begin(const State& to, double norm);
+  bool begin(const State& to);
   bool join(const State& to);
-  double relaxOnce(const State& to, bool near, double norm);
-  void findDrift();
-  const Vector* otherForces(double norm);
+  double relaxOnce(const State& to, bool near);
+  const Vector* otherForces();
 
   StepParts parts_;
   const StepScheme* scheme_ = nullptr;
@@ -47,8 +48,8 @@ class ContactForceIteration {
   bool possible_ = false;
   long compliance_ = -1;  ///< number of the factor whose compliance the points have
   Vector delta_, q_;      ///< and q at its end
-  Vector guess_, drift_;  ///< where iterations began, and what the changes of the laws make of it
-  Vector others_;         ///< forces beside the linear residual and the points
+  MatrixDrift drift_;
+  Vector others_;  ///< forces beside the linear residual and the points
 };
 
 }  // namespace tooljoint::transient
