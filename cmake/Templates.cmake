@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Files as texts in the libraries and the program: xml/templates as templateFiles() of src/app/text/Templates.hpp, xml/components as
+# Files as texts in the libraries and the program: xml/templates as templateFiles() of src/texts/Templates.hpp, xml/components as
 # componentLibraries() of substructures/drillstring/assembly/Libraries.hpp.
 
 # tooljoint_texts(TARGET NAME KEY FILES...): cmake/NAME.cpp.in with the FILES as TEXTS, each under its KEY (NAME, NAME_WE), is a source of TARGET.

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares all bases on the reference scene and on a frame, and rewrites tables and figures of docs/cms-variants.md.
+"""Compares all bases on the reference scene and on a frame, and rewrites tables and figures of docs/cms-variants.md, docs/tables/cms_variants_*.csv.
 
     tools/cms_variants.py --program build/release/tooljoint [--work results/cms_variants] [--only helical,frame,estimates,tolerance] [--fresh] [--short]
 
@@ -116,19 +116,44 @@ def cell(value, form="{:.1e}"):
 
 
 def shown(run, column, form="{:.1e}"):
-    return form.format(float(run.row[column])) if run.row[column] else "-"
+    return form.format(float(run.row[column])) if run.row[column] else ""
+
+
+TABLE = ("run", "dofs", "frequency_error", "least_mac", "vibration_error", "cpu_per_simulated_s [s]", "setup_cpu [s]")
+
+
+def write_csv(name, rows):
+    with open(PROJECT / f"docs/tables/{name}.csv", "w", newline="", encoding="utf-8") as out:
+        csv.writer(out, lineterminator="\n").writerows(rows)
 
 
 def table(study):
-    """One row for each run."""
-    rows = ["| run | dofs | largest error of 20 frequencies | least MAC | vibration error | CPU [s] per simulated s | reduction [s] |", "|---|---|---|---|---|---|---|"]
+    """One row of TABLE for each run, the reference first."""
+    rows = []
     for run in study.all:
-        if run.kind != "check" and run.kind != "sensitivity":
-            setup = shown(run, "setup_cpu", "{:.2g}") if run.reduced else ""
+        if run.kind not in ("check", "sensitivity"):
             label = "full model, the reference" if run.kind == "reference" else run.label
-            rows.append(f"| {label} | {run.row['reduced_dofs'] or '-'} | {shown(run, 'frequency_error')} | {shown(run, 'least_mac', '{:.2f}')} | {shown(run, 'vibration_error')} "
-                        f"| {shown(run, 'cpu_per_simulated_s', '{:.3g}')} | {setup} |")
-    return "\n".join(rows) + "\n"
+            rows.append((label, run.row["reduced_dofs"], shown(run, "frequency_error"), shown(run, "least_mac", "{:.2f}"), shown(run, "vibration_error"),
+                         shown(run, "cpu_per_simulated_s", "{:.3g}"), shown(run, "setup_cpu", "{:.2g}") if run.reduced else ""))
+    return rows
+
+
+def overview(rows):
+    """Of rows of TABLE: the run of each basis with the smallest vibration error."""
+    best = {}
+    for row in rows[1:]:
+        line = redraw_studies.line_of(row[0])
+        if row[4] and (line not in best or float(row[4]) < float(best[line][4])):
+            best[line] = row
+    lines = ["| run with the smallest vibration error | dofs | largest error of 20 frequencies | vibration error | CPU [s] per simulated s | reduction [s] |", "|---|---|---|---|---|---|"]
+    lines += ["| " + " | ".join(cell or "-" for cell in (row[0], row[1], row[2], *row[4:])) + " |" for row in best.values()]
+    return "\n".join(lines) + "\n"
+
+
+def tabulated(rows, name):
+    """The overview of the rows of a study, which go into a table of their own."""
+    write_csv(name, [TABLE, *rows])
+    return f"All {len(rows)} runs: [{name}.csv](tables/{name}.csv).\n\n" + overview(rows)
 
 
 def failures(study):
@@ -169,14 +194,14 @@ def estimate_rows(study, scene):
             count[2].append(abs(ratio))
             if outside(ratio):
                 count[1] += 1
-                exceptions.append(f"| {scene} | {run.label} | frequency {number}, MAC {mac:.2f} | {error:.1e} | {estimate:.1e} | {ratio:.3g} | {'no' if complete else 'yes'} |")
+                exceptions.append((scene, run.label, f"frequency {number}, MAC {mac:.2f}", f"{error:.1e}", f"{estimate:.1e}", f"{ratio:.3g}", "no" if complete else "yes"))
         ratio = motion_ratio(run)
         if ratio is not None:
             count[3] += 1
             count[5].append(ratio)
             if outside(ratio):
                 count[4] += 1
-                exceptions.append(f"| {scene} | {run.label} | vibration error | {run.number('vibration_error'):.1e} | {run.number('estimated_vibration_error'):.1e} | {ratio:.3g} | |")
+                exceptions.append((scene, run.label, "vibration error", f"{run.number('vibration_error'):.1e}", f"{run.number('estimated_vibration_error'):.1e}", f"{ratio:.3g}", ""))
     span = lambda values: f"{min(values):.2g} to {max(values):.2g}" if values else "-"
     rows = [f"| {scene} | {line} | {c[0]} | {c[1]} | {span(c[2])} | {c[3]} | {c[4]} | {span(c[5])} |" for line, c in counts.items() if c[0] + c[3] > 0]
     return rows, exceptions
@@ -225,19 +250,20 @@ def scene_section(name, steps):
         figure(study, f"cms_variants_{name}")
         own, timed = study.companion("check"), study.companion("reference")
         cost = f"The steps alone ({steps}) cost a vibration error of {own.number('vibration_error'):.1e} against RK4." if own else "The check of the reference failed."
-        return (f"Machine: {machine()}; the reference took {timed.number('cpu'):.3g} s. {cost}\n\n![errors](figures/cms_variants_{name}.png)\n\n" + table(study) + "\n"
+        return (f"Machine: {machine()}; the reference took {timed.number('cpu'):.3g} s. {cost}\n\n![errors](figures/cms_variants_{name}.png)\n\n" + tabulated(table(study), f"cms_variants_{name}") + "\n"
                 + failures(study))
     return write
 
 
 def estimates_section(bench):
     rows = ["| scene | basis | frequencies | outside | ratios | motions | outside | ratios |", "|---|---|---|---|---|---|---|---|"]
-    exceptions = ["| scene | run | of | true error | estimate | ratio | said to lack a mode |", "|---|---|---|---|---|---|---|"]
+    exceptions = [("scene", "run", "of", "true error", "estimate", "ratio", "said to lack a mode")]
     for name, (scene, _) in STUDIES.items():
         counts, found = estimate_rows(bench.study(name), scene)
         rows += counts
         exceptions += found
-    return "\n".join(rows) + f"\n\nEvery exception ({len(exceptions) - 2}):\n\n" + "\n".join(exceptions) + "\n"
+    write_csv("cms_variants_estimates", exceptions)
+    return "\n".join(rows) + f"\n\nThe {len(exceptions) - 1} exceptions: [cms_variants_estimates.csv](tables/cms_variants_estimates.csv).\n"
 
 
 def tolerance_section(bench):

@@ -4,7 +4,7 @@
 
     tools/redraw_studies.py [--output docs/figures] [--only speed_helical,...]
 
-speed_*.svg come from docs/tables/speed_*.csv, cms_variants_*.png from the rows of docs/cms-variants.md; nothing is measured again. Needs h5py,
+speed_*.svg come from docs/tables/speed_*.csv, cms_variants_*.png from docs/tables/cms_variants_*.csv; nothing is measured again. Needs h5py,
 numpy and matplotlib.
 """
 import argparse
@@ -91,16 +91,17 @@ def speed(name):
 
 
 def variants(name):
-    """Of the section of docs/cms-variants.md."""
+    """Of docs/tables/cms_variants_NAME.csv, and what the section of the page says of machine and steps."""
     page = (PROJECT / "docs/cms-variants.md").read_text(encoding="utf-8")
     section = page[page.index(f"<!-- {name} -->"):]
     section = section[:section.index("<!-- end -->")]
-    table = [[cell.strip() for cell in line.strip("|").split("|")] for line in section.splitlines() if line.startswith("| ") and line.count("|") == 8][1:]
-    known = lambda cell: "" if cell == "-" else cell  # noqa: E731
+    with open(PROJECT / f"docs/tables/cms_variants_{name}.csv", newline="", encoding="utf-8") as file:
+        table = list(csv.DictReader(file))
     rows = []
-    for label, dofs, frequency, _, error, cpu, setup in table[1:]:  # the first is the reference
-        rows.append({"line": line_of(label), "label": label, "kind": "method", "model": "reduced" if setup else "full", "status": "done" if known(error) else "failed", "vibration_error": known(error),
-                     "cpu_per_simulated_s": known(cpu), "reduced_dofs": dofs, "frequency_error": known(frequency), "setup_cpu": known(setup)})
+    for row in table[1:]:  # the first is the reference
+        label, error = row["run"], row["vibration_error"]
+        rows.append({"line": line_of(label), "label": label, "kind": "method", "model": "full" if line_of(label) == "Full" else "reduced", "status": "done" if error else "failed", "vibration_error": error,
+                     "cpu_per_simulated_s": row["cpu_per_simulated_s [s]"], "reduced_dofs": row["dofs"], "frequency_error": row["frequency_error"], "setup_cpu": row["setup_cpu [s]"]})
     own = re.search(r"vibration error of (\S+) against RK4", section)
     _, lists = scene(VARIANTS[name])
     window = float(next(filter(None, (deck.value(lists, path) for path in ("Study/Window", "Study/End Time", "Transient/End Time")))))

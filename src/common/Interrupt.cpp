@@ -4,7 +4,6 @@
 #include <csignal>
 
 #include "common/Error.hpp"
-#include "common/Parallel.hpp"
 
 namespace tooljoint {
 namespace {
@@ -35,7 +34,7 @@ void installInterruptHandlers() {
 bool interruptRequested() { return requested_ != 0; }
 
 void stopIfInterrupted() {
-  if (interruptRequested() && parallel::size() == 1)
+  if (interruptRequested())
     throw InterruptedError("Interrupted before there were results to keep.");
 }
 

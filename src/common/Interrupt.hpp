@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// SIGINT and SIGTERM set a flag that loops look at each step, so that an interrupted run closes
+/// SIGINT and SIGTERM set a flag that loops read each step, so that an interrupted run closes
 /// its files. (Open MPI turns Ctrl-C into SIGTERM, and SIGKILL a second later: react within half a
 /// second.)
 #pragma once
@@ -15,9 +15,8 @@ void installInterruptHandlers();
 /// True once a signal has come. Local to this rank.
 bool interruptRequested();
 
-/// InterruptedError once a signal has come, where one rank works alone. On several ranks it does
-/// nothing: others may wait for this one in a collective call. For long loops that have nothing to
-/// keep.
+/// InterruptedError once a signal has come. For long loops that have nothing to keep. Of several
+/// ranks all end with it, as with any error that one of them meets alone (Parallel.hpp).
 void stopIfInterrupted();
 
 /// Set or clear the flag as a signal would (tests, embedding programs).

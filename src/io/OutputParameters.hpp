@@ -38,7 +38,7 @@ struct OutputSettings {
   double xdmfInterval = 0.05;  ///< [s]
   bool reducedBases = false;
   ExportFormat exportFormat = ExportFormat::None;
-  int compression = 0;
+  int compression = 1;
   FigureSettings figures;
 
   bool hasField(const std::string& name) const;

@@ -13,6 +13,7 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
+#include "io/ChunkCompressor.hpp"
 #include "io/Hdf5.hpp"
 #include "io/ResultsReader.hpp"
 #include "io/TextFile.hpp"
@@ -103,31 +104,57 @@ void TimeSeries::append(const double* row) {
   requireFinite(path_, row, rowSize_);
   buffer_.insert(buffer_.end(), row, row + rowSize_);
   ++rows_;
-  if (rows_ % chunkRows_ == 0) writeBuffer();
+  if (rows_ % chunkRows_ != 0) return;
+  const std::size_t chunk = rows_ / chunkRows_ - 1;
+  if (begun_ && file_.compressor_) {
+    replacement_.swap(buffer_);
+    replaced_ = chunk;
+  } else {
+    writeChunk(buffer_, chunk, true);
+  }
+  buffer_.clear();
+  begun_ = false;
 }
 
-void TimeSeries::writeBuffer() {
-  if (buffer_.empty()) return;
-  const std::size_t count = buffer_.size() / std::max<std::size_t>(rowSize_, 1);
-  std::vector<hsize_t> extent{rows_};
-  std::vector<hsize_t> start{rows_ - count};
-  std::vector<hsize_t> block{count};
-  for (std::size_t e : rowShape_) {
-    extent.push_back(e);
-    start.push_back(0);
-    block.push_back(e);
+/// Write the chunk of number `chunk`; what `values` lack of a whole one is filled up with zeros.
+void TimeSeries::writeChunk(std::vector<double>& values, std::size_t chunk, bool compressed) {
+  if (rowSize_ == 0) return;
+  written_ = std::max(written_, chunk * chunkRows_ + values.size() / rowSize_);
+  values.resize(chunkRows_ * rowSize_);
+  const void* bytes = values.data();
+  std::size_t size = values.size() * sizeof(double);
+  std::uint32_t leftOut = 0;  // a bit for each filter that the chunk has not passed
+  if (file_.compressor_) {
+    constexpr std::uint32_t shuffleAndDeflate = 3;
+    leftOut = shuffleAndDeflate;
+    if (compressed) {
+      const auto& packed = file_.compressor_->compress(values, rowSize_);
+      if (packed.size() < size) bytes = packed.data(), size = packed.size(), leftOut = 0;
+    }
   }
-  const auto rank = static_cast<int>(extent.size());
-  bool good = hdf5::fits(file_.file_, std::max(count, chunkRows_) * rowSize_ * sizeof(double));
-  good = good && H5Dset_extent(dataset_, extent.data()) >= 0 && hdf5::reserve(file_.file_);
-  const Handle onDisk(H5Dget_space(dataset_), H5Sclose);
-  const Handle inMemory(H5Screate_simple(rank, block.data(), nullptr), H5Sclose);
-  good = good && H5Sselect_hyperslab(onDisk.get(), H5S_SELECT_SET, start.data(), nullptr,
-                                     block.data(), nullptr) >= 0;
-  good = good && H5Dwrite(dataset_, H5T_NATIVE_DOUBLE, inMemory.get(), onDisk.get(), H5P_DEFAULT,
-                          buffer_.data()) >= 0;
+  std::vector<hsize_t> extent{written_}, start{chunk * chunkRows_};
+  extent.insert(extent.end(), rowShape_.begin(), rowShape_.end());
+  start.resize(extent.size());
+  const bool inPlace = begun_ && bytes == values.data();
+  const bool good = hdf5::fits(file_.file_, inPlace ? 0 : size) &&
+                    H5Dset_extent(dataset_, extent.data()) >= 0 && hdf5::reserve(file_.file_) &&
+                    H5Dwrite_chunk(dataset_, H5P_DEFAULT, leftOut, start.data(), size, bytes) >= 0;
   if (!good) file_.fail("writing " + path_);
-  buffer_.clear();
+}
+
+bool TimeSeries::replace() {
+  if (replacement_.empty()) return false;
+  writeChunk(replacement_, replaced_, true);
+  replacement_.clear();
+  return true;
+}
+
+bool TimeSeries::writeBuffer(bool last) {
+  if (buffer_.empty()) return false;
+  const std::size_t held = buffer_.size();
+  writeChunk(buffer_, (rows_ - 1) / chunkRows_, last);
+  buffer_.resize(last ? 0 : held);
+  return std::exchange(begun_, !last) && last;
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -147,6 +174,8 @@ ResultsFile::ResultsFile(const std::string& path, const Provenance& provenance,
                          const ResultsOptions& options)
     : path_(path), options_(options), active_(parallel::rank() == 0) {
   if (!active_) return;
+  if (options_.compression > 0)
+    compressor_ = std::make_unique<ChunkCompressor>(options_.compression);
   hdf5::silence();
   stageText(path_,
             std::string(4096, '\0'));  // a full disk shows here, with less ado than inside HDF5
@@ -200,6 +229,7 @@ void ResultsFile::fail(const std::string& doing) {
 void ResultsFile::abandon() noexcept {
   for (auto& s : series_) {
     s->buffer_.clear();
+    s->replacement_.clear();
     s->dataset_ = -1;
   }
   if (file_ >= 0) hdf5::letGo(std::exchange(file_, -1));
@@ -384,15 +414,25 @@ void ResultsFile::attribute(const std::string& object, const std::string& name, 
     fail("attribute " + name + " of " + object);
 }
 
-void ResultsFile::flush() {
+void ResultsFile::flush() { writeBuffers(false); }
+
+/// Chunks of which the disk holds a part are replaced one by one: the place that one leaves must
+/// not be taken before the index on the disk has left it, too.
+void ResultsFile::writeBuffers(bool last) {
   if (!active_ || file_ < 0) return;
-  for (auto& s : series_) s->writeBuffer();
-  if (!hdf5::reserve(file_) || H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("flushing it");
+  const auto synchronise = [this] {
+    if (!hdf5::reserve(file_) || H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("flushing it");
+  };
+  for (auto& s : series_) {
+    if (s->replace()) synchronise();
+    if (s->writeBuffer(last)) synchronise();  // into the place that the replaced one has left
+  }
+  synchronise();
 }
 
 void ResultsFile::close() {
   if (!active_ || file_ < 0) return;
-  flush();
+  writeBuffers(true);
   for (auto& s : series_) {
     H5Dclose(s->dataset_);
     s->dataset_ = -1;

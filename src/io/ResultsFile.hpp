@@ -33,31 +33,37 @@ struct Provenance {
 };
 
 struct ResultsOptions {
-  int compression = 0;  ///< deflate level 0 (off) to 9 of time series
+  int compression = 1;  ///< deflate level 0 (off) to 9 of time series
 };
 
+class ChunkCompressor;
 class ResultsFile;
 class ResultsReader;
 
-/// A dataset that grows by one row per sample. Rows are buffered up to a chunk.
+/// A dataset that grows by one row per sample. Rows are buffered up to a chunk. A chunk that
+/// flush() found begun stands uncompressed on the disk until it is full and flushed again.
 class TimeSeries {
  public:
   ~TimeSeries();
   TimeSeries(const TimeSeries&) = delete;
   TimeSeries& operator=(const TimeSeries&) = delete;
 
-  /// Add one row of rowSize() numbers. FileError when the file cannot be written, Error(Internal)
+  /// Add one row of its shape. FileError when the file cannot be written, Error(Internal)
   /// naming the dataset when a number is not finite.
   void append(const double* row);
   void append(double value) { append(&value); }
-  std::size_t rowSize() const { return rowSize_; }
   /// Rows appended so far, buffered ones included; 0 on ranks that do not write.
   std::size_t rows() const { return rows_; }
 
  private:
   friend class ResultsFile;
   TimeSeries(ResultsFile& file, std::string path, const Shape& rowShape);
-  void writeBuffer();
+  void writeChunk(std::vector<double>& values, std::size_t chunk, bool compressed);
+  /// Replace the full chunk of which the disk holds a part; false when there is none.
+  bool replace();
+  /// Write what is buffered and go on buffering, or write it compressed for the last time. Whether
+  /// that replaces a part on the disk.
+  bool writeBuffer(bool last);
 
   ResultsFile& file_;
   std::string path_;
@@ -65,7 +71,11 @@ class TimeSeries {
   std::size_t rowSize_ = 1;
   std::size_t chunkRows_ = 1;
   std::size_t rows_ = 0;
-  std::vector<double> buffer_;
+  std::size_t written_ = 0;          ///< rows on the disk
+  std::vector<double> buffer_;       ///< rows of the chunk that is not yet full
+  bool begun_ = false;               ///< the disk holds a part of that chunk, uncompressed
+  std::vector<double> replacement_;  ///< the chunk `replaced_`, full; on the disk it is a part
+  std::size_t replaced_ = 0;
   std::int64_t dataset_ = -1;
 };
 
@@ -143,11 +153,13 @@ class ResultsFile {
                    const std::string& longName);
   [[noreturn]] void fail(const std::string& doing);
   void abandon() noexcept;
+  void writeBuffers(bool last);
 
   std::string path_;
   ResultsOptions options_;
-  bool active_ = false;  ///< this rank writes
-  bool failed_ = false;  ///< a write failed: what is buffered is given up
+  std::unique_ptr<ChunkCompressor> compressor_;  ///< of the series; none without compression
+  bool active_ = false;                          ///< this rank writes
+  bool failed_ = false;                          ///< a write failed: what is buffered is given up
   std::int64_t file_ = -1;
   std::vector<std::unique_ptr<TimeSeries>> series_;
   std::unique_ptr<ResultsReader> earlier_;  ///< what series continue, if anything

@@ -46,13 +46,15 @@ const State& Sampler::between(const State& from, const State& to, double x) {
 
 void Sampler::give(double t, const State& state) {
   ++count_;
+  x_ = state.x;
+  model_.joinStates(x_);
   if (gathering_ != nullptr)
-    return guard([&] { gathering_->sampleShare({t, *share_, state.q, state.v, state.a}); });
+    return guard([&] { gathering_->sampleShare({t, *share_, state.q, state.v, state.a, x_}); });
   model_.toDofs(state.q, q_);
   model_.toDofs(state.v, v_);
   model_.toDofs(state.a, a_);
-  if (share_ == nullptr) return pass(t, state);
-  if (!failure_) guard([&] { pass(t, state); });
+  if (share_ == nullptr) return pass(t);
+  if (!failure_) guard([&] { pass(t); });
 }
 
 /// Keeps the first that is thrown.
@@ -65,8 +67,8 @@ void Sampler::guard(const Work& work) {
   }
 }
 
-void Sampler::pass(double t, const State& state) {
-  if (model_.stateSize() > 0) sink_.states(state.x);
+void Sampler::pass(double t) {
+  if (model_.stateSize() > 0) sink_.states(x_);
   sink_.sample(t, q_, v_, a_);
 }
 

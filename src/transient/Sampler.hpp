@@ -18,7 +18,7 @@ class Sampler {
           const RankShare* share);
   long count() const { return count_; }
   /// What the sink of this rank has thrown. The other ranks of a divided motion do not know of it:
-  /// the run asks all of them and then throws on all.
+  /// the run collects from all of them and then throws on all.
   const std::exception_ptr& failure() const { return failure_; }
 
   /// All samples in (from.t, to.t]; those that fall on the end of the step are the state itself.
@@ -28,7 +28,7 @@ class Sampler {
  private:
   const State& between(const State& from, const State& to, double x);
   void give(double t, const State& state);
-  void pass(double t, const State& state);
+  void pass(double t);
   template <class Work>
   void guard(const Work& work);
 
@@ -40,6 +40,7 @@ class Sampler {
   long count_;
   State middle_;
   Vector q_, v_, a_;  ///< of the whole, in dofs
+  Vector x_;          ///< states of the point laws of all ranks
   std::exception_ptr failure_;
 };
 

@@ -40,8 +40,7 @@ deck::ListSpec parameters() {
       .choice("Ranks", std::string("Automatic"), {"Automatic", "Divide", "Alike"},
               "Of several MPI ranks: each computes a piece of the model (Divide), or all do the "
               "same (Alike). Automatic divides models of 1500 dofs and more. The integrators of "
-              "SUNDIALS do not divide a motion and refuse Divide; models with states of point laws "
-              "are not divided.")
+              "SUNDIALS do not divide a motion and refuse Divide.")
       .expert();
   const TransientOptions usual;
   spec.real("Step Error Warning", "", usual.stepErrorWarning, deck::Range::positive(),
@@ -50,12 +49,12 @@ deck::ListSpec parameters() {
       .expert()
       .real(
           "Step Error Limit", "", usual.stepErrorLimit, deck::Range::positive(),
-          "Of equal steps: with an estimated step error above half of this, or where contact rests "
-          "on walls too stiff for the step, the first 3 s of the motion are integrated again in "
-          "half the step, or in shorter ones that resolve such contact. A run fails when both "
-          "differ by more than this, unless the motion is chaotic, or when their speeds do by 2.5 "
-          "times as much; and with an estimate above 1. A limit of 1 and more is one of the "
-          "estimate alone.")
+          "Of equal steps: a run with a step error above this fails. Where the estimate is above "
+          "half of this, or contact rests on walls too stiff for the step, the first 3 s of the "
+          "motion are integrated again in half the step, or in shorter ones that resolve such "
+          "contact. The step error is then the difference of both motions, or, where the motion is "
+          "chaotic, that of their speeds over 2.5. A limit of 1 and more compares nothing: it is "
+          "one of the estimate.")
       .formerly("Generalized-alpha/Accept Coarse Steps")
       .expert()
       .real("Energy Residual Warning", "", usual.energyResidualWarning, deck::Range::positive(),

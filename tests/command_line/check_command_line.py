@@ -5,9 +5,11 @@
 Help of every command, words that are no command, what `compare` says of two runs of DECK, and the pictures that PLOTTER draws of runs of a string and
 of PARTS_DECK.
 """
+import argparse
 import csv
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -16,10 +18,14 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+import same_results  # noqa: E402
 from checks import COLUMNS, expect, finish, tooljoint, wide  # noqa: E402
 
 PROGRAM, MPIEXEC, DECK, PARTS_DECK, PLOTTER = sys.argv[1:6]
-COMMANDS = ("run", "study", "check", "modes", "export", "compare", "doc", "template", "new", "report", "torque-drag", "bha", "buckling", "campbell", "response", "map", "paraview")
+HEADINGS = {"To begin:": ("doc", "new", "template"), "Runs:": ("check", "map", "run", "study"), "Analyses:": ("bha", "buckling", "campbell", "modes", "response", "torque-drag"),
+            "Results and parts:": ("compare", "export", "paraview", "report")}
+COMMANDS = [command for commands in HEADINGS.values() for command in commands]
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 
 
@@ -31,7 +37,7 @@ def narrow(what, done):
 def help_is_our_own():
     for arguments in ([], *([command] for command in COMMANDS)):
         for ranks in (1, 2) if arguments in ([], ["run"]) else (1,):
-            for flag in ("--help", "-h"):
+            for flag in ("--help", "-h") if arguments in ([], ["run"]) else ("--help",):
                 done = tooljoint(*arguments, flag, ranks=ranks)
                 name = " ".join(["tooljoint", *arguments, flag])
                 expect(f"{name}, {ranks} rank(s): exit code 0, nothing on stderr", done.returncode == 0 and done.stderr == "", f"({done.returncode}) {done.stderr}")
@@ -40,12 +46,14 @@ def help_is_our_own():
                 expect(f"{name}, {ranks} rank(s): nothing of Kokkos", "kokkos" not in (done.stdout + done.stderr).lower(), done.stdout[:300])
         narrow(" ".join(["tooljoint", *arguments, "--help"]), done)
     whole = tooljoint("--help").stdout
-    expect("the program's help names every command", all(f"\n  {command} " in whole for command in COMMANDS), whole)
+    found = re.findall(r"^(?:  ([a-z][a-z-]*) |(\S.*:)$)", whole, re.M)
+    wanted = ["Options:", *(word for heading, commands in HEADINGS.items() for word in (heading, *commands))]
+    expect("the program's help names every command below its heading", [command or heading for command, heading in found] == wanted, whole)
 
 
 def unknown_words():
-    for arguments, sentence in ((["modse"], 'Unknown command "modse". Did you mean "modes"? Available: "run", '), (["modse", "--help"], 'Did you mean "modes"?'),
-                                (["--help", "modse"], 'Did you mean "modes"?'), (["nonsense", "-h"], 'Unknown command "nonsense". Available: "run", '),
+    for arguments, sentence in ((["modse"], 'Unknown command "modse". Did you mean "modes"? Available: "doc", "new", '), (["modse", "--help"], 'Did you mean "modes"?'),
+                                (["--help", "modse"], 'Did you mean "modes"?'), (["nonsense", "-h"], 'Unknown command "nonsense". Available: "doc", "new", '),
                                 (["run", "--nonsense", "--help"], "Unknown argument: --nonsense"), (["run", "deck.xml", "--sett", "A=1"], "Did you mean --set?"), (["--kokkos-help"], "Unknown argument: --kokkos-help"),
                                 (["template", "nonsense"], 'There is no template "nonsense"')):
         done = tooljoint(*arguments)
@@ -133,6 +141,21 @@ def reports():
             narrow(f"{command} {pathlib.Path(deck).name}", done)
 
 
+def versions():
+    """The comparison of two programs and its table, with one program beside itself: summaries of the runs full and brief."""
+    options = argparse.Namespace(static=1e-10, motion=1e-9, steps=0.01)
+    (_, _, none), _ = same_results.compare(pathlib.Path("full"), pathlib.Path("full"), options, {})
+    (ratio, where, size), count = same_results.compare(pathlib.Path("full"), pathlib.Path("brief"), options, {})
+    expect("results beside themselves are the same, those of another motion are not", none == 0.0 and ratio > 1.0 and count > 100, (none, ratio, where, count))
+    rows = [{"scene": "a", "largest_difference": none, "where": "", "agrees": True}, {"scene": "b", "largest_difference": size, "where": where, "agrees": False},
+            {"scene": "c", "exit": [2, 2]}]
+    here = same_results.version(PROGRAM)
+    page = same_results.written("before\n" + "\nold\n".join(same_results.MARKS) + "\nafter", [{"old": here, "new": here, "scenes": rows}, {"old": "x", "new": "y", "scenes": rows[:1]}])
+    expect("the table of scenes has a column for each pair of programs", page.startswith("before") and page.endswith("after") and "\nold\n" not in page
+           and f"| scene | {here} to {here} | x to y |" in page and "| a | bitwise the same | bitwise the same |" in page and f"({where}), too large |  |" in page
+           and "| c | refused by both |  |" in page, page)
+
+
 def main():
     for left in ("full", "reduced", "brief", "parts", "resting parts", "exported"):  # of an earlier run of this test
         shutil.rmtree(left, ignore_errors=True)
@@ -142,6 +165,7 @@ def main():
     pictures()
     reports()
     comparisons(times)
+    versions()
     return finish()
 
 

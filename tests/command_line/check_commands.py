@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the commands of the documents: check_commands.py PROGRAM PROJECT
+"""Runs the commands of the documents: check_commands.py PROGRAM PROJECT CTEST BUILD
 
 Blocks `sh` of the user's pages run line by line in a folder that looks like the project; motions and studies are made short on the way, so that all
-words are tried. Commands that a tool writes into docs/validation.md are checked, not run. Of all other commands in the pages, in blocks and within
-lines, the command, its options, decks, tools and targets must exist. README.md, the tutorials, docs/first-report.md and docs/python.md have
+words are tried. Of the commands of docs/validation.md that differ in numbers alone one is run, static states as they stand, and the decks and overrides
+of the others are read. Of all other commands in the pages, in blocks and within lines, the command, its options, decks, tools and targets must exist,
+and the tests of this build that a page names. README.md, the tutorials, docs/first-report.md and docs/python.md have
 tests of their own, which run them word for word.
 """
 import functools
+import json
 import os
 import pathlib
 import re
@@ -20,12 +22,15 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import TIME_FACTOR, expect, finish  # noqa: E402
 
 PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+CTEST, BUILD = sys.argv[3:5]
 RUN = (*[f"docs/guide/{page}.md" for page in ("torque-drag", "buckling", "bottom-hole-assembly", "bit-and-top-drive", "critical-speeds", "figures-of-merit", "measured-logs", "maps")], "docs/report.md", "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md", "docs/guide/coupling.md", "docs/guide/troubleshooting.md",
        "docs/guide/studies.md")
-CHECKED = "docs/validation.md"
+VALIDATION = "docs/validation.md"
 SHORT = {"run": ["Transient/End Time=0.02"], "study": ["Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"],
          "map": ["Transient/End Time=0.02", "Map/Pictures=false", "Map/Grid/speed/Count=2", "Map/Grid/weight on bit/Values={10 kN, 20 kN}"],
+         "bha": ["Bottom-Hole Assembly/Tool Face={0 deg}"],
          "torque-drag": ["Torque and Drag/Count=1", "Torque and Drag/Operations={Drill rotating}"], "campbell": ["Campbell/Points=2", "Campbell/Modes=2"], "response": ["Response/Points=3"]}
+MAPPED = {}  # deck: folder
 COMPARED = ["Transient/End Time=1", "Measured Log/Begin=0 s", "Measured Log/End=0.9 s"]  # of a motion with a log, which needs samples
 OPTIONS_OF_DECKS = ("--set", "--without")
 PLACES = re.compile(r"\b(DECK|DIR|FILE|NAME|[A-Z]{2,})\b")
@@ -61,8 +66,11 @@ def words_of(line):
 
 def shortened(words):
     """The words of a command with overrides that make it quick."""
-    if words[0] != "tooljoint" or words[1] not in SHORT or "Transient" in words:
+    if pathlib.Path(words[0]).name != "tooljoint" or words[1] not in SHORT or "Transient" in words:
         return words
+    if words[1] == "map":  # a second map of a deck goes on from the points of the first
+        at = words.index("--output") + 1
+        words = [*words[:at], MAPPED.setdefault(words[2], words[at]), *words[at + 1:]]
     compared = words[1] == "run" and "Measured Log" in (PROJECT / words[2]).read_text(encoding="utf-8")
     return [*words, *(word for text in (COMPARED if compared else SHORT[words[1]]) for word in ("--set", text))]
 
@@ -83,22 +91,28 @@ def run_pages(folder):
             expect(f"{page}: {line.strip()[:110]}", done.returncode == 0, f"({done.returncode}) {done.stderr[-400:]}")
 
 
-def check_decks():
-    """Commands that take minutes: their decks and overrides are read, nothing is solved."""
-    seen = set()
-    for line, _ in blocks(CHECKED, ("sh", "")):
+def run_validation(folder):
+    """One of the commands that differ in numbers alone is run; of the others, decks and overrides are read."""
+    seen, alike, ran = set(), set(), 0
+    for line, _ in blocks(VALIDATION, ("sh", "")):
         words = words_of(line)
         if words[:2] != ["tooljoint", "run"]:
             continue
         kept = [words[2]]
         for option, value in zip(words[3:], words[4:]):
             kept += [option, value] if option in OPTIONS_OF_DECKS else []
-        if tuple(kept) in seen:
+        kind = re.sub(r"[-+]?\b\d[\d.e+-]*", "#", " ".join(kept))
+        if kind not in alike:
+            command, ran = shortened([str(PROGRAM), *words[1:]]), ran + 1
+        elif tuple(kept) not in seen:
+            command = [PROGRAM, "check", *kept]
+        else:
             continue
+        alike.add(kind)
         seen.add(tuple(kept))
-        done = subprocess.run([PROGRAM, "check", *kept], cwd=PROJECT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-        expect(f"{CHECKED}: {line.strip()[:110]}", done.returncode == 0, done.stderr[-300:])
-    expect(f"{CHECKED} has commands", len(seen) > 20, len(seen))
+        done = subprocess.run(command, cwd=folder, env={**os.environ, "TOOLJOINT_REPORT": "off"}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        expect(f"{VALIDATION}: {line.strip()[:110]}", done.returncode == 0, done.stderr[-300:])
+    expect(f"{VALIDATION} has {len(seen)} commands, of which {ran} run", len(seen) > 20 and ran >= 10, f"{len(seen)} {ran}")
 
 
 @functools.lru_cache(maxsize=None)
@@ -157,12 +171,40 @@ def check_words():
     expect("the target records makes what tools write into docs/", len(written) > 4 and not absent, f"{absent} {sorted(written)}")
 
 
+def draw_map(folder):
+    """The tool that draws the maps of record takes the words of their page."""
+    changes = [word for text in SHORT["map"] if "Pictures" not in text for word in ("--set", text)]
+    done = subprocess.run([PROJECT / "tools/maps.py", "--program", PROGRAM, "--work", folder / "maps", "--figures", folder, "--only", "map_helical_170m", *changes],
+                          env={**os.environ, "TOOLJOINT_REPORT": "off"}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    drawn = (folder / "map_helical_170m.svg").read_text(encoding="utf-8") if done.returncode == 0 else ""
+    expect("tools/maps.py draws a map, which says of what scene and with what the axes do not vary", "<svg" in drawn and ">map_helical_170m; TOB 5 kN m, " in drawn, done.stderr[-300:])
+
+
+def check_tests():
+    """Each pattern of `ctest -R` fits a test of this build, or one that the build has with more packages; each label of `-L` has tests."""
+    listed = json.loads(subprocess.run([CTEST, "--test-dir", BUILD, "--show-only=json-v1"], stdout=subprocess.PIPE, text=True, check=True).stdout)["tests"]
+    labels = {label for test in listed for entry in test.get("properties", ()) if entry["name"] == "LABELS" for label in entry["value"]}
+    names = {test["name"] for test in listed} | set(re.findall(r"tooljoint_add_test\(([\w.]+) ", (PROJECT / "tests/CMakeLists.txt").read_text(encoding="utf-8")))
+    named = 0
+    for page in pages():
+        for command in re.findall(r"`(ctest [^`]+)`", page.read_text(encoding="utf-8")):
+            words = shlex.split(command.replace("\\|", "|"))
+            for option, pattern in zip(words, words[1:]):
+                known = {"-R": names, "-L": labels}.get(option)
+                if known:
+                    named += 1
+                    expect(f"{page.name}: {command} has tests", any(re.search(pattern, name) for name in known), sorted(known)[:5])
+    expect("the pages name tests", named > 30, named)
+
+
 def main():
     folder = pathlib.Path("commands").resolve()
     stage(folder)
     check_words()
-    check_decks()
+    check_tests()
+    run_validation(folder)
     run_pages(folder)
+    draw_map(folder)
     return finish()
 
 

@@ -23,8 +23,7 @@ OPTION = re.compile(r"^  ((?:-\w,)?--[\w-]+|-\w)\b", re.M)
 
 
 def commands():
-    text = tooljoint("--help").stdout
-    return re.findall(r"^  ([a-z-]+) ", text[text.index("Subcommands:"):], re.M)
+    return re.findall(r"^  ([a-z][a-z-]*) ", tooljoint("--help").stdout, re.M)
 
 
 @functools.lru_cache(maxsize=None)
@@ -107,7 +106,7 @@ def zsh(names):
 
 
 def refusals():
-    for words, sentence in ((("doc", "nonsense", "--format", "man"), 'There is no command "nonsense". Available: "run", '),
+    for words, sentence in ((("doc", "nonsense", "--format", "man"), 'There is no command "nonsense". Available: "doc", "new", '),
                             (("doc", "run", "--format", "bash"), "The completion for bash covers all commands")):
         done = tooljoint(*words)
         expect(f"{' '.join(words)}: exit code 1", done.returncode == 1 and sentence in done.stderr, done.stderr)

@@ -48,6 +48,7 @@ def deck(program, name, bit, drive, weight):
     return program.deck(name, models.string_deck(PIECES, **{
         "Loads": loads, "Rotary Speed": rotary, "Damping": {"Mass Coefficient": 0.5}, "Bit": bit, "Top Drive": drive,
         "Substructures": {"Rule": "By component"}, "Reduction": {"Mode Selection": {"Modes": 6}},
+        "Output": {"Compression": 0},  # so that the place of a chunk is known before it is full
         "Transient": {"Progress": False, "End Time": 1.0, "Sampling Interval": 0.002, "Checkpoint Interval": 0.1}}))
 
 

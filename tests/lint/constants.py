@@ -6,7 +6,8 @@
     constants.py --self-test    shows that each rule catches what it is for
 
 A number that a step is tuned with stands in Tuned.hpp and, with its value, in the first table of the page. Any other named
-number of the loop stands in the second table; numbers without a name are formulas' own: FORMULA.
+number of the loop stands in the second table; numbers without a name are formulas' own: FORMULA. Named numbers of what judges
+and measures a run stand in the third table, with value and file.
 """
 import pathlib
 import re
@@ -17,6 +18,7 @@ TUNED, PAGE = pathlib.Path("src/transient/Tuned.hpp"), pathlib.Path("docs/step-c
 LOOP = ("src/transient/contact/*.?pp", "src/transient/compiled/*.?pp", "src/transient/implicit/*.?pp",
         "src/transient/schemes/ImplicitStep.?pp",
         "src/transient/schemes/AlphaStep.?pp", "src/transient/schemes/GeneralizedAlpha.cpp")
+JUDGES = ("src/transient/verdict/*.?pp", "src/transient/accuracy/*.?pp")
 MOST = 30  # numbers that are tuned
 FORMULA = {"0.0", "0.1", "0.25", "0.5", "1.0", "2.0", "4.0"}  # powers of two and a tenth of another number
 NAMED = re.compile(r"\bconstexpr\s+(?:double|int|long|auto|std::size_t)\s+([^;]*);")
@@ -39,19 +41,20 @@ def declared(text):
 
 
 def tables(page):
-    """{name: value} of the tables of the page, tuned numbers and others."""
+    """{name: value} of the tables of the page, tuned numbers and others, and {(file, name): value} of the third."""
     found = []
     for line in page.splitlines():
         if re.match(r"\|\s*-", line):
             found.append({})
         elif found and (cells := [cell.strip() for cell in line.split("|")[1:-1]]) and cells[0].startswith("`"):
-            found[-1][cells[0].strip("`")] = cells[1]
-    return (found + [{}, {}])[:2]
+            name = cells[0].strip("`")
+            found[-1][name if len(found) < 3 else (cells[2], name)] = cells[1]
+    return (found + [{}, {}, {}])[:3]
 
 
 def complaints(root):
     page = (root / PAGE).read_text(encoding="utf-8")
-    tuned, others = tables(page)
+    tuned, others, judging = tables(page)
     in_code = {name: (line, value) for line, name, value in declared(code((root / TUNED).read_text(encoding="utf-8")))}
     for name, (line, value) in in_code.items():
         if name not in tuned:
@@ -75,6 +78,13 @@ def complaints(root):
                     yield f"{where}:{number}: {literal} has no name: it belongs in {TUNED}"
     for name in sorted(set(others) - seen):
         yield f"{PAGE}:1: {name} is no number of the loop any more"
+    for path in sorted(path for pattern in JUDGES for path in root.glob(pattern)):
+        for line, name, value in declared(code(path.read_text(encoding="utf-8"))):
+            listed = judging.pop((path.stem, name), None)
+            if listed != value:
+                yield f"{path.relative_to(root)}:{line}: {name} is {value}, {listed or 'not there'} in the third table of {PAGE}"
+    for file, name in sorted(judging):
+        yield f"{PAGE}:1: {name} is no number of {file} any more"
 
 
 def self_test():
@@ -90,11 +100,16 @@ def self_test():
         (tuned, table.replace("| `b`", "| `e` | 1 |\n| `b`"), "constexpr int c = 3;\n", "e is not in"),
         (tuned, table.replace("| `b`", "".join(f"| `x{i}` | 1 |\n" for i in range(MOST)) + "| `b`"), "constexpr int c = 3;\n", "more than"),
     ]
+    judge = pathlib.Path("src/transient/verdict/B.cpp")
+    third = table + "\n| n | v | f |\n|---|---|---|\n| `d` | 0.25 | B |\n"
+    judged = [("constexpr double d = 0.25;\n", None), ("constexpr double d = 0.3;\n", "d is 0.3, 0.25 in"),
+              ("constexpr double d = 0.25, e = 2;\n", "e is 2, not there"), ("int d = 1;\n", "d is no number of B")]
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        for header, page, source, expected in cases:
-            for path, text in ((TUNED, header), (PAGE, page), (pathlib.Path("src/transient/contact/A.cpp"), source)):
+        loop = "constexpr int c = 3;\n"
+        for header, page, source, judging, expected in [(*case[:3], "", case[3]) for case in cases] + [(tuned, third, loop, *case) for case in judged]:
+            for path, text in ((TUNED, header), (PAGE, page), (pathlib.Path("src/transient/contact/A.cpp"), source), (judge, judging)):
                 (root / path).parent.mkdir(parents=True, exist_ok=True)
                 (root / path).write_text(text, encoding="utf-8")
             found = list(complaints(root))
@@ -102,7 +117,7 @@ def self_test():
             failures += not right
             if not right:
                 print(f"expected {expected!r}, found {found}")
-    print(f"{len(cases)} cases, {failures} failures")
+    print(f"{len(cases) + len(judged)} cases, {failures} failures")
     return 1 if failures else 0
 
 

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Debian packages of a build: check_debian.py CPACK BUILD VERSION CMAKE
 
-Packs what is built, installs the packages with dpkg into an empty root, maintainer scripts included, and uses them from there: the program makes
-a folder and runs its deck, the commands of docs/first-report.md lead to a report, the installed report answers, a client is built with the headers
-and runs, Python imports its package and computes. The libraries of the distribution are those of this machine. Lintian, where it is installed,
-finds no error.
+Packs what is built as docs/first-report.md does, installs the packages with dpkg into an empty root, maintainer scripts included, and uses them
+from there: the program makes a folder and runs its deck, the commands of docs/first-report.md lead to a report, the installed report answers, a
+client is built with the headers and runs, Python imports its package and computes. The libraries of the distribution are those of this machine.
+Lintian, where it is installed, finds no error.
 """
 import gzip
 import json
@@ -24,7 +24,9 @@ CPACK, BUILD, VERSION, CMAKE = sys.argv[1:5]
 CLIENT = pathlib.Path(__file__).resolve().parent
 PYTHON = list(pathlib.Path(BUILD).glob("python/tooljoint/_core*.so"))
 NAMES = ["tooljoint", "libtooljoint-dev"] + ["python3-tooljoint"] * len(PYTHON)
-PACKED, ROOT = pathlib.Path("packed").resolve(), pathlib.Path("root").resolve()
+PROJECT = CLIENT.parents[1]
+SOURCES, ROOT = pathlib.Path("tooljoint").resolve(), pathlib.Path("root").resolve()
+PACKED = SOURCES / "packages"
 
 
 def command(*words, **options):
@@ -32,13 +34,19 @@ def command(*words, **options):
 
 
 def pack():
-    """The files of the packages by their name."""
-    for folder in (PACKED, ROOT):
+    """The files of the packages by their name, made by the first commands of docs/first-report.md, but for the build, which is there."""
+    for folder in (SOURCES, ROOT):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
-    done = command(CPACK, "--config", f"{BUILD}/CPackConfig.cmake", "-G", "DEB", "-B", PACKED)
+    (SOURCES / "build").mkdir()
+    (SOURCES / "build/release").symlink_to(BUILD)
+    enter, build, *packing = stranger.before_installation()
+    shown = command(PROJECT / "quickstart", "help").stderr
+    expect(f"{build} builds", re.search(rf"^  {re.escape(build)} +only builds the program$", shown, re.M), shown)
+    done = command("bash", "-euc", "\n".join([enter, *packing]), cwd=SOURCES.parent, env={**os.environ, "PATH": f"{pathlib.Path(CPACK).parent}:{os.environ['PATH']}"})
     found = {path.name.split("_")[0]: path for path in PACKED.glob("*.deb")}
-    expect(f"cpack makes {', '.join(NAMES)}", done.returncode == 0 and set(found) == set(NAMES), done.stdout[-600:] + done.stderr[-600:])
+    expect(f"{packing[-1]} makes {', '.join(NAMES)}", done.returncode == 0 and set(found) == set(NAMES), done.stdout[-600:] + done.stderr[-600:])
+    expect("the page installs the program from there", stranger.installed(SOURCES) == [found["tooljoint"].name] if "tooljoint" in found else False, stranger.installed(SOURCES))
     return found
 
 

@@ -37,12 +37,28 @@ def script(commands):
     return "set -eu\n" + "".join(f"echo '@@ {line}'\n{line}\n" for line in lines)
 
 
+def installation(commands):
+    return next(i for i, command in enumerate(commands) if command.startswith(INSTALL))
+
+
+def before_installation():
+    """Commands that make the packages."""
+    commands, _ = page()
+    return commands[:installation(commands)]
+
+
 def behind_installation():
     """Commands behind the installation, and the survey; the page keeps its promise of ten."""
     commands, survey = page()
     expect(f"the page has at most {MOST} commands", len(commands) <= MOST, str(len(commands)))
-    first = next(i for i, command in enumerate(commands) if command.startswith(INSTALL))
-    return commands[first + 1:], survey
+    return commands[installation(commands) + 1:], survey
+
+
+def installed(folder):
+    """Names of the files that the page installs from the folder with its packages."""
+    commands, _ = page()
+    pattern = commands[installation(commands)].removeprefix(INSTALL).strip()
+    return sorted(path.name for path in pathlib.Path(folder).glob(pattern))
 
 
 def judge(done, home):

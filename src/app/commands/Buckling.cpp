@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/commands/Commands.hpp"
-#include "app/text/AnalysisScreens.hpp"
-#include "cases/CaseKinds.hpp"
-#include "common/Error.hpp"
+#include "app/commands/Command.hpp"
 #include "substructures/drillstring/buckling/BucklingPath.hpp"
 
 namespace tooljoint::app {
 
-void buckling(const RunOptions& options) {
-  const auto one = cases::readCase(options.deck, options.overrides);
-  const auto* string = dynamic_cast<const drillstring::DrillstringCase*>(one.get());
-  if (string == nullptr)
-    throw DeckError(
-        options.deck +
-        ": buckling needs a string in its well. Give a deck with the lists Well and Drillstring.");
-  drillstring::reportBuckling(*string, options.output, options.fresh);
-  endAnalysis("buckling", *one, options.output);
+namespace {
+
+Action prepareBuckling(CLI::App& line) {
+  return analysis(line, "path", [](const cases::Case& one, const std::string& out, bool fresh) {
+    drillstring::reportBuckling(stringOf(one, "buckling"), out, fresh);
+  });
 }
+
+const bool bucklingRegistered =
+    addCommand({Group::Analyses, "buckling",
+                "static states under a growing weight on bit, past buckling into the bore, beside "
+                "theory (list Buckling)",
+                prepareBuckling});
+
+}  // namespace
 
 }  // namespace tooljoint::app

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "response/campbell/Campbell.hpp"
 
-#include "app/commands/Commands.hpp"
-#include "app/text/AnalysisScreens.hpp"
-#include "cases/CaseKinds.hpp"
+#include "app/commands/Command.hpp"
 
 namespace tooljoint::app {
 
-void campbell(const RunOptions& options) {
-  const auto one = cases::readCase(options.deck, options.overrides);
-  tooljoint::response::runCampbell(*one, options.output, options.fresh);
-  endAnalysis("campbell", *one, options.output);
-}
+namespace {
+
+Action prepareCampbell(CLI::App& line) { return analysis(line, "speeds", response::runCampbell); }
+
+const bool campbellRegistered =
+    addCommand({Group::Analyses, "campbell",
+                "damped modes against the rotary speed, and critical speeds (list Campbell)",
+                prepareCampbell});
+
+}  // namespace
 
 }  // namespace tooljoint::app

@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/commands/Commands.hpp"
+#include "app/commands/Command.hpp"
 #include "cases/CaseCheck.hpp"
-#include "cases/CaseKinds.hpp"
 
 namespace tooljoint::app {
 
-void check(const RunOptions& options) {
-  cases::check(*cases::readCase(options.deck, options.overrides), options.cost);
+namespace {
+
+struct CheckOptions : DeckOptions {
+  bool cost = false;
+};
+
+Action prepareCheck(CLI::App& line) {
+  auto options = std::make_shared<CheckOptions>();
+  addDeckOptions(line, *options, Output::None);
+  line.add_flag("--cost", options->cost,
+                "compute static state and reduction too, and predict which model is faster");
+  return [options] { cases::check(*readCase(*options), options->cost); };
 }
+
+const bool checkRegistered =
+    addCommand({Group::Runs, "check", "validate a deck and say what will be modelled; run nothing",
+                prepareCheck});
+
+}  // namespace
 
 }  // namespace tooljoint::app

@@ -2,8 +2,9 @@
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
-#include "app/commands/Commands.hpp"
+#include "app/commands/Command.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
@@ -12,8 +13,23 @@
 
 namespace tooljoint::app {
 
+namespace {
+
+/// Two results folders, and the window of time to compare them in [s].
+struct CompareOptions {
+  std::string folder;
+  std::string reference;
+  double begin = 0.0;
+  std::optional<double> end;        ///< by default 3 s after the beginning
+  std::optional<double> failAbove;  ///< largest vibration error that is accepted
+  bool json = false;                ///< print JSON in the place of the line for people
+};
+
+/// eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and the vibration error. UsageError: the
+/// folders hold different scenes or different times in the window, or the reference does not move
+/// in it; ConvergenceError: the vibration error is above options.failAbove.
 void compare(const CompareOptions& options) {
-  constexpr double usualSpan = 3.0;  // s, over which motions are told apart by values
+  constexpr double usualSpan = 3.0;  // s, over which motions are compared by values
   const double end = options.end.value_or(options.begin + usualSpan);
   if (end < options.begin)
     throw UsageError("--to " + formatNumber(end) + " is before --from " +
@@ -49,5 +65,28 @@ void compare(const CompareOptions& options) {
                          ", more than the " + formatNumber(*options.failAbove) +
                          " of --fail-above. Reduce Transient/Step, or keep more modes.");
 }
+
+Action prepareCompare(CLI::App& line) {
+  auto options = std::make_shared<CompareOptions>();
+  line.add_option("DIR", options->folder, "results folder")->type_name("DIR")->required();
+  line.add_option("REFERENCE", options->reference, "results folder of the reference run")
+      ->type_name("DIR")
+      ->required();
+  line.add_option("--from", options->begin, "start of the window [s]")->check(anyNumber());
+  line.add_option("--to", options->end, "end of the window [s] (default: 3 s after --from)")
+      ->check(anyNumber());
+  line.add_option("--fail-above", options->failAbove,
+                  "end with exit code 4 when the vibration error is larger than this")
+      ->check(zeroOrMore());
+  line.add_flag("--json", options->json, "print the errors and the window as JSON");
+  return [options] { compare(*options); };
+}
+
+const bool compareRegistered =
+    addCommand({Group::Results, "compare",
+                "errors eps_t, eps_n and the vibration error of one run against a reference run",
+                prepareCompare});
+
+}  // namespace
 
 }  // namespace tooljoint::app

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "study/map/Map.hpp"
 
-#include <filesystem>
-
-#include "app/commands/Commands.hpp"
-#include "app/text/AnalysisScreens.hpp"
-#include "cases/CaseKinds.hpp"
+#include "app/commands/Command.hpp"
 
 namespace tooljoint::app {
 
-void map(const RunOptions& options) {
-  const auto one = cases::readCase(options.deck, options.overrides);
+namespace {
+
+void map(const RowOptions& options) {
+  const auto one = readCase(options);
   study::MapOptions own{options.output, options.fresh, options.ranksPerRow};
   if (!options.plan.empty()) {
-    study::planMapRows(*one, options.plan, std::filesystem::read_symlink("/proc/self/exe").string(),
-                       own);
+    study::planMapRows(*one, options.plan, programPath(), own);
   } else if (!options.collect.empty()) {
     own.output = options.collect;
     study::collectMap(*one, own);
@@ -26,5 +23,20 @@ void map(const RunOptions& options) {
     endAnalysis("map", *one, own.output);
   }
 }
+
+Action prepareMap(CLI::App& line) {
+  auto options = std::make_shared<RowOptions>();
+  addDeckOptions(line, *options, Output::Always, "_map");
+  addVerbose(line, *options);
+  addRowOptions(line, *options, "its number in map.csv (the commands of --plan)");
+  return [options] { map(*options); };
+}
+
+const bool mapRegistered =
+    addCommand({Group::Runs, "map",
+                "figures over a grid of parameters: the deck's Map list as table and coloured maps",
+                prepareMap});
+
+}  // namespace
 
 }  // namespace tooljoint::app

@@ -2,13 +2,13 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/commands/Commands.hpp"
-#include "app/text/Templates.hpp"
+#include "app/commands/Command.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "io/TextFile.hpp"
+#include "texts/Templates.hpp"
 
 namespace tooljoint::app {
 
@@ -37,7 +37,7 @@ void write(const fs::path& folder, const std::string& name) {
                     " is there already and not empty. Choose another name, or remove it.");
   fs::create_directories(folder, failed);
   if (failed) throw FileError(folder.string() + " cannot be made: " + failed.message() + ".");
-  const auto& files = templateFiles();
+  const auto& files = texts::templateFiles();
   const std::string list = "<ParameterList name=\"";
   io::writeText((folder / (name + ".xml")).string(),
                 named(files.at("well.xml"), list + "well\"", list + name + "\""));
@@ -45,8 +45,8 @@ void write(const fs::path& folder, const std::string& name) {
   io::writeText((folder / "README.md").string(), named(files.at("README.md"), "@NAME@", name));
 }
 
-}  // namespace
-
+/// A folder with a deck of its name, survey.csv and README.md. UsageError: no name of a deck;
+/// FileError: the folder holds something, or cannot be written. Collective.
 void newFolder(const std::string& path) {
   fs::path folder = fs::path(path).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();  // of a slash at the end
@@ -60,5 +60,19 @@ void newFolder(const std::string& path) {
   log::info("folder      " + folder.string() + ": " + name + ".xml, survey.csv, README.md");
   log::info("next        cd " + folder.string() + " && tooljoint run " + name + ".xml");
 }
+
+Action prepareNew(CLI::App& line) {
+  auto folder = std::make_shared<std::string>();
+  line.add_option("NAME", *folder, "folder to make; its deck has the same name")
+      ->type_name("DIR")
+      ->required();
+  return [folder] { newFolder(*folder); };
+}
+
+const bool newRegistered =
+    addCommand({Group::Begin, "new",
+                "write a folder with a deck that runs, its survey and a README", prepareNew});
+
+}  // namespace
 
 }  // namespace tooljoint::app

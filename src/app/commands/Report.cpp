@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/Commands.hpp"
-#include "app/commands/Scripts.hpp"
+#include "app/commands/Command.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/PythonScript.hpp"
@@ -27,13 +26,34 @@ std::string without(const std::string& endings, std::string text) {
   return text;
 }
 
-}  // namespace
-
-void report(const std::string& folder, const std::string& output) {
-  std::vector<std::string> arguments{folder};
-  if (!output.empty()) arguments.insert(arguments.end(), {"--output", output});
-  runScript(kScript, "The report was not written", arguments);
+Action prepareReport(CLI::App& line) {
+  struct Options {
+    std::string folder;
+    std::string output;
+    bool quiet = false;
+  };
+  auto options = std::make_shared<Options>();
+  line.add_option("DIR", options->folder,
+                  "folder of run, study or map, or the --output of torque-drag, bha, buckling, "
+                  "campbell, response or modes")
+      ->type_name("DIR")
+      ->required();
+  line.add_option("--output,-o", options->output, "file to write (default: DIR/report.html)")
+      ->type_name("FILE");
+  line.add_flag("--quiet,-q", options->quiet, "print warnings and errors only");
+  return [options] {
+    log::setQuiet(options->quiet);
+    std::vector<std::string> arguments{options->folder};
+    if (!options->output.empty()) arguments.insert(arguments.end(), {"--output", options->output});
+    runScript(kScript, "The report was not written", arguments);
+  };
 }
+
+const bool reportRegistered = addCommand(
+    {Group::Results, "report",
+     "one HTML file with figures, plots and a 3-D view of a results folder", prepareReport});
+
+}  // namespace
 
 void reportAtEnd(const std::string& folder, bool wanted) {
   if (parallel::rank() != 0) return;

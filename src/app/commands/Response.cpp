@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "response/Response.hpp"
 
-#include "app/commands/Commands.hpp"
-#include "app/text/AnalysisScreens.hpp"
-#include "cases/CaseKinds.hpp"
+#include "app/commands/Command.hpp"
 
 namespace tooljoint::app {
 
-void response(const RunOptions& options) {
-  const auto one = cases::readCase(options.deck, options.overrides);
-  tooljoint::response::runResponse(*one, options.output, options.fresh);
-  endAnalysis("response", *one, options.output);
-}
+namespace {
+
+Action prepareResponse(CLI::App& line) { return analysis(line, "points", response::runResponse); }
+
+const bool responseRegistered =
+    addCommand({Group::Analyses, "response",
+                "amplitude and phase under unbalance or harmonic loads, transfer functions (list "
+                "Response)",
+                prepareResponse});
+
+}  // namespace
 
 }  // namespace tooljoint::app

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/Template.hpp"
 
+#include <iostream>
 #include <sstream>
 
-#include "app/commands/Commands.hpp"
-#include "app/text/Templates.hpp"
+#include "app/commands/Command.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "common/report/Terminal.hpp"
 #include "substructures/drillstring/assembly/Components.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
+#include "texts/Templates.hpp"
 
 namespace tooljoint::app {
 
@@ -32,7 +33,7 @@ std::string everyList(bool experts) {
 
 /// The numbers of survey.csv, whose first line is a remark and whose second one its header.
 std::string stations() {
-  std::istringstream rows(templateFiles().at("survey.csv"));
+  std::istringstream rows(texts::templateFiles().at("survey.csv"));
   std::string all, row;
   for (int line = 1; std::getline(rows, row); ++line)
     if (line > 2) all += (all.empty() ? "" : ",   ") + row;
@@ -42,7 +43,7 @@ std::string stations() {
 /// The deck of `tooljoint new` with its survey inside, so that it needs no file.
 std::string wellAlone() {
   const std::string file = R"(<Parameter name="File" type="string" value="survey.csv"/>)";
-  std::string text = templateFiles().at("well.xml");
+  std::string text = texts::templateFiles().at("well.xml");
   const auto at = text.find(file);
   if (at == std::string::npos)
     throw Error(ExitCode::Internal, "The template of a well names no survey.csv.");
@@ -53,27 +54,44 @@ std::string wellAlone() {
   return terminal::wrapped(text.replace(at, file.size(), inDeck), 4);
 }
 
-}  // namespace
+const std::vector<std::string> templateKinds{"well",  "parts", "part",
+                                             "study", "scene", "components"};
 
-const std::vector<std::string>& templateKinds() {
-  static const std::vector<std::string> kinds{"well",  "parts", "part",
-                                              "study", "scene", "components"};
-  return kinds;
-}
-
+/// A deck to start from; `all` with the parameters for experts. UsageError for another kind, and
+/// for `all` beside another than "scene".
 std::string deckTemplate(const std::string& kind, bool all) {
   if (all && kind != "scene")
     throw UsageError("--all belongs to the template \"scene\"; \"" + kind +
                      "\" has no other parameters.");
   if (kind == "well") return wellAlone();
-  if (kind == "parts") return templateFiles().at("parts.xml");
-  if (kind == "part") return templateFiles().at("bar.json");
-  if (kind == "study") return templateFiles().at("study.xml");
+  if (kind == "parts") return texts::templateFiles().at("parts.xml");
+  if (kind == "part") return texts::templateFiles().at("bar.json");
+  if (kind == "study") return texts::templateFiles().at("study.xml");
   if (kind == "scene") return everyList(all);
   if (kind == "components")
     return deck::templateXml(drillstring::libraryParameters(), "my_components");
   throw UsageError("There is no template " + inQuotes(kind) +
-                   ". Available: " + quotedList(templateKinds()) + ".");
+                   ". Available: " + quotedList(templateKinds) + ".");
 }
+
+Action prepareTemplate(CLI::App& line) {
+  struct Options {
+    std::string kind;
+    bool all = false;
+  };
+  auto options = std::make_shared<Options>();
+  line.add_option("KIND", options->kind,
+                  "a surveyed well, parts, the part file of parts, a study, a scene with every "
+                  "list, or a library of components")
+      ->type_name("{" + join(templateKinds, ",") + "}")
+      ->required();
+  line.add_flag("--all", options->all, "of scene: parameters for experts, too");
+  return [options] { print(std::cout, deckTemplate(options->kind, options->all)); };
+}
+
+const bool templateRegistered =
+    addCommand({Group::Begin, "template", "print a commented deck to start from", prepareTemplate});
+
+}  // namespace
 
 }  // namespace tooljoint::app

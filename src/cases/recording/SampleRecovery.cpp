@@ -55,6 +55,7 @@ std::optional<Sample> SampleRecovery::gather(const transient::SampleShare& mine)
   for (const Vector& x : recovered) next = std::copy(x.begin(), x.end(), next);
   division_->gather.gather<3>({&displacement_, &velocity_, &acceleration_});
   if (parallel::rank() != 0) return {};
+  states_ = mine.states;
   displacement_ += model_.recoveryOffset;
   return Sample{mine.t, q_, qDot_, displacement_, velocity_, acceleration_, states_};
 }

@@ -12,7 +12,7 @@ namespace {
 
 /// Arnoldi steps: the norm of a string of 1e5 dofs is then known within 1 %.
 constexpr int arnoldiSteps = 60;
-/// Times at which laws are looked at for their largest size.
+/// Times at which laws are evaluated for their largest size.
 constexpr int lawSamples = 1000;
 /// How deep a wall is met [m]: laws that grow with depth have no stiffness of their own.
 constexpr double depth = 1e-3;
@@ -58,7 +58,7 @@ LargestRate::Rates LargestRate::operator()(const State& state, double end) {
   const double k = norm(sum(model_.stiffness(), &Tangents::position));
   const double g = norm(sum(model_.damping(), &Tangents::velocity));
   const double contact = normOfPoints(&Tangents::position), c = normOfPoints(&Tangents::state);
-  return {largestRoot(g, k, c) + ofStates_, std::sqrt(contact)};
+  return {largestRoot(g, k, c) + model_.cut().largest(ofStates_), std::sqrt(contact)};
 }
 
 double LargestRate::ofDampingLaws(const State& state) {
@@ -156,7 +156,7 @@ void LargestRate::addStates(const PointStates& states, int point) {
   ofStates_ = std::max(ofStates_, Matrix(tangents.gx).norm());
 }
 
-/// Friction grows with the force, which a wall met on the way does not tell: of df/dv the part
+/// Friction grows with the force, which a wall met on the way does not show: of df/dv the part
 /// along the normal n = (df/dd)'f / |(df/dd)'f| is left.
 void LargestRate::keepNormalDamping() {
   Vector n = position_.transpose() * force_;

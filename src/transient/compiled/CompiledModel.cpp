@@ -33,13 +33,13 @@ bool isSkew(const Sparse& matrix) {
   return true;
 }
 
-/// act(batch, states, offset) for every batch that has states.
+/// act(batch, states, offset) for every batch that has states, and points of this rank.
 template <class Batches, class Act>
 void forStates(Batches& batches, const Act& act) {
   int offset = 0;
   for (auto& batch : batches)
     if (PointStates* states = batch.states()) {
-      act(batch, *states, offset);
+      if (!batch.everyPoint().empty()) act(batch, *states, offset);
       offset += states->size();
     }
 }
@@ -71,7 +71,7 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms,
   }
   for (const auto& term : terms_) samples.push_back(&term.values);
   product_ = linalg::BlockProduct(pattern, samples, &like);
-  constant_ = terms_.size() == 1 && laws[at(terms_[0].law)].name == "1";
+  constant_ = terms_.size() == 1 && laws[at(terms_[0].law)].isOne();
   if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
   last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
 }
@@ -156,7 +156,7 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model, const RankSha
   model.validate();
   const int n = model.size();
   pattern_ = share != nullptr ? share->pattern() : modelPattern(model);
-  countWhole();
+  wholeSize_ = share != nullptr ? share->wholeSize() : n;
   runs_ = linalg::blockRuns(pattern_, positionsPerRun);
 
   mass_.assign(pattern_.storage(), 0.0);
@@ -183,16 +183,6 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model, const RankSha
   points_ = makePoints();
   for (auto& batch : points_)
     if (const auto* states = batch.states()) stateSize_ += states->size();
-}
-
-void CompiledModel::countWhole() {
-  const auto& cut = pattern_.cut();
-  double counts[2] = {0, 0};
-  for (int p = 0; p < size(); ++p) counts[0] += cut.owns(p) ? 1 : 0;
-  for (int b = 0; b < pattern_.blocks(); ++b) counts[1] += cut.owns(pattern_.start(b)) ? 1 : 0;
-  cut.reduce(nullptr, 0, counts, 2);
-  wholeSize_ = static_cast<int>(counts[0]);
-  wholeBlocks_ = static_cast<int>(counts[1]);
 }
 
 std::vector<PointBatch> CompiledModel::makePoints() const {
@@ -423,6 +413,7 @@ void CompiledModel::initialStates(double t, const double* q, const double* v, do
     batch.gatherAll(q, v);
     states.initial(t, batch.d(), batch.v(), x + offset);
   });
+  keepOwnStates(x);
 }
 
 void CompiledModel::bindStates(const double* base, double factor, const double* rate) {
@@ -446,6 +437,7 @@ void CompiledModel::completeStates(double t, const double* q, const double* v, d
     batch.gatherAll(q, v);
     states.complete(t, batch.everyPoint(), batch.d(), batch.v(), x + offset, xDot + offset);
   });
+  keepOwnStates(x);
 }
 
 void CompiledModel::acceptStates(double t, const double* q, const double* v, double* x) {
@@ -453,6 +445,27 @@ void CompiledModel::acceptStates(double t, const double* q, const double* v, dou
     batch.gatherAll(q, v);
     states.accept(t, batch.d(), batch.v(), x + offset);
   });
+  keepOwnStates(x);
+}
+
+void CompiledModel::joinStates(Vector& x) const {
+  if (cut().isDivided() && stateSize_ > 0) cut().sumAll(x.data(), at(stateSize_));
+}
+
+void CompiledModel::keepOwnStates(double* x) const {
+  if (!cut().isDivided()) return;
+  for (const auto& batch : points_) {
+    const PointStates* states = batch.states();
+    if (states == nullptr) continue;
+    auto own = batch.everyPoint().begin();
+    for (int p = 0; p < states->points(); ++p, x += states->states()) {
+      const bool isOwn = own != batch.everyPoint().end() && *own == p;
+      if (isOwn)
+        ++own;
+      else
+        std::fill_n(x, states->states(), 0.0);
+    }
+  }
 }
 
 void CompiledModel::blendStates(const Vector& from, const Vector& to, double s, const Vector& held,
@@ -471,7 +484,7 @@ double CompiledModel::stateDistance(const Vector& a, const Vector& b) const {
     for (int i = 0; i < states.size(); ++i)
       if (states.isRated(i)) square += std::pow(a[offset + i] - b[offset + i], 2);
   });
-  return std::sqrt(square);
+  return std::sqrt(stateSize_ > 0 ? cut().sum(square) : 0.0);
 }
 
 void CompiledModel::addPointForces(double t, const double* q, const double* v, double* y) {

@@ -41,7 +41,7 @@ class MatrixSum {
             const linalg::BlockPattern& pattern, const linalg::BlockProduct& like);
   bool empty() const { return terms_.empty(); }
   /// True if a law has another value than last time. The sum is formed when the laws stand still or
-  /// somebody asks for it; while they change, products go term by term.
+  /// it is needed; while they change, products go term by term.
   bool update(const std::vector<double>& lawValues);
   /// What update() and products have left, to come back to: the sum is formed anew where another
   /// has been.
@@ -111,9 +111,8 @@ class CompiledModel {
   std::string pivotName(int position) const;
 
   const linalg::RankCut& cut() const { return pattern_.cut(); }
-  /// Positions and blocks of the model of all ranks.
+  /// Positions of the model of all ranks.
   int wholeSize() const { return wholeSize_; }
-  int wholeBlocks() const { return wholeBlocks_; }
   /// x'y of an x that is the same on all ranks and a partial y; max |x_i|. Collective.
   double dot(const Vector& x, const Vector& partial) const;
   double largest(const Vector& x) const;
@@ -191,7 +190,6 @@ class CompiledModel {
   /// All blocks in runs whose vectors stay in a near cache: what is done run by run reads long
   /// vectors once.
   const std::vector<linalg::BlockRange>& runs() const { return runs_; }
-  bool hasDamping() const { return !damping_.empty(); }
 
   /// Values of the laws at time().
   const std::vector<double>& lawValues() const { return lawValues_; }
@@ -213,8 +211,13 @@ class CompiledModel {
   /// PointBatch::meetsOrLeavesWall() of any, on any rank. Collective.
   bool meetsOrLeavesWall(const double* q);
 
-  // States of point laws, one after the other in the order of points(); most models have none.
+  // States of point laws, one after the other in the order of points(); most models have none. A
+  // rank has those of its own points, and zeros for the points of others.
   int stateSize() const { return stateSize_; }
+  /// x of one rank -> of all. Collective.
+  void joinStates(Vector& x) const;
+  /// x of all ranks -> of this one.
+  void keepOwnStates(Vector& x) const { keepOwnStates(x.data()); }
   /// Those of the start of a motion at (q, v).
   void initialStates(double t, const double* q, const double* v, double* x);
   /// What the points are evaluated with from now on, see PointStates::bind(); arrays of
@@ -231,7 +234,7 @@ class CompiledModel {
   /// out = from + s (to - from) for rated states, those of `held` for the others.
   void blendStates(const Vector& from, const Vector& to, double s, const Vector& held,
                    Vector& out) const;
-  /// Length of the difference of rated states.
+  /// Length of the difference of rated states. Collective.
   double stateDistance(const Vector& a, const Vector& b) const;
 
   /// sum of R' f over all batches: evaluated at the active points of state (q, v), added to y.
@@ -239,8 +242,8 @@ class CompiledModel {
 
  private:
   CompiledModel(const model::SecondOrderModel& model, const RankShare* share);
-  void countWhole();
   Vector inOrder(const Vector& dofs) const;
+  void keepOwnStates(double* x) const;
   void sumLoads();
   template <class Value>
   void crossCorners(double begin, double end, const Value& value);
@@ -250,7 +253,7 @@ class CompiledModel {
 
   const model::SecondOrderModel& model_;
   const RankShare* share_ = nullptr;  ///< null: the whole model
-  int wholeSize_ = 0, wholeBlocks_ = 0;
+  int wholeSize_ = 0;
   linalg::BlockPattern pattern_;
   std::vector<linalg::BlockRange> runs_;
   linalg::BlockValues mass_;

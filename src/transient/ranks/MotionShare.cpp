@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transient/ranks/MotionShare.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"
-#include "model/laws/StatefulPointLaw.hpp"
 
 namespace tooljoint::transient {
 namespace {
-
-bool hasPointStates(const model::SecondOrderModel& model) {
-  return std::any_of(model.points.begin(), model.points.end(),
-                     [](const auto& set) { return model::stateful(*set.law) != nullptr; });
-}
 
 /// Models with fewer dofs are computed by all ranks alike: their steps take less than 0.2 ms, of
 /// which two ranks save little (docs/scale.md) and lose more where they share a core.
@@ -37,14 +30,6 @@ std::unique_ptr<RankShare> shareOf(const model::SecondOrderModel& model,
                       " among ranks. Use \"Generalized-alpha\", \"RK4\" or \"RK4 adaptive\", or "
                       "leave Ranks \"Automatic\".");
     log::info("ranks       all compute the same motion: " + why);
-    return nullptr;
-  }
-  if (hasPointStates(model)) {
-    const std::string why = "a point law has states";
-    if (isDemanded)
-      log::warn("The motion is computed by all ranks alike: " + why + ".");
-    else
-      log::info("ranks       all compute the same motion: " + why);
     return nullptr;
   }
   auto share = RankShare::of(model);

@@ -14,6 +14,7 @@ struct SampleShare {
   double t;  ///< [s]
   const RankShare& share;
   const Vector &q, &qDot, &qDDot;
+  const Vector& states;  ///< of the point laws, of all ranks
 };
 
 class ShareSink : public SampleSink {

@@ -173,14 +173,19 @@ double AlphaStep::dissipated(const State& from, const State& to, double h) const
                                                  model_->massForm(work_.data());
 }
 
-void AlphaStep::carry(std::vector<Vector>& vectors) const {
+void AlphaStep::carry(CarriedMemory& memory) const {
   std::vector<double> impacts;
   lastImpacts_.save(impacts);
-  vectors.push_back(A_);
-  vectors.emplace_back(Eigen::Map<const Vector>(impacts.data(), A_.size()));
+  memory.vectors.push_back(A_);
+  memory.vectors.emplace_back(Eigen::Map<const Vector>(impacts.data(), A_.size()));
+  Vector X = X_;
+  model_->joinStates(X);
+  memory.numbers.insert(memory.numbers.end(), X.begin(), X.end());
 }
 
-void AlphaStep::takeUp(const std::vector<Vector>& vectors) {
+void AlphaStep::takeUp(const std::vector<Vector>& vectors, const double*& numbers) {
+  for (double& x : X_) x = *numbers++;
+  model_->keepOwnStates(X_);
   A_ = vectors[0];
   const double* impacts = vectors[1].data();
   lastImpacts_.restore(impacts);

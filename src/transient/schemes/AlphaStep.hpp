@@ -62,9 +62,9 @@ class AlphaStep {
   void invertMass() { mass_->invert(*model_); }
   CompiledModel& model() const { return *model_; }
 
-  /// Integrator::carry(), takeUp(), of models without states of point laws.
-  void carry(std::vector<Vector>& vectors) const;
-  void takeUp(const std::vector<Vector>& vectors);
+  /// Integrator::carry(), takeUp(); the numbers read are passed over.
+  void carry(CarriedMemory& memory) const;
+  void takeUp(const std::vector<Vector>& vectors, const double*& numbers);
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 

@@ -48,9 +48,9 @@ class ExplicitRightHandSide {
     complete(state);
   }
 
-  /// Choose the points to look at in a step of length h from (t, q).
+  /// Choose the points to evaluate in a step of length h from (t, q).
   void look(double t, double h, const double* q);
-  /// True when a point that was not looked at has touched at q; it is active from then on.
+  /// True when a point that was not evaluated has touched at q; it is active from then on.
   bool missed(const double* q);
 
   /// Of a motion from `state` to the time `end`; what the points hold of their last evaluation is

@@ -105,7 +105,7 @@ deck::ListSpec generalizedAlphaParameters() {
             "default 1/1024 of Transient/Step.")
       .expert()
       .boolean("Phase Correction", true,
-               "Make up for the period error of the scheme: vibration is then followed to fourth "
+               "Make up for the period error of the scheme: vibration is then accurate to fourth "
                "order in the step (to second beside strong gyroscopic or other damping terms), at "
                "about a third more work per step.")
       .boolean(
@@ -409,15 +409,15 @@ void GeneralizedAlpha::giveUpImpacts(const State& from, double h) const {
 
 /// The grid of steps begins at the state.
 void GeneralizedAlpha::carry(CarriedMemory& memory) const {
-  scheme_->carry(memory.vectors);
+  scheme_->carry(memory);
   memory.numbers.push_back(grid_.level());
   control_.save(memory.numbers);
   if (resolveImpacts_) impacts_.carry(memory.numbers);
 }
 
 void GeneralizedAlpha::takeUp(const CarriedMemory& memory) {
-  scheme_->takeUp(memory.vectors);
   const double* number = memory.numbers.data();
+  scheme_->takeUp(memory.vectors, number);
   grid_.setLevel(static_cast<int>(*number++));
   control_.restore(number);
   if (resolveImpacts_) impacts_.takeUp(number);

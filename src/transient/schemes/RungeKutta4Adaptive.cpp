@@ -29,8 +29,8 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Errors of steps that add up to more than this part of the motion are told, of the steps of the
-/// first `judged` seconds, as long as equal steps are judged: without damping the error of the
+/// Errors of steps that add up to more than this part of the motion are printed, of the steps of
+/// the first `judged` seconds, as long as equal steps are judged: without damping the error of the
 /// motion is as large.
 constexpr double coarse = 0.05, judged = 3.0;
 

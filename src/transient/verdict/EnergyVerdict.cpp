@@ -21,9 +21,12 @@ std::string describe(const EnergyAccount& account, double t, const std::string& 
   std::ostringstream text;
   text << "Energy " << (made > 0 ? "grew by " : "of ") << std::abs(made) << " J "
        << (made > 0 ? "without work being done" : "was lost by the integration")
-       << " until t = " << t << " s (" << 100.0 * std::abs(account.residual())
-       << " % of the energy exchanged; " << account.supplied << " J were supplied): "
-       << (made > 0 ? "the integration is unstable" : "the steps are too large for the motion")
+       << " until t = " << t << " s, ";
+  if (account.runaway())
+    text << "more than the " << account.supplied << " J that were supplied: ";
+  else
+    text << 100.0 * std::abs(account.residual()) << " % of the energy exchanged: ";
+  text << (made > 0 ? "the integration is unstable" : "the steps are too large for the motion")
        << ". " << (made > 0 ? advice : "Reduce Transient/Step, or the tolerance of the integrator")
        << ".";
   return text.str();

@@ -18,17 +18,13 @@ namespace {
 /// The motion is compared from this part of `Step Error Limit` on, and from this part of `Step
 /// Error Warning` that the scheme damps: what it holds down from the start has little to lose.
 constexpr double comparedError = 0.5, comparedDamping = 0.2;
-/// Step error as large as the motion, which a comparison saves only of all of the motion, and with
-/// a D up to this part of `Step Error Limit`: steps of first order miss twice D.
+/// S from which a run is lost, unless all of its motion is compared and D within this part of
+/// `Step Error Limit`: steps of first order miss twice D.
 constexpr double lostMotion = 1, savedError = 0.5;
 /// Sensitivity over D from which the motion is chaotic.
 constexpr double chaoticShare = 0.25;
-/// Times `Step Error Limit` by which speeds may be larger or smaller: by half at its default.
-constexpr double speedTolerance = 2.5;
-
-/// Times `Step Error Warning` by which velocities may differ: vibration that is too fast for the
-/// step has little of the displacement.
-constexpr double velocityTolerance = 4;
+/// Speeds, and velocities, may be off by so many times what displacements may.
+constexpr double speedTolerance = 2.5, velocityTolerance = 4;
 /// V from which velocities are others, and the part of `Step Error Warning` up to which
 /// displacements are right all the same: 2 % at its default.
 constexpr double lostVelocities = 0.8, nearlyRight = 0.4;
@@ -45,68 +41,65 @@ struct Findings {
   std::optional<StepComparison::Difference> shorter;
   std::optional<StepComparison::Difference> neighbour;  ///< of the shorter steps
 
-  /// Means that are far from those of the shorter steps, of motion that is not theirs: what
-  /// chatters on after a landing says nothing.
-  bool isSlow() const {
-    return isOther() && !isParting() && shorter->speeds * (1 + speedTolerance * limit) < 1;
+  /// Speed over that of the shorter steps, and of their neighbour where it is known: both motions
+  /// are as good, and of chaotic motion the mean of two says more.
+  double speeds() const {
+    return neighbour ? shorter->speeds * std::sqrt(neighbour->speeds) : shorter->speeds;
   }
-  bool isFast() const {
-    return isOther() && !isParting() && shorter->speeds > 1 + speedTolerance * limit;
-  }
-  /// Displacements that are not right; or nearly so, and velocities that are not those at all.
+  /// max(r, 1/r) - 1
+  double speedError() const { return std::exp(std::abs(std::log(speeds()))) - 1; }
+  /// Velocities that are not those at all, of motion that has a share in the displacements.
   bool isOther() const {
-    return shorter && (shorter->size > warning || (shorter->size > nearlyRight * warning &&
-                                                   shorter->velocities > lostVelocities));
+    return shorter->size > nearlyRight * warning && shorter->velocities > lostVelocities;
   }
   /// S is as large as the motion, and the motion not found right enough in all its length.
   bool isLost() const {
     return error > std::max(lostMotion, limit) &&
            !(shorter && shorter->whole && shorter->size <= savedError * limit);
   }
-  /// Of what parts by more than the limit, neighbours part as far as steps and shorter steps do.
-  bool isChaos() const {
+  /// Of what parts by more than a bound, neighbours part as far as steps and shorter steps do.
+  bool partsLikeNeighbours(double bound) const {
     return neighbour &&
-           (shorter->sizes <= limit || neighbour->sizes > chaoticShare * shorter->sizes).all();
+           (shorter->sizes <= bound || neighbour->sizes > chaoticShare * shorter->sizes).all();
   }
   /// In the busiest span neighbours part as far as all that is not right: so short a span has no
   /// means either.
   bool isParting() const {
-    return late && neighbour &&
-           (shorter->sizes <= warning || neighbour->sizes > chaoticShare * shorter->sizes).all() &&
+    return late && partsLikeNeighbours(warning) &&
            (shorter->velocities <= velocityTolerance * warning ||
             neighbour->velocities > chaoticShare * shorter->velocities);
   }
   /// By the damping of the scheme, and by nothing else that is known.
-  bool isHeldDown() const { return isSlow() && !isLost() && !rests; }
-  bool isRight() const {
-    return shorter && !isUnknown() && shorter->size <= warning &&
-           std::abs(shorter->speeds - 1) <= warning &&
-           shorter->velocities <= velocityTolerance * warning;
+  bool isHeldDown() const {
+    return shorter && isOther() && speeds() * (1 + speedTolerance * limit) < 1 && !isParting() &&
+           !isLost() && !rests;
   }
   /// Contact that neither the steps nor what they are compared with resolve.
   bool isUnknown() const { return rests && shorterStep > 0 && (!shorter || shorter->unresolved); }
-  /// The step error: D where the comparison finds the motion right, else the largest of S, D and
-  /// the part of V that counts as much.
+  /// The step error. S where nothing is compared, which refuses nothing below 1. Else the largest
+  /// of D, where neighbours do not part as far; of the speeds, where the motion is another; and of
+  /// V where it is above the warning, which refuses nothing: vibration too fast for the step has
+  /// little of the displacement.
   double stepError() const {
-    if (!shorter) return error;
+    if (isLost()) return error;
+    if (!shorter) return std::min(error, limit);
     if (isParting()) return 0.0;
-    if (isRight()) return shorter->size;
-    return std::max({error, shorter->size, shorter->velocities / velocityTolerance});
+    double found = partsLikeNeighbours(limit) ? 0.0 : shorter->size;
+    if (isOther()) found = std::max(found, std::min(lostMotion, speedError() / speedTolerance));
+    const double fast = shorter->velocities / velocityTolerance;
+    return fast > warning ? std::max(found, std::min(fast, limit)) : found;
   }
   /// Whether the motion from the start is to be compared.
   bool isDue() const {
     return error > comparedError * limit || damped > comparedDamping * warning || rests;
   }
+  bool isTooLarge() const { return stepError() > limit; }
   bool isWide() const { return stepError() > warning || isUnknown(); }
+  bool isRight() const { return shorter && !isWide() && speedError() <= warning; }
   /// What the summary holds: 0 where a step error within the warning is not known to be all.
-  double reported() const { return isUnknown() && stepError() <= warning ? 0.0 : stepError(); }
-  bool isTooLarge() const {
-    return isLost() || isSlow() || isFast() || (neighbour && shorter->size > limit && !isChaos());
-  }
-  /// Whether neighbours have to be asked.
-  bool isInDoubt() const {
-    return shorter && !isLost() && (shorter->size > limit || (late && !isRight()));
-  }
+  double reported() const { return isUnknown() && !(stepError() > warning) ? 0.0 : stepError(); }
+  /// Whether neighbours have to be evaluated.
+  bool isInDoubt() const { return shorter && !isLost() && (isTooLarge() || (late && !isRight())); }
 };
 
 std::string describe(const Findings& found) {
@@ -125,7 +118,8 @@ std::string describe(const Findings& found) {
          << " s without numerical damping, at " << percent(found.shorter->speeds)
          << " of its speed";
   if (found.neighbour)
-    text << ", and a disturbance of 0.1 % changes that by " << percent(found.neighbour->size);
+    text << ", and a disturbance of 0.1 % changes that by " << percent(found.neighbour->size)
+         << ", its speed by " << percent(std::abs(1 / found.neighbour->speeds - 1));
   if (found.isUnknown())
     text << "; points rest on walls, or laws, too stiff for the step, and steps of "
          << found.shorterStep << " s "

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
+#include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"
 #include "coupling/assembly/Assembler.hpp"
@@ -65,6 +66,14 @@ double spread(const Vector& mine) {
                            ? (root.size() > 0 ? (root - mine).cwiseAbs().maxCoeff() : 0.0)
                            : 1e300;
   return parallel::maximum(local);
+}
+
+TEST(DistributedReduction, ASignalToOneRankEndsAll) {
+  const auto parts = frame();
+  const auto basis = makeBasis("Craig-Bampton", Teuchos::ParameterList());
+  requestInterrupt(parallel::rank() == parallel::size() - 1);
+  EXPECT_THROW(reduceAll(parts, *basis, options(ModeRule::Kind::PerPart)), InterruptedError);
+  requestInterrupt(false);
 }
 
 TEST(DistributedReduction, IsTheReductionOfOneRank) {

@@ -160,8 +160,11 @@ def indefinite_interior(program, short):
         start *= 1e-3 / np.abs(start[0::2]).max()
         joints = {"Joints": ["left:middle = right:middle"], "Starts": starts(start, elements)}
         inner = int(np.sum(np.linalg.eigvalsh(K[np.ix_(range(1, n - 2), range(1, n - 2))]) < 0))
-        for modes in (4,) if short else (2, 4, 8):
-            settings = {**times(12.0 / truth, 0.05 / truth), **alpha(0.005 / truth)}
+        ways = [(modes, f"{modes} modes", alpha(0.005 / truth)) for modes in ((4,) if short else (2, 4, 8))]
+        if not short:
+            ways += [(4, "4 modes, RK4", rk4()), (4, "4 modes, ARKODE 1e-6", arkode(1e-6))]
+        for modes, label, way in ways:
+            settings = {**times(12.0 / truth, 0.05 / truth), **way}
             deck = parts_deck(program, "c13", parts, {**settings, **reduced(modes)}, Parts=joints)
             run = program.run("c13", deck)
             listed = program.run("c13_modes", deck, command="modes", extra=("--count", "6"))
@@ -169,7 +172,7 @@ def indefinite_interior(program, short):
             def grows():
                 x = run.nodes(0)[:, int(np.abs(start[0::2]).argmax())]  # no node of the mode
                 return against(float(truth), float(growth(run.time(), x, 0.02 * np.abs(x).max(), np.abs(x).max())))
-            yield judged(run, f"growth of the motion [1/s], {modes} modes", f"thrust {share:g} of the interior's critical load", grows, 0.01, required=True,
+            yield judged(run, f"growth of the motion [1/s], {label}", f"thrust {share:g} of the interior's critical load", grows, 0.01, required=True,
                          note="unstable as it must be")
 
             def pivots():
@@ -178,7 +181,7 @@ def indefinite_interior(program, short):
                 true = [row["full"] for row in lowest if row["full"] < 0]
                 return f"{len(true)} negative, interior {inner}", f"{len(found)} negative", \
                     max([abs(a / b - 1) for a, b in zip(sorted(found), sorted(true))], default=0.0) if len(found) == len(true) else math.inf
-            yield judged(listed, f"modes of omega^2 < 0, {modes} modes", f"thrust {share:g}", pivots, 0.01 if modes > 2 else 0.05, required=True)
+            yield judged(listed, f"modes of omega^2 < 0, {label}", f"thrust {share:g}", pivots, 0.01 if modes > 2 else 0.05, required=True)
 
 
 @case(14, "Flutter, Greenhill's torque, flowing mud", "skew stiffness 0.5 to 5 of the flutter threshold; torque 0.9 to 2 of Greenhill's; mud speed 0.9 to 1.5 of the "
@@ -288,7 +291,7 @@ def skew(program, short):
             deck = parts_deck(program, "c23", imported, settings, Parts=kick)
             run = program.run("c23", deck)
             listed = program.run("c23_modes", deck, command="modes", extra=("--count", "8"))
-            yield judged(run, f"growth of the motion [1/s], {modes} modes", f"skew part {share:g}",
+            yield judged(run, f"growth of the motion [1/s], {label}", f"skew part {share:g}",
                          lambda: against(float(truth), growth_of_pair(run.time(), run.nodes(0)[:, 5])), 0.01 if modes == 22 else 0.05,
                          required=True, note="grows as it must")
             yield statement("modes", f"skew part {share:g}, {modes} modes: said to be of the symmetric part", "a sentence", "said" if "symmetric part" in " ".join(listed.output.split()) else "no word",

@@ -20,7 +20,8 @@ COUNTERS = (("steps", "steps"), ("newton_iterations", "iterations"), ("factorisa
             ("halved", "halved"), ("rejected", "rejected"), ("right_hand_sides", "right-hand sides"))
 # Beginnings of warnings that say nothing of the accuracy of a motion or of its start.
 OTHER_WARNINGS = ("The annulus", "No node of the string", "The output folder", "The mass matrix is singular",
-                  "The checkpoint", "There are", "The static state is unstable", "The bit has not settled", "The bit made")
+                  "The checkpoint", "There are", "The static state is unstable", "The bit has not settled", "The bit made",
+                  "Path/Pre-stress")
 
 
 class NoResult(Exception):

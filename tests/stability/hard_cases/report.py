@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes docs/hard-cases.md and its figures from the rows of the cases."""
+"""Writes docs/hard-cases.md, its figures and its tables from the rows of the cases."""
+import csv
 import math
 import pathlib
 import platform
@@ -14,12 +15,14 @@ import plots  # noqa: E402
 ORDER = ("met", "warned", "off", "refused", "WRONG", "open")
 PARTS = {"short": "This is the short version: a few points of the range, near its easy end.",
          "stopped": "The case was stopped before its end: the last points of the range are not there."}
-LONGEST_NOTE = 150  # characters of a sentence in the tables
+LONGEST_NOTE = 150  # characters of a sentence in the page
+COLUMNS = ("variant", "parameter", "truth", "found", "deviation", "bound", "verdict", "cost", "what the program says")
+VERDICT = COLUMNS.index("verdict")
 HEAD = """# Hard cases
 
 Cases that are hard for the statics, the reduction or the integration, each swept over a range of its
 parameter and set beside a truth of its own: a closed form, an eigenvalue, a tighter step, another
-integrator, or the statistics of perturbed runs. The table is written by
+integrator, or the statistics of perturbed runs. This page, its figures and its tables are written by
 
     cmake --build --preset release --target hard-cases
 
@@ -27,7 +30,8 @@ A row of a sweep is *met* where the number is within its bound of the truth, *wa
 the run says so (error up to 50 %), *off* where nothing says so and the error of the motion is below 20 %,
 *refused* where the program ends with exit code 2, 3 or 4 and a
 sentence instead of a number, and WRONG where none of these holds. The command fails when a row is
-WRONG, or when a row that must be met is refused. Costs are CPU times over those of the easy variant
+WRONG, or when a row that must be met is refused. Each chapter shows the rows that are not met and names
+the table of all its rows. Costs are CPU times over those of the easy variant
 that is named; counters are those of `summary.json`, per step where they grow with the steps. `ctest -R
 hard_cases` runs a short version.
 
@@ -38,8 +42,11 @@ def cell(text):
     return " ".join(str(text).replace("|", "\\|").split())
 
 
+def without_folders(text):
+    return re.sub(r"(?<![\w/])/\S*/(?=\w+\.(?:xml|json))", "", text)
+
+
 def shortened(text):
-    text = re.sub(r"(?<![\w/])/\S*/(?=\w+\.(?:xml|json))", "", text)  # the folder of a file
     return text if len(text) <= LONGEST_NOTE else text[:LONGEST_NOTE - 3].rsplit(" ", 1)[0] + " ..."
 
 
@@ -85,21 +92,35 @@ def strategies(rows):
     return "per step: " + ", ".join(texts) if texts else ""
 
 
-def deviation(row):
-    return f"{row.deviation:.2g} / {row.bound:.2g}" if math.isfinite(row.deviation) else ""
+def number(value):
+    return f"{value:.2g}" if math.isfinite(value) else ""
 
 
-def details(case, rows, drawn, part):
-    lines = [(row.variant, row.parameter, row.truth, row.found, deviation(row), row.verdict,
-              f"{row.cost:.2g}" if math.isfinite(row.cost) else "", shortened(row.note)) for row in rows]
-    head = ("variant", "parameter", "truth", "found", "deviation / bound", "verdict",
-            "cost", "what the program says")
-    keep = [i for i in range(len(head)) if i < 2 or any(line[i] != "" for line in lines)]
-    pictures = "".join(f"\n![{plot.title}](figures/hard_{plot.name}.svg)\n" for plot in drawn)
+def cells_of(row):
+    """A row as texts, one for each of COLUMNS."""
+    bound = number(row.bound) if math.isfinite(row.deviation) else ""
+    return (row.variant, row.parameter, row.truth, row.found, number(row.deviation), bound, row.verdict, number(row.cost), without_folders(row.note))
+
+
+def chapter(case, rows, drawn, part):
+    """Of rows of texts: the figures, the rows that are not met, and where all rows are."""
+    unmet = [(*row[:-1], shortened(row[-1])) for row in rows if row[VERDICT] != "met"]
+    keep = [i for i in range(len(COLUMNS)) if i < 2 or any(row[i] != "" for row in unmet)]
+    pictures = "".join(f"\n![{title}](figures/hard_{name}.svg)\n" for name, title in drawn)
+    said = f"{len(rows) - len(unmet)} of {len(rows)} rows are met ([{csv_name(case)}](tables/{csv_name(case)}))" + ("; the others:" if unmet else ".")
     return (f"## {case.number}. {case.title}\n\n{case.must[0].upper()}{case.must[1:]}. Sweep: {case.sweep}." +
             (f" Easy variant: {case.easy}." if case.easy else "") +
-            (f" {PARTS[part]}" if part else "") + "\n" + pictures + "\n" +
-            table([head[i] for i in keep], [[line[i] for i in keep] for line in lines]))
+            (f" {PARTS[part]}" if part else "") + "\n" + pictures + f"\n{said}\n" +
+            ("\n" + table([COLUMNS[i] for i in keep], [[row[i] for i in keep] for row in unmet]) if unmet else ""))
+
+
+def csv_name(case):
+    return f"hard_{case.number:02d}.csv"
+
+
+def tabulate(path, rows):
+    with open(path, "w", newline="", encoding="utf-8") as out:
+        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
 
 
 def draw(plot, path):
@@ -134,17 +155,19 @@ def written(path):
 
 def write(path, results):
     """`results`: case number -> (rows, plots, which part of the case they are). Other cases stay as the document has them."""
-    figures = path.parent / "figures"
+    figures, tables = path.parent / "figures", path.parent / "tables"
     figures.mkdir(exist_ok=True)
+    tables.mkdir(exist_ok=True)
     for _, drawn, _ in results.values():
         for plot in drawn:
             draw(plot, figures / f"hard_{plot.name}.svg")
     cases = {n: found for n, found in written(path).items() if n in CASES}
     for n, (rows, drawn, part) in results.items():
-        case = CASES[n]
+        case, texts = CASES[n], [cells_of(row) for row in rows]
+        tabulate(tables / csv_name(case), texts)
         anchor = re.sub(r"[^a-z0-9 -]", "", f"{n}. {case.title}".lower()).replace(" ", "-")
         cases[n] = (line((n, f"[{case.title}](#{anchor})", case.sweep, case.must, happened(rows),
-                          span([row.cost for row in rows]), strategies(rows))), details(case, rows, drawn, part))
+                          span([row.cost for row in rows]), strategies(rows))), chapter(case, texts, [(plot.name, plot.title) for plot in drawn], part))
     text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n## Overview\n\n"
     text += table(("case", "", "range", "must happen", "what happened", "cost over the easy variant",
                    "strategies used"), []) + "".join(cases[n][0] for n in sorted(cases))

@@ -19,6 +19,8 @@ AREA = math.pi * (OUTER**2 - INNER**2)
 INERTIA = math.pi * (OUTER**4 - INNER**4) / 4
 SHEAR = YOUNG / (2 * (1 + POISSON))
 LENGTH = 12.0
+QUANTILES = (5, 25, 50, 75, 95)
+RPM = math.pi / 30
 EULER = math.pi**2 * YOUNG * INERTIA / LENGTH**2
 BUCKLING = EULER / (1 + EULER / (0.9 * SHEAR * AREA))  # Engesser
 
@@ -142,3 +144,29 @@ def bit_speed(run, begin):
     """Rotary speed of the last node at the samples from `begin` [rad/s]."""
     late = run.time() >= begin
     return run.data("transient/speed")[late] + run.nodes(THETA_Z, "velocity")[late][:, -1]
+
+
+def bit_quantiles(run, begin):
+    """QUANTILES of the rotary speed of the last node [rpm]."""
+    return np.percentile(bit_speed(run, begin), QUANTILES) / RPM
+
+
+def mean_and_error(values):
+    """Mean of runs and the half width of its 95 % interval."""
+    values = np.asarray(values, float)
+    return values.mean(axis=0), 2.1 * values.std(axis=0, ddof=1) / math.sqrt(len(values))
+
+
+def ensemble(program, name, settings, without, runs, measure, seconds=900):
+    """Runs of stress_170m whose weights on bit are 10 N apart: measure(run) of those that are done, in rows, and the
+    refused ones. It ends with the second refusal where nothing is done before: the others would be refused as well."""
+    found, refused, last = [], [], None
+    for i in range(runs):
+        last = program.run(name, STRESS, {**settings, "Loads/Weight On Bit": 1e4 + 10.0 * i}, without, seconds=seconds)
+        if last.done:
+            found.append(measure(last))
+        else:
+            refused.append(last)
+            if len(refused) == min(2, runs) and not found:
+                break
+    return np.array(found), refused, last

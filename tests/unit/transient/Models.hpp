@@ -152,8 +152,9 @@ class Keep final : public SampleSink {
     v.push_back(qDot);
     a.push_back(qDDot);
   }
+  void states(const Vector& ofLaws) override { x.push_back(ofLaws); }
   std::vector<double> time;
-  std::vector<Vector> q, v, a;
+  std::vector<Vector> q, v, a, x;
 };
 
 inline TransientOptions options(const std::string& integrator, double end, double step,

@@ -166,7 +166,7 @@ TEST(StepComparison, seesContactThatHalvesHoldDownToo) {
 }
 
 /// What a run of generalized-alpha says: the error it ends with, or
-/// else its warning.
+/// else its warning. One number decides: it ends where its step error is above the limit.
 std::string saidOf(const model::SecondOrderModel& model, double end, double step,
                    double radius = 1.0, double limit = 0.2) {
   auto o = options("Generalized-alpha", end, step, step);
@@ -176,9 +176,13 @@ std::string saidOf(const model::SecondOrderModel& model, double end, double step
   Keep samples;
   log::clearWarnings();
   try {
-    integrate(model, o, samples);
+    EXPECT_LE(integrate(model, o, samples).stepError, limit);
   } catch (const ConvergenceError& error) {
-    return error.what();
+    const std::string text = error.what(), name = "step error ";
+    const auto found = text.find(name);
+    EXPECT_NE(found, std::string::npos) << text;
+    EXPECT_GT(std::stod(text.substr(found + name.size())), 100 * limit) << text;
+    return text;
   }
   return log::warnings().empty() ? "" : log::warnings().front();
 }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Compression of chunks of doubles for HDF5. Not for other rooms: include ResultsFile.hpp.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+struct z_stream_s;
+
+namespace tooljoint::io {
+
+/// Gives a chunk the bytes that the filters shuffle and deflate of HDF5 undo.
+///
+/// Shuffled bytes lie in planes: the lowest byte of all values, the next one, ... Low bytes of
+/// computed numbers are noise, which deflate cannot shorten, but takes most of its time on. Such a
+/// plane is a stored block of the stream, the others are deflated.
+class ChunkCompressor {
+ public:
+  /// `level` of deflate, 1 to 9.
+  explicit ChunkCompressor(int level);
+  ~ChunkCompressor();
+  ChunkCompressor(const ChunkCompressor&) = delete;
+  ChunkCompressor& operator=(const ChunkCompressor&) = delete;
+
+  /// Bytes of `values`, rows of `rowSize` numbers one after the other; they stay until the next
+  /// call.
+  const std::vector<unsigned char>& compress(const std::vector<double>& values,
+                                             std::size_t rowSize);
+
+ private:
+  int level_;
+  std::unique_ptr<z_stream_s> stream_;
+  std::vector<unsigned char> planes_, bytes_;
+};
+
+}  // namespace tooljoint::io
