@@ -12,7 +12,10 @@ contact::ContactPoints contactPoints(const contact::ContactSettings& settings,
     const auto dof = static_cast<std::size_t>(6 * i);
     if (held.at(dof) != 0 && held.at(dof + 1) != 0) continue;
     const Node& node = string.nodes[static_cast<std::size_t>(i)];
-    points.add(settings.pointAt(node.s, i + 1, node.clearance, node.contactRadius));
+    auto point = settings.pointAt(node.s, i + 1, node.clearance, node.contactRadius);
+    point.muStatic *= node.frictionFactor;
+    point.muDynamic *= node.frictionFactor;
+    points.add(point);
   }
   return points;
 }

@@ -18,15 +18,17 @@ struct Node {
   double s = 0.0;          ///< distance from the surface along the hole [m]
   double clearance = 0.0;  ///< radial clearance j0 [m]: bore radius minus outer or gauge radius
   double contactRadius =
-      0.0;                ///< R_c [m]: radius of what would touch, lever arm of the friction torque
-  bool gauge = false;     ///< a stabiliser blade or the bit stands here
+      0.0;  ///< R_c [m]: radius of what would touch, lever arm of the friction torque
+  double frictionFactor = 1.0;  ///< of what would touch, on the friction coefficients of the wall
+  bool gauge = false;           ///< a stabiliser blade or the bit stands here
   std::string component;  ///< assembly component the node belongs to (the upper one where two meet)
 };
 
 /// Element i joins nodes i and i+1.
 struct Element {
   std::shared_ptr<const beam::Element> formulation;
-  int instance = 0;  ///< index into DrillString::instances
+  int instance = 0;             ///< index into DrillString::instances
+  double frictionFactor = 1.0;  ///< on the friction coefficients of the wall
 
   double length() const { return formulation->length(); }  ///< [m]
   const beam::Section& section() const { return formulation->section(); }

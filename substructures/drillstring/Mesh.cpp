@@ -167,7 +167,8 @@ class Mesher {
       Node node;
       node.s = start + segment.length * i / segment.elements;
       out_.nodes.push_back(node);
-      out_.elements.push_back({formulation, static_cast<int>(out_.instances.size()) - 1});
+      out_.elements.push_back(
+          {formulation, static_cast<int>(out_.instances.size()) - 1, segment.frictionFactor});
       segments_.push_back(&segment);
     }
   }
@@ -253,6 +254,7 @@ class Mesher {
         if (first || clearance < node.clearance) {
           node.clearance = std::max(0.0, clearance);
           node.contactRadius = element.section().outerRadius();
+          node.frictionFactor = element.frictionFactor;
         }
         first = false;
       }
@@ -309,6 +311,7 @@ class Mesher {
     if (reach < node.contactRadius + tightFit) return;  // the next body is wider and touches first
     node.clearance = std::max(0.0, clearance);
     node.contactRadius = gauge.gaugeRadius;
+    node.frictionFactor = out_.elements[at(own)].frictionFactor;
     node.gauge = true;
     node.component = gauge.name;
     if (gauge.gaugeOffset > 0.0)

@@ -34,7 +34,8 @@ class PieceOfWay {
         stiffness_(own.section.youngModulus() * own.section.inertiaX()) {
     const double middle = 0.5 * (piece.top + piece.bottom);
     const double around = operation.rotarySpeed * own.frictionRadius;
-    const double speed = std::hypot(operation.axialSpeed, around), mu = hole.friction(middle);
+    const double speed = std::hypot(operation.axialSpeed, around),
+                 mu = own.frictionFactor * hole.friction(middle);
     along_ = speed > 0.0 ? mu * operation.axialSpeed / speed : 0.0;
     turning_ = speed > 0.0 ? mu * around / speed : 0.0;
     drag_ = mudDrag(own.section, hole.radius(middle), hole.mud);

@@ -28,6 +28,7 @@ struct Stretch {
   beam::Section section;
   double weight = 0.0;          ///< w [N/m]
   double frictionRadius = 0.0;  ///< r_f [m]
+  double frictionFactor = 1.0;  ///< on mu of the hole
 };
 
 /// Mud that goes down the string and up the annulus.

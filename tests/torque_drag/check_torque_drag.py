@@ -86,6 +86,11 @@ def straight():
     joints = [sum(force for s, force in forces if start <= s < start + 9.5 - 1e-6) for start, _ in forces]
     near("contact force of a joint of the stiff string", float(full["Trip out"]["stiff_joint_force"]), max(joints), 1e-6)
     near("which is the weight of a pipe where its neighbours bear theirs", sorted(joints)[len(joints) // 2], weight * math.sin(inclination) / 150, 0.01)
+    # tool joints with half the friction, in both strings and in the static state of a run; bodies that do not touch with ten times as much
+    factors = ["Drillstring/Components/joint/Friction Factor=0.5", "Drillstring/Components/body/Friction Factor=10"]
+    half = run("joint_friction", *well, *factors, "Supports/Bit=none", "Torque and Drag/Count=1", "Torque and Drag/Operations={Trip out}")[0]
+    near("trip out on joints with half the friction", float(half["hook_load"]), along + 0.5 * mu * across, 1e-6)
+    near("stiff: drag of joints with half the friction", float(half["stiff_hook_load"]) - along, 0.5 * (stiff["Trip out"][0] - along), 1e-2)
     expect("nothing is compressed off bottom", full["Rotate off bottom"]["helical_margin"] == "")
 
 

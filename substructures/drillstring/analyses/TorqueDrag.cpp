@@ -92,6 +92,23 @@ std::vector<const Instance*> pieces(const DrillString& string) {
   return found;
 }
 
+/// The friction factor of what a piece touches with: its widest gauge, else its widest body.
+double touchingFactor(const DrillString& string, const Instance& piece) {
+  double widest = 0.0, factor = 1.0;
+  const auto keep = [&](double radius, double own) {
+    if (radius > widest) widest = radius, factor = own;
+  };
+  for (int e = piece.firstElement; e <= piece.lastElement; ++e) {
+    const Element& element = string.elements[at(e)];
+    keep(element.section().outerRadius(), element.frictionFactor);
+    for (const int n : {e, e + 1})
+      if (const Node& node = string.nodes[at(n)];
+          node.gauge && node.contactRadius <= piece.gaugeRadius)
+        keep(node.contactRadius, node.frictionFactor);
+  }
+  return factor;
+}
+
 /// Each element with the mean weight and the largest radius of its piece: a joint that is heavier
 /// than its pipe does not press on one side of the hole where the pipe presses on the other, and a
 /// pipe touches with its joints. Pieces longer than a stand keep the weight of each element.
@@ -108,6 +125,7 @@ std::vector<softstring::Stretch> stretches(const Scene& scene) {
     const Instance& one = *piece[at(e)];
     const std::size_t first = found.size();
     double carried = 0.0, length = 0.0, widest = one.gaugeRadius;
+    const double factor = touchingFactor(string, one);
     for (; e < string.elementCount() && piece[at(e)] == &one; ++e) {
       const Element& element = string.elements[at(e)];
       const auto& section = element.section();
@@ -120,6 +138,7 @@ std::vector<softstring::Stretch> stretches(const Scene& scene) {
     const bool shared = lengthOf(string, one) <= longestStand;
     for (std::size_t i = first; i < found.size(); ++i) {
       found[i].frictionRadius = widest;
+      found[i].frictionFactor = factor;
       if (shared) found[i].weight = carried / length;
     }
   }

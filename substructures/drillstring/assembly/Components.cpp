@@ -57,6 +57,11 @@ void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
   spec.real("Torsion Constant", "m4", Optional{}, Range::positive(),
             "Torsion constant J of a general section.")
       .expert();
+  spec.real(
+          "Friction Factor", "", Optional{}, Range::nonNegative(),
+          "Factor on the friction coefficients of Contact where this piece touches the wall: tool "
+          "joints with hard bands, bodies, stabilisers apart; 1 when absent.")
+      .expert();
   beam::declareElement(spec, Optional{},
                        "Finite element of this piece, where it differs from Drillstring/Element.");
   spec.list(materialSpec());
@@ -160,8 +165,9 @@ class ComponentReader {
   }
 
   static bool hasSegment(const ParameterList& list) {
-    for (const char* name : {"Length", "Elements", "Outer Radius", "Inner Radius", "Area",
-                             "Inertia X", "Inertia Y", "Torsion Constant", "Shear Deformation"})
+    for (const char* name :
+         {"Length", "Elements", "Outer Radius", "Inner Radius", "Area", "Inertia X", "Inertia Y",
+          "Torsion Constant", "Shear Deformation", "Friction Factor"})
       if (list.isParameter(name)) return true;
     return false;
   }
@@ -175,6 +181,7 @@ class ComponentReader {
     const SegmentDefaults own = readDefaults(list, standard);
     piece.section = section(path, list, own.material);
     piece.element = own.element;
+    piece.frictionFactor = valueOr(list, "Friction Factor", 1.0);
     return piece;
   }
 

@@ -25,6 +25,7 @@ struct Segment {
   int elements = 1;
   beam::Section section;
   beam::ElementChoice element;
+  double frictionFactor = 1.0;  ///< on the friction coefficients of the wall it touches
 };
 
 /// `count` times the component `name`: one entry of an assembly, "3*collar". "fill*stand" is as
