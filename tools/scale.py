@@ -1,18 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures long strings, large parts and many rows, and writes docs/scale.md with its figure.
+"""Measures long strings, large parts and many rows, and writes docs/scale.md with its figures.
 
-    tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--rows] [--short]
-    tools/scale.py --program build/release/tooljoint --motions
-    tools/scale.py --program build/release/tooljoint --statics
-    tools/scale.py --program build/release/tooljoint --reduced
-    tools/scale.py --program build/release/tooljoint --cut [--most DOFS] [--short]
+    tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--only CHAPTER ...] [--short]
 
-Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are
-in the work folder already are not run again. --short takes the smallest of each and prints the tables only. --motions
-measures motions divided among ranks alone, on a machine of two cores without other work, and renews their chapter;
---statics does the same for static states, --reduced compares full and reduced motions of the same error.
---cut measures blocks cut into substructures against one shift-invert run on the whole, and renews their chapter.
+Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are in the work folder
+already are not run again. Without --only all chapters are measured, on a machine of two cores without other work; with it these are
+renewed. The figures show the tables of the document (tools/scale_figures.py). --short takes the smallest of each and prints the
+chapters, with their figures in the work folder.
 """
 import argparse
 import csv
@@ -28,34 +23,28 @@ import sys
 import time
 from xml.etree import ElementTree
 
-import plots
+import scale_figures
 from same_results import datasets, difference
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 os.environ.setdefault("TOOLJOINT_REPORT", "off")
 os.environ.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
-DOCUMENT = PROJECT / "docs/scale.md"
-FIGURE = PROJECT / "docs/figures/scale_solids.svg"
+DOCUMENT = scale_figures.DOCS / "scale.md"
 BLOCK = PROJECT / "examples/12_solid_block"
 # Elements along a block of 8:2:1 of equal hexahedra.
 BLOCKS = (8, 4, 2), (24, 6, 3), (40, 10, 5), (56, 14, 7), (80, 20, 10), (116, 29, 15)
-STRINGS = "build_hold_1400m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m"
 STATIC_ONLY = ["--without", "Transient", "--without", "Reduction", "--without", "Substructures"]
 MODES, JOINED = 50, 100
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 MOTIONS = [("vertical_5000m", FULL, 0.5), ("vertical_5000m", [], 1), ("extended_reach_5000m", FULL, 0.5), ("extended_reach_5000m", [], 0.5),
            ("vertical_10000m", FULL, 0.3), ("inclined_1000m", FULL, 1), ("stress_170m", FULL, 2)]
 COUNTED = 0.02
+COUNTED_RANKS = 1, 2, 3, 4, 8, 16
 MESSAGE = 2e-6  # of a few numbers between two ranks of one machine [s]
 CUT_PARTS, CUT_BLOCKS = 16, ((24, 6, 3), (56, 14, 7), (100, 25, 12), (170, 43, 21))
 CUT_RANKS = 1, 2  # the largest block on two alone
 CUT_WHOLE = 200000  # dofs of the largest block that is solved as a whole, too
-CUT_CHAPTER = "## Large parts cut into substructures"
-CHAPTER = "## Motions divided among ranks"
-STATICS_CHAPTER = "## Static states divided among ranks"
-REDUCED_CHAPTER = "## Full against reduced, 5 km hanging"
-ROWS_CHAPTER = "## Rows over ranks"
-REDUCED_DECK = "vertical_5000m"
+REDUCED_DECK = PROJECT / "xml/vertical_5000m.xml"
 REDUCED_ERROR = 0.02  # vibration error that is asked for
 REDUCED_METHODS = "cut-off", "long parts"  # lists of the study, whose real time factor is measured on two ranks too
 STATICS = "stress_170m", "inclined_1000m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m"
@@ -63,16 +52,24 @@ STATICS = "stress_170m", "inclined_1000m", "vertical_5000m", "extended_reach_500
 EQUILIBRIUM = "static equilibrium"
 BESIDE = ("path of the string", "equations of the string", "stability of the static state", "Krylov-Schur iteration",
           "inertia counts", "factorisation for modes")
+PLANNED = 100, 300, 1000  # rows
+STUDY = PROJECT / "tests/study/study.xml"
 HEAD = """# Scale
 
 What the program takes for long strings, large parts and many rows. Written by
 
-    tools/scale.py --program build/release/tooljoint --most {most}
+    tools/scale.py --program build/release/tooljoint
 
-Machine: {cpu}, {count} cores; {blas}. Times are of one run each; ratios within a table are what lasts. Memory is the
-peak of the largest process.{note}
-
+Times are of one run each, where nothing else is said; ratios within a table are what lasts. Memory is
+the peak of the largest process.
 """
+
+
+def chapter(options, title, text, figure="", note=""):
+    """A chapter that names its machine; `text` ends with a table."""
+    shown = f"![{scale_figures.NAMES[figure]}](figures/{figure}.svg)\n\n" if figure else ""
+    own = f"{options.machine}{' ' if note else ''}{note}"
+    return f"## {title}\n\n{own}\n\n{shown}{text}"
 
 
 def measured(options, name, words, ranks=1):
@@ -179,11 +176,11 @@ def cut_row(options, counts, ranks):
 def cuts(options):
     chosen = [each for each in CUT_BLOCKS if 3 * math.prod(n + 1 for n in each) <= options.most]
     lines = [cut_row(options, counts, ranks) for counts in (chosen[:1] if options.short else chosen) for ranks in CUT_RANKS if ranks > 1 or counts != CUT_BLOCKS[-1]]
-    return (f"{CUT_CHAPTER}\n\nThe same blocks, clamped at one end, without kept dofs: {MODES} coupled modes by `Basis` = `Multilevel` with {CUT_PARTS} parts, estimates included,\n"
-            f"from the file on (`modes --coupled`, `Basis Checks` = `false`), beside {MODES} modes of the whole by one shift-invert run. Errors are the largest of the {MODES}\n"
-            f"frequencies; memory is that of one rank. The whole of more than {CUT_WHOLE} dofs is not solved. Times of `tools/scale.py --cut --most 600000`\n"
-            f"on a machine of its own: {machine()}, {os.cpu_count()} cores.\n\n" +
-            table(("dofs", "ranks", "wall [s]", "memory [MB]", "largest error", "largest estimate", "whole: wall [s]", "memory [MB]"), lines))
+    return chapter(options, "Large parts cut into substructures",
+                   f"The same blocks, clamped at one end, without kept dofs: {MODES} coupled modes by `Basis` = `Multilevel` with\n{CUT_PARTS} parts, estimates included, "
+                   f"from the file on (`modes --coupled`, `Basis Checks` = `false`), beside\n{MODES} modes of the whole by one shift-invert run. Errors are the largest of the {MODES} frequencies;\n"
+                   f"memory is that of one rank. The whole of more than {CUT_WHOLE} dofs is not solved.\n\n" +
+                   table(("dofs", "ranks", "wall [s]", "memory [MB]", "largest error", "largest estimate", "whole: wall [s]", "memory [MB]"), lines))
 
 
 def table(head, lines):
@@ -197,25 +194,13 @@ def times(row):
     return seconds(row["wall_s"]), seconds(row["cpu_s"]), f"{row['memory_mb']:.0f}"
 
 
-def solids(options, chosen):
-    found = [solid(options, counts) for counts in chosen]
-    lines = [(dofs, entries, *times(row)) for dofs, entries, row in found]
-    text = (f"## Large parts\n\nBlocks of hexahedra ([example 12](../examples/12_solid_block/README.md)), clamped at one end, {3 * JOINED} dofs kept at the other\n"
-            f"(all of that end where it has fewer nodes): constraint modes and {MODES} fixed-interface modes, with all checks, from the file to the file.\n\n")
-    return text + table(("dofs", "entries of K", "wall [s]", "CPU [s]", "memory [MB]"), lines), found
-
-
-def strings(options, chosen):
-    lines = []
-    for name in chosen:
-        deck = PROJECT / f"xml/{name}.xml"
-        row = measured(options, f"static_{name}", ["run", str(deck), *STATIC_ONLY, "--output", "out", "--set", "Output/XDMF=false"])
-        summary = pathlib.Path(options.work) / f"static_{name}" / "out/summary.json"
-        static = json.loads(summary.read_text(encoding="utf-8"))["static"] if summary.exists() else {}
-        nodes = re.search(r"(\d+) nodes.* (\d+) free dofs", row["output"])
-        lines.append((name, nodes.group(2) if nodes else "", static.get("iterations", ""), *times(row)))
-    return ("## Static states of long strings\n\nWell path, static state, check of its stability and results, on one rank.\n\n" +
-            table(("scene", "dofs", "iterations", "wall [s]", "CPU [s]", "memory [MB]"), lines))
+def solids(options):
+    chosen = [each for each in BLOCKS if 3 * math.prod(n + 1 for n in each) <= options.most]
+    lines = [(dofs, entries, *times(row)) for dofs, entries, row in (solid(options, counts) for counts in (chosen[:1] if options.short else chosen))]
+    return chapter(options, "Large parts",
+                   f"Blocks of hexahedra ([example 12](../examples/12_solid_block/README.md)), clamped at one end, {3 * JOINED}\ndofs kept at the other "
+                   f"(all of that end where it has fewer nodes): constraint modes and {MODES}\nfixed-interface modes, with all checks, from the file to the file.\n\n" +
+                   table(("dofs", "entries of K", "wall [s]", "CPU [s]", "memory [MB]"), lines), "scale_solids")
 
 
 def study_table(name, options):
@@ -228,10 +213,9 @@ def study_table(name, options):
 
 def rows(options):
     """The study of the tests with many steps, on one rank and, rows over ranks, on two. The tables have to be the same but for times."""
-    end = 3 if options.short else 15
-    steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms" for i in range(8 if options.short else 58)) + ", 1 ms"
-    deck = PROJECT / "tests/study/study.xml"
-    common = ["study", str(deck), "--output", "out", "--set", f"Study/End Time={end}", "--set", "Study/Repeats=2",
+    end, repeats = (0.4, 1) if options.short else (15, 2)
+    steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms" for i in range(1 if options.short else 58)) + ", 1 ms"
+    common = ["study", str(STUDY), "--output", "out", "--set", f"Study/End Time={end}", "--set", f"Study/Repeats={repeats}",
               "--set", f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}}}"]
     one = measured(options, "rows_1", common)
     two = measured(options, "rows_2", [*common, "--ranks-per-row", "1", "--timing", "shared"], ranks=2)
@@ -242,12 +226,32 @@ def rows(options):
     if tables[0] != tables[1]:
         raise SystemExit(f"the tables differ: {[pair for pair in zip(*tables) if pair[0] != pair[1]][:3]}")
     lines = [(ranks, len(tables[0]), *times(row)) for ranks, row in ((1, one), (2, two))]
-    return (f"{ROWS_CHAPTER}\n\nThe study of `tests/study` with more steps over {end} s, each timed twice, `--ranks-per-row 1` on two\nranks: {one['wall_s'] / two['wall_s']:.2f} times the rows per hour of one, and the same table.\n\n" +
-            table(("ranks", "rows", "wall [s]", "CPU [s]", "memory [MB]"), lines))
+    return chapter(options, "Rows over ranks",
+                   f"The study of `tests/study` with more steps over {end} s, each timed {('once', 'twice')[repeats - 1]}, `--ranks-per-row 1` on two\n"
+                   f"ranks: {one['wall_s'] / two['wall_s']:.2f} times the rows per hour of one, and the same table.\n\n" +
+                   table(("ranks", "rows", "wall [s]", "CPU [s]", "memory [MB]"), lines), "scale_rows")
+
+
+def plans(options):
+    """Plans of many rows and their tables; the rows come from one run of the study, since a plan goes on from what is in its folder."""
+    lines = []
+    for count in (20,) if options.short else PLANNED:
+        steps = ", ".join(f"{0.5 + 0.0004 * i:.4f} ms" for i in range(count - 9))
+        words = ["--set", "Study/Repeats=1", "--set", "Study/End Time=0.02", "--set", "Study/Window=0.02",
+                 "--set", f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}, 1 ms}}"]
+        folder = str((pathlib.Path(options.work) / f"plan_{count}").resolve())
+        found = [measured(options, f"{step.strip('-')}_{count}", ["study", str(STUDY), step, folder, *words]) for step in ("--output", "--plan", "--collect")]
+        failed = [row["output"][-1000:] for row in found if row["code"] != 0]
+        if failed:
+            raise SystemExit(f"a plan of {count} rows: {failed[0]}")
+        lines.append((count, *(seconds(row[key]) for row in found[1:] for key in ("wall_s", "cpu_s")), f"{found[2]['memory_mb']:.0f}"))
+    return chapter(options, "Plans of many rows",
+                   "`study --plan` writes a command for each row, `study --collect` the table of the rows that are there:\nthose of the study of `tests/study` with more steps over 0.02 s.\n\n" +
+                   table(("rows", "plan: wall [s]", "plan: CPU [s]", "collect: wall [s]", "collect: CPU [s]", "memory [MB]"), lines))
 
 
 def static(options, deck, ranks, repeat):
-    """(seconds of the equilibrium, of path, equations, equilibrium and check of stability, static datasets) of a run."""
+    """(seconds of the equilibrium, of path, equations, equilibrium and check of stability, static datasets, dofs, iterations, memory) of a run."""
     name = f"divided_{deck}_{ranks}_{repeat}"
     row = measured(options, name, ["run", str(PROJECT / f"xml/{deck}.xml"), *STATIC_ONLY, "--output", "out", "--set", "Output/XDMF=false", "--verbose"], ranks)
     if row["code"] != 0:
@@ -255,7 +259,8 @@ def static(options, deck, ranks, repeat):
     text = " ".join(row["output"].split())
     times = {stage: float(found.group(1)) if (found := re.search(rf"{stage} ([0-9.]+) s", text)) else 0.0 for stage in (EQUILIBRIUM, *BESIDE)}
     values = {key: value for key, value in datasets(pathlib.Path(options.work) / name / "out/results.h5").items() if key.startswith("static")}
-    return times[EQUILIBRIUM], sum(times.values()), values
+    iterations = json.loads((pathlib.Path(options.work) / name / "out/summary.json").read_text(encoding="utf-8"))["static"]["iterations"]
+    return times[EQUILIBRIUM], sum(times.values()), values, re.search(r"(\d+) free dofs", text).group(1), iterations, row["memory_mb"]
 
 
 def statics(options):
@@ -266,11 +271,12 @@ def statics(options):
         one, two = ([min(each[i][part] for each in runs) for part in (0, 1)] for i in (0, 1))
         apart = max(difference(value, runs[0][1][2][key]) for key, value in runs[0][0][2].items() if value.dtype.kind == "f")
         ratios = [f"{a / b:.2f}" if b > 0 else "" for a, b in zip(one, two)]
-        lines.append((deck, f"{one[0]:.2f}", f"{two[0]:.2f}", ratios[0], f"{one[1]:.2f}", f"{two[1]:.2f}", ratios[1], f"{apart:.1e}"))
-    return (f"{STATICS_CHAPTER}\n\nWall time of the equilibrium alone, and of the whole: path, equations, equilibrium and check of stability; the best of three\n"
-            "runs in turns. The last column is the largest difference of a recorded value, relative to the largest of its kind. Short\n"
-            "strings are not divided.\n\n" +
-            table(("scene", "equilibrium: 1 rank [s]", "2 ranks [s]", "times as fast", "whole: 1 rank [s]", "2 ranks [s]", "times as fast", "largest difference"), lines))
+        lines.append((deck, *runs[0][0][3:5], f"{one[0]:.2f}", f"{two[0]:.2f}", ratios[0], f"{one[1]:.2f}", f"{two[1]:.2f}", ratios[1], f"{apart:.1e}", *(f"{runs[0][i][5]:.0f}" for i in (0, 1))))
+    return chapter(options, "Static states of strings",
+                   "Wall time of the equilibrium alone, and of the whole: path, equations, equilibrium and check of\nstability; the best of three runs in turns. "
+                   "The largest difference is that of a recorded value, relative\nto the largest of its kind. Short strings are not divided.\n\n" +
+                   table(("scene", "dofs", "iterations", "equilibrium: 1 rank [s]", "2 ranks [s]", "times as fast", "whole: 1 rank [s]", "2 ranks [s]", "times as fast",
+                          "largest difference", "memory: 1 rank [MB]", "2 ranks [MB]"), lines), "scale_strings")
 
 
 def motion(options, deck, words, end, ranks, repeat):
@@ -289,7 +295,7 @@ def motion(options, deck, words, end, ranks, repeat):
 def walls(options):
     """One rank and two, in turns, the best of some."""
     lines = []
-    for deck, words, end in MOTIONS[:1] if options.short else MOTIONS:
+    for deck, words, end in [(*MOTIONS[-1][:2], COUNTED)] if options.short else MOTIONS:
         repeats = range(1 if options.short else 3)
         runs = [[motion(options, deck, words, end, ranks, repeat) for ranks in (1, 2)] for repeat in repeats]
         one, two = (min(each[i][0]["wall_s"] for each in runs) for i in (0, 1))
@@ -301,27 +307,29 @@ def walls(options):
 
 def counts(options):
     """What a rank has to do, of ranks that may share cores; the messages of a step are those of two ranks, whose steps are the same."""
-    deck, words, end = MOTIONS[0]
+    deck, words, end = (*MOTIONS[-1][:2], COUNTED) if options.short else MOTIONS[0]
     alone, two = (motion(options, deck, words, end, ranks, 0)[0] for ranks in (1, 2))
     step, messages, dofs = alone["wall_s"] / alone["steps"], two["messages"] / two["steps"], 2 * two["dofs_of_rank"] - 6
     lines = []
-    for ranks in (2,) if options.short else (2, 4, 8, 16):
+    for ranks in (2,) if options.short else COUNTED_RANKS:
         found, _, memory = motion(options, deck, words, COUNTED, ranks, "counted")
-        efficiency = step / ranks / (found["dofs_of_rank"] / dofs * step + messages * MESSAGE * math.log2(ranks))
-        lines.append((ranks, found["dofs_of_rank"], f"{messages:.1f}", f"{100 * efficiency:.0f} %", f"{memory:.0f}"))
+        own, sent = (dofs, 0) if ranks == 1 else (found["dofs_of_rank"], messages)
+        efficiency = step / ranks / (own / dofs * step + sent * MESSAGE * math.log2(ranks))
+        lines.append((ranks, own, f"{sent:.1f}", f"{100 * efficiency:.0f} %", f"{memory:.0f}"))
     return table(("ranks", "dofs of a rank", "messages per step", "predicted efficiency", "memory of a rank [MB]"), lines)
 
 
 def motions(options):
-    return (f"{CHAPTER}\n\nThe motion alone, wall time of the best of three runs in turns; `Transient/Ranks` = `Divide`. The last column is the largest difference of\n"
-            "a recorded value, relative to the largest of its kind; contact amplifies rounding, so that it grows with time.\n\n" + walls(options) +
-            f"\nWork and messages of {MOTIONS[0][0]}, full model, counted over {COUNTED} s. The efficiency is predicted from them, for a step of one rank\n"
-            f"as measured here and {1e6 * MESSAGE:.0f} us log2(ranks) for a message, with a core for each rank.\n\n" + counts(options))
+    return chapter(options, "Motions divided among ranks",
+                   "The motion alone, wall time of the best of three runs in turns; `Transient/Ranks` = `Divide`. The\nlast column is the largest difference of a recorded value, "
+                   "relative to the largest of its kind;\ncontact amplifies rounding, so that it grows with time. The target `ranks` bounds it over 0.2 s.\n\n" + walls(options) +
+                   f"\nWork and messages of {MOTIONS[0][0]}, full model, counted over {COUNTED} s. The efficiency is predicted\nfrom them, for a step of one rank "
+                   f"as measured here and {1e6 * MESSAGE:.0f} us log2(ranks) for a message, with a core\nfor each rank.\n\n" + counts(options), "scale_ranks")
 
 
 def study_of(options, name, words, ranks):
     """The rows of methods of a study of the deck that are done."""
-    row = measured(options, name, ["study", str(PROJECT / f"xml/{REDUCED_DECK}.xml"), "--output", "out", *words], ranks)
+    row = measured(options, name, ["study", str(STUDY if options.short else REDUCED_DECK), "--output", "out", *words], ranks)
     if row["code"] != 0:
         raise SystemExit(f"{name}: exit {row['code']}\n{row['output'][-2000:]}")
     with open(pathlib.Path(options.work) / name / "out/study.csv", encoding="utf-8") as text:
@@ -336,47 +344,30 @@ def reduced(options):
     lines = [(model, each["label"], each["reduced_dofs"], f"{float(each['cpu [s]']):.3f}", f"{100 * float(each['vibration_error']):.2f} %")
              for model, each in best.items()]
     ratio = float(best["full"]["cpu [s]"]) / float(best["reduced"]["cpu [s]"])
-    methods = ElementTree.parse(PROJECT / f"xml/{REDUCED_DECK}.xml").getroot().findall("ParameterList[@name='Study']/ParameterList[@name='Methods']/ParameterList")
-    others = [word for each in methods if each.get("name") not in REDUCED_METHODS for word in ("--without", f"Study/Methods/{each.get('name')}")]
-    two = study_of(options, "study_reduced_2", ["--set", "Transient/Ranks=Divide", "--without", "Study/Baseline", *others], 2)
+    methods = ElementTree.parse(STUDY if options.short else REDUCED_DECK).getroot().findall("ParameterList[@name='Study']/ParameterList[@name='Methods']/ParameterList")
+    kept = ("Craig-Bampton",) if options.short else REDUCED_METHODS
+    others = [word for each in methods if each.get("name") not in kept for word in ("--without", f"Study/Methods/{each.get('name')}")]
+    two = study_of(options, "study_reduced_2", ["--set", f"Transient/Ranks={'Alike' if options.short else 'Divide'}", "--without", "Study/Baseline", *others], 2)
     factors = [(each["label"], ranks, f"{float(each['real_time_factor']):.1f}", f"{100 * float(each['vibration_error']):.2f} %")
                for ranks, found in ((1, runs), (2, two)) for each in found if each["method"] in {row["method"] for row in two}]
-    return (f"{REDUCED_CHAPTER}\n\nThe study of `xml/{REDUCED_DECK}.xml`: of the runs with a vibration error of at most {100 * REDUCED_ERROR:.0f} %, those with the least CPU time of the\n"
-            f"motion on one rank. The reduced model is {ratio:.1f} times as fast.\n\n" +
-            table(("model", "run", "dofs", "CPU of the motion [s]", "vibration error"), lines) +
-            "\nThe motion alone, without records and figures:\n\n" +
-            table(("run", "ranks", "simulated seconds per second", "vibration error"), factors))
+    return chapter(options, "Full against reduced, 5 km hanging",
+                   f"The study of `xml/{REDUCED_DECK.name}`: of the runs with a vibration error of at most {100 * REDUCED_ERROR:.0f} %, those with\n"
+                   f"the least CPU time of the motion on one rank. The reduced model is {ratio:.1f} times as fast.\n\n" +
+                   table(("model", "run", "dofs", "CPU of the motion [s]", "vibration error"), lines) +
+                   "\nThe motion alone, without records and figures:\n\n" +
+                   table(("run", "ranks", "simulated seconds per second", "vibration error"), factors))
 
 
-def renew(chapter):
-    """This chapter in the document, at its place or at the end."""
-    head = chapter.splitlines()[0]
-    chapters = re.split(r"\n(?=## )", DOCUMENT.read_text(encoding="utf-8").rstrip())
-    others = [each.rstrip() for each in chapters]
-    place = next((i for i, each in enumerate(others) if each.startswith(head)), len(others))
-    others[place:place + 1] = [chapter.rstrip()]
-    DOCUMENT.write_text("\n\n".join(others) + "\n", encoding="utf-8")
+CHAPTERS = {"solids": solids, "cut": cuts, "statics": statics, "motions": motions, "reduced": reduced, "rows": rows, "plans": plans}
 
 
-def kept(head):
-    """A chapter of the document as it is, or nothing."""
-    for each in re.split(r"\n(?=## )", DOCUMENT.read_text(encoding="utf-8")):
-        if each.startswith(head):
-            return each.rstrip() + "\n"
-    return ""
-
-
-def draw(found):
-    done = [(dofs, row["cpu_s"], row["memory_mb"]) for dofs, _, row in found if row["code"] == 0]
-    dofs, cpu, memory = zip(*done)
-    plots.use_style()
-    figure, (time, space) = plots.plt.subplots(1, 2, figsize=(7.4, 3.2), constrained_layout=True)
-    for axes, values, text, colour in ((time, cpu, plots.label("CPU time", "s"), plots.COLOURS[0]), (space, memory, plots.label("peak memory", "MB"), plots.COLOURS[1])):
-        axes.plot(dofs, values, "o-", color=colour)
-        plots.log_log(axes)
-        axes.set(xlabel="dofs of the block", ylabel=text)
-    plots.headline(figure, "Reduction of a solid part", f"{MODES} fixed-interface modes, {3 * JOINED} kept dofs; {machine()}")
-    plots.save(figure, FIGURE)
+def renewed(text, own):
+    """The document with this chapter at its place, or at the end."""
+    head = own.splitlines()[0]
+    chapters = [each.rstrip() for each in re.split(r"\n(?=## )", text.rstrip())]
+    place = next((i for i, each in enumerate(chapters) if each.splitlines()[0] == head), len(chapters))
+    chapters[place:place + 1] = [own.rstrip()]
+    return "\n\n".join(chapters) + "\n"
 
 
 def machine():
@@ -385,46 +376,36 @@ def machine():
     return name.group(1) if name else platform.machine()
 
 
+def machine_line(options):
+    blas = re.search(r"BLAS +(\S+)", os.popen(f"{options.program} --version").read())
+    return f"Machine: {machine()}, {os.cpu_count()} cores; {blas.group(1) if blas else 'BLAS unknown'}."
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True)
     parser.add_argument("--work", default="results/scale")
     parser.add_argument("--mpiexec", default="mpiexec")
-    parser.add_argument("--most", type=int, default=200000, help="dofs of the largest block")
-    parser.add_argument("--rows", action="store_true", help="a study of 68 rows on one and two ranks alone; renews its chapter of the document")
-    parser.add_argument("--note", default="", help="a sentence about the circumstances, for the head of the document")
-    parser.add_argument("--short", action="store_true")
-    parser.add_argument("--cut", action="store_true", help="blocks cut into substructures alone; renews their chapter of the document")
-    parser.add_argument("--motions", action="store_true", help="motions divided among ranks alone; renews their chapter of the document")
-    parser.add_argument("--statics", action="store_true", help="static states divided among ranks alone; renews their chapter of the document")
-    parser.add_argument("--reduced", action="store_true", help="full and reduced motions of the same error alone; renews their chapter of the document")
+    parser.add_argument("--most", type=int, default=600000, help="dofs of the largest block")
+    parser.add_argument("--only", nargs="+", choices=CHAPTERS, default=list(CHAPTERS), metavar="CHAPTER", help=f"chapters to renew: {', '.join(CHAPTERS)}")
+    parser.add_argument("--short", action="store_true", help="the smallest of each; prints the chapters and leaves the document as it is")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
-    alone = [write for chosen, write in ((options.motions, motions), (options.cut, cuts), (options.statics, statics), (options.reduced, reduced), (options.rows, rows)) if chosen]
-    if alone:
-        chapter = alone[0](options)
-        print(chapter)
-        if not options.short:
-            renew(chapter)
-        return 0
-    chosen = [each for each in BLOCKS if 3 * math.prod(n + 1 for n in each) <= options.most]
-    blocks, found = solids(options, chosen[:2] if options.short else chosen)
-    text = blocks + "\n" + strings(options, STRINGS[:1] if options.short else STRINGS)
-    text += "\n" + statics(options) + "\n" + motions(options)
-    for head in (CUT_CHAPTER, REDUCED_CHAPTER, ROWS_CHAPTER):
-        if not options.short and kept(head):
-            text += "\n" + kept(head)
-    print(text)
-    if not options.short:
-        blas = os.popen(f"{options.program} --version").read()
-        blas = re.search(r"BLAS +(\S+)", blas)
-        draw(found)
-        head = HEAD.format(most=options.most, note=f" {options.note}" if options.note else "", cpu=machine(), count=os.cpu_count(), blas=f"BLAS {blas.group(1)}" if blas else "BLAS unknown")
-        figure = f"![Reduction of a solid part](figures/{FIGURE.name})\n\n"
-        at = text.index("\n| dofs") + 1
-        DOCUMENT.write_text(head + text[:at] + figure + text[at:], encoding="utf-8")
-    failed = [row for _, _, row in found if row["code"] != 0]
-    return 1 if failed else 0
+    options.machine = machine_line(options)
+    if options.short:  # measures anew
+        options.work = str(pathlib.Path(options.work) / "short")
+        shutil.rmtree(options.work, ignore_errors=True)
+    everything = options.only == list(CHAPTERS)
+    text = HEAD if everything or options.short else DOCUMENT.read_text(encoding="utf-8")
+    for name in options.only:
+        text = renewed(text, CHAPTERS[name](options))
+    if options.short:
+        print(text)
+        scale_figures.draw(text, pathlib.Path(options.work))
+    else:
+        DOCUMENT.write_text(text, encoding="utf-8")
+        scale_figures.draw(text, scale_figures.DOCS / "figures")
+    return 0
 
 
 if __name__ == "__main__":

@@ -6,12 +6,13 @@ Groups of ranks that take rows, and a plan of one command per row, run by GNU pa
 row after row.
 """
 import pathlib
+import resource
 import shutil
 import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from checks import expect, finish, tooljoint  # noqa: E402
+from checks import TIME_FACTOR, expect, finish, tooljoint  # noqa: E402
 from results import known, rows, table
 
 DECK = sys.argv[3]
@@ -78,6 +79,23 @@ def planned():
         expect(f"there is no row {row}", done.returncode == 1 and "rows 1 to 13" in done.stderr, done.stderr[-200:])
 
 
+def many():
+    """A plan of a hundred rows more, and their table: in a tenth of what a thousand may take, 2 s and 20 s, or the time of five starts."""
+    steps = ", ".join(f"{0.5 + 0.0004 * i:.4f} ms" for i in range(100))
+    deck = (DECK, "--set", "Study/Repeats=1", "--set", "Study/End Time=0.02", "--set", "Study/Window=0.02",
+            "--set", f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}, 1 ms}}")
+    expect("a study of many rows", tooljoint("study", *deck, "--output", "many").returncode == 0)
+    used = [resource.getrusage(resource.RUSAGE_CHILDREN)]
+    for step in ("--plan", "--collect"):
+        done = tooljoint("study", *deck, step, "many")
+        used.append(resource.getrusage(resource.RUSAGE_CHILDREN))
+        expect(f"{step} of many rows", done.returncode == 0 and "missing" not in done.stderr, done.stderr[-300:])
+    cpu = [after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime for before, after in zip(used, used[1:])]
+    lines = pathlib.Path("many/rows.txt").read_text(encoding="utf-8").count("\n")
+    expect("a command and a line of the table for each", (lines, len(rows("many"))) == (108, 111), f"({lines}, {len(rows('many'))})")
+    expect("in little time", cpu[0] <= 0.7 * TIME_FACTOR and cpu[1] <= 2 * TIME_FACTOR, f"({cpu} s)")
+
+
 def excluded():
     """Options without effect beside others are refused; above all --fresh, which would forget the rows to collect."""
     before = table("plan")
@@ -92,9 +110,9 @@ def excluded():
 
 
 def main():
-    for left in ("one", "groups", "lost_groups", "plan"):  # of an earlier run of this test
+    for left in ("one", "groups", "lost_groups", "plan", "many"):  # of an earlier run of this test
         shutil.rmtree(left, ignore_errors=True)
-    for check in (one_row_at_a_time, groups_of_ranks, planned, excluded):
+    for check in (one_row_at_a_time, groups_of_ranks, planned, many, excluded):
         check()
     return finish()
 

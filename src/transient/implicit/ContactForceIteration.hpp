@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The fast way through an implicit step: relaxation of the point forces with a factor of S that
-/// many steps share (ContactForceIteration). Once in a step it takes the phase correction and the
+/// many steps share (ContactForceUpdate). Once in a step it takes the phase correction and the
 /// points that have only just touched into account; where all points at once do not get there, they
 /// take turns.
 #pragma once
@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "transient/Integrator.hpp"
-#include "transient/contact/ContactForceIteration.hpp"
+#include "transient/contact/ContactForceUpdate.hpp"
 #include "transient/implicit/StepParts.hpp"
 
 namespace tooljoint::transient {
 
-class PointRelaxation {
+class ContactForceIteration {
  public:
   /// What the parts are must outlive this.
   void bind(const StepParts& parts);
@@ -43,7 +43,7 @@ class PointRelaxation {
   const StepScheme* scheme_ = nullptr;
   Counters* counters_ = nullptr;
 
-  ContactForceIteration points_;
+  ContactForceUpdate points_;
   bool possible_ = false;
   long compliance_ = -1;  ///< number of the factor whose compliance the points have
   Vector delta_, q_;      ///< and q at its end

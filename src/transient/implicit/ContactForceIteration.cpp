@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/implicit/PointRelaxation.hpp"
+#include "transient/implicit/ContactForceIteration.hpp"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 namespace tooljoint::transient {
 
-void PointRelaxation::bind(const StepParts& parts) {
+void ContactForceIteration::bind(const StepParts& parts) {
   parts_ = parts;
   points_.bind(*parts.model, *parts.strategies);
   for (Vector* x : {&delta_, &q_, &guess_, &drift_, &others_}) x->setZero(parts.model->size());
@@ -16,18 +16,18 @@ void PointRelaxation::bind(const StepParts& parts) {
     possible_ = possible_ && batch.width() <= PointSolve::widest;
 }
 
-void PointRelaxation::prepare(const StepScheme& scheme) {
+void ContactForceIteration::prepare(const StepScheme& scheme) {
   points_.setWeights(parts_.equations->weight());
   if (possible_) points_.impacts().set(*parts_.model, scheme.h, scheme.impact);
 }
 
-void PointRelaxation::restore(const double*& memory, const StepScheme& scheme) {
+void ContactForceIteration::restore(const double*& memory, const StepScheme& scheme) {
   if (scheme.h > 0) points_.setWeights(parts_.equations->weight());
   points_.impacts().restore(memory);
   if (scheme.h > 0) points_.impacts().set(*parts_.model, scheme.h, scheme.impact);
 }
 
-bool PointRelaxation::solve(State& to, const StepScheme& scheme, Counters& counters) {
+bool ContactForceIteration::solve(State& to, const StepScheme& scheme, Counters& counters) {
   scheme_ = &scheme;
   counters_ = &counters;
   if (compliance_ != parts_.factor->number()) points_.setCompliance(parts_.factor->factor());
@@ -43,7 +43,7 @@ bool PointRelaxation::solve(State& to, const StepScheme& scheme, Counters& count
   return true;
 }
 
-void PointRelaxation::complete(State& to) const {
+void ContactForceIteration::complete(State& to) const {
   to.q += delta_;
   to.v = scheme_->velocity * delta_;
   to.a += scheme_->acceleration * delta_;
@@ -51,7 +51,7 @@ void PointRelaxation::complete(State& to) const {
 
 /// The iteration itself: delta_. When it has been found before points were found to be missed, it
 /// goes on from there, at these points first.
-bool PointRelaxation::settle(const State& to, bool again) {
+bool ContactForceIteration::settle(const State& to, bool again) {
   const double c = scheme_->velocity;
   const double norm =
       parts_.factor->matrix().hasDrifted() ? parts_.factor->matrix().driftNorm(*scheme_) : 0.0;
@@ -114,7 +114,7 @@ bool PointRelaxation::settle(const State& to, bool again) {
 /// S is far stiffer than they are stay there in the first iterate, which the phase correction is
 /// taken from, and what is extrapolated further makes vibration of a few steps per period grow.
 /// With what laws have changed, drift_ is that of guess_.
-bool PointRelaxation::begin(const State& to, double norm) {
+bool ContactForceIteration::begin(const State& to, double norm) {
   const double c = scheme_->velocity;
   points_.guess(to.t, c, to.v);
   if (norm > 0) {
@@ -130,7 +130,7 @@ bool PointRelaxation::begin(const State& to, double norm) {
 
 /// Take in the points that were missed; the phase correction stays as it is, since they have only
 /// just touched. True when one of them is an impact and there is none to be after all.
-bool PointRelaxation::join(const State& to) {
+bool ContactForceIteration::join(const State& to) {
   double force = parts_.equations->reference();
   const double error =
       points_.join(to.t, scheme_->velocity, delta_, parts_.equations->tolerance(), force);
@@ -142,7 +142,7 @@ bool PointRelaxation::join(const State& to) {
 }
 
 /// One relaxation, of all points or near few. Returns what one near few costs beside one of all.
-double PointRelaxation::relaxOnce(const State& to, bool near, double norm) {
+double ContactForceIteration::relaxOnce(const State& to, bool near, double norm) {
   double work = 0;
   if (near) {
     parts_.strategies->count(Strategy::NearSolves);
@@ -160,13 +160,13 @@ double PointRelaxation::relaxOnce(const State& to, bool near, double norm) {
 }
 
 /// drift_ = (S(now) - S(then)) guess_
-void PointRelaxation::findDrift() {
+void ContactForceIteration::findDrift() {
   drift_.setZero();
   parts_.factor->matrix().addDrift(*scheme_, guess_, drift_);
 }
 
 /// What acts beside the linear residual and the points, if anything.
-const Vector* PointRelaxation::otherForces(double norm) {
+const Vector* ContactForceIteration::otherForces(double norm) {
   const PhaseCorrection& phase = parts_.factor->phase();
   if (!(norm > 0)) return phase.isTaken() ? &phase.force() : nullptr;
   others_ = -drift_;
