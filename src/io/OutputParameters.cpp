@@ -91,7 +91,7 @@ deck::ListSpec parameters() {
       .integer(
           "Compression", defaults.compression, Range::between(0, 9),
           "Deflate level of the time series in results.h5; 0 is off. Level 1 takes a tenth to a "
-          "fifth off the file for 5 to 10 % of the CPU time of a run. Any HDF5 reads it.")
+          "fifth off the file for up to 10 % of the CPU time of a run. Any HDF5 reads it.")
       .expert()
       .list(figureParameters());
 }

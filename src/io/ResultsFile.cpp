@@ -24,8 +24,15 @@ using hdf5::Handle;
 
 namespace {
 
-/// Bytes of one chunk of a time series, about.
-constexpr std::size_t chunkBytes = 1U << 18U;
+/// Rows of one chunk of a time series: so many that it has about these bytes, and a few of long
+/// rows.
+constexpr std::size_t chunkBytes = 1U << 16U, longChunkBytes = 1U << 18U, fewRows = 4;
+
+std::size_t rowsOfChunk(std::size_t rowSize) {
+  const std::size_t bytes = std::max<std::size_t>(rowSize, 1) * sizeof(double);
+  return std::clamp<std::size_t>(
+      std::max(chunkBytes / bytes, std::min(fewRows, longChunkBytes / bytes)), 1, 1024);
+}
 
 [[noreturn]] void wrongUse(const std::string& sentence) {
   throw Error(ExitCode::Internal, sentence);
@@ -90,10 +97,11 @@ Handle creationProperties(bool early) {
 // TimeSeries
 
 TimeSeries::TimeSeries(ResultsFile& file, std::string path, const Shape& rowShape)
-    : file_(file), path_(std::move(path)), rowShape_(rowShape), rowSize_(product(rowShape)) {
-  chunkRows_ = std::clamp<std::size_t>(
-      chunkBytes / (std::max<std::size_t>(rowSize_, 1) * sizeof(double)), 1, 1024);
-}
+    : file_(file),
+      path_(std::move(path)),
+      rowShape_(rowShape),
+      rowSize_(product(rowShape)),
+      chunkRows_(rowsOfChunk(rowSize_)) {}
 
 TimeSeries::~TimeSeries() = default;
 
