@@ -16,7 +16,7 @@ from plots import np, plt
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-from report import files, results
+from report import deck, files, results
 
 UNSAFE = "#D55E00"
 LEAST_FOR_CONTOURS = 3  # points along an axis
@@ -35,7 +35,7 @@ class Map:
         if not summary or not summary.get("axes"):
             raise files.Unreadable(f"{folder}/summary.json is not that of a map that has ended. tooljoint map DECK --output {folder} goes on with the map, --collect {folder} makes one of the points "
                         "that are done.")
-        self.axes, self.values = summary["axes"], summary["values"]
+        self.folder, self.axes, self.values = folder, summary["axes"], summary["values"]
         self.rows = [dict(zip((re.sub(r" \[[^\]]*\]$", "", name) for name in lines[0]), line)) for line in lines[1:]]
         shape = [axis["points"] for axis in self.axes]
         if len(self.rows) != np.prod(shape):
@@ -59,6 +59,15 @@ class Map:
         for value in self.values:
             for rest in itertools.product(*(range(axis["points"]) for axis in self.axes[2:])):
                 yield value, rest, "map_" + re.sub(r"\W+", "_", value["name"]) + "".join(f"_{i + 1}" for i in rest)
+
+
+    def conditions(self):
+        """Scene, what the axes do not vary, and overrides, for the second line of a title."""
+        with results.open_results(self.folder / "map.h5") as file:
+            said = {name: file.attrs.get(name, "") for name in ("deck_file", "deck_text", "overrides")}
+        fixed = deck.conditions(deck.read(said["deck_text"], said["overrides"]), {axis["parameter"] for axis in self.axes})
+        changed = ", ".join(line for line in said["overrides"].splitlines() if line and not line.startswith(("Map/", "!Map/")))
+        return "; ".join(filter(None, (pathlib.PurePath(said["deck_file"]).stem, fixed, changed)))
 
 
 def edges(places):
@@ -122,8 +131,8 @@ def tick_texts(axes, along, axis, places, order, most):
     along.set_label_text(axis["label"])
 
 
-def draw(made, value, rest):
-    """The map of one value over the first two axes, at the point `rest` of the others."""
+def draw(made, value, rest, conditions=""):
+    """The map of one value over the first two axes, at the point `rest` of the others; `conditions` stand below the title, where no page has them."""
     first, second = made.axes[:2]
     # cells need increasing places
     order = np.argsort(first["places"]), np.argsort(second["places"])
@@ -147,7 +156,10 @@ def draw(made, value, rest):
     tick_texts(axes, axes.xaxis, first, x, order[0], MOST_TICKS[0])
     tick_texts(axes, axes.yaxis, second, y, order[1], MOST_TICKS[1])
     title = value["name"] + "".join(f", {axis['name']} {axis['texts'][i]} {axis['unit']}" for axis, i in zip(made.axes[2:], rest))
-    axes.set_title(title.strip(), pad=18 if beyond.any() or lost.any() else 6)
+    if conditions:
+        plots.headline(picture, title.strip(), conditions)
+    else:
+        axes.set_title(title.strip(), pad=18 if beyond.any() or lost.any() else 6)
     if beyond.any() or lost.any():
         plots.legend_above(axes)
     return picture
@@ -160,8 +172,9 @@ def main():
     plots.use_style()
     with files.failing():
         made = Map(folder)
+        conditions = made.conditions()
         for value, rest, name in made.pictures():
-            picture = draw(made, value, rest)
+            picture = draw(made, value, rest, conditions)
             for kind in ("png", "svg"):
                 with files.writing(folder / f"{name}.{kind}"):
                     picture.savefig(folder / f"{name}.{kind}")

@@ -72,6 +72,10 @@ class Study:
         """Of the scene, as the deck has them."""
         return deck.conditions(deck.read(self.attribute("deck_text", ""), self.attribute("overrides", "")))
 
+    def scene(self):
+        """Name and conditions, for the second line of a title."""
+        return "; ".join(filter(None, (self.attribute("deck_name", ""), self.conditions())))
+
     def window(self):
         return float(self.attribute("window_begin")), float(self.attribute("window_end"))
 
@@ -201,7 +205,7 @@ def draw_modes(study):
     logarithmic(axes.yaxis, percent)
     axes.set_xlabel("modes, all parts together")
     axes.set_ylabel(f"vibration error, {study.window()[0]:g} to {study.window()[1]:g} s")
-    headline(made, "Error against the number of modes", study.attribute("deck_name", ""))
+    headline(made, "Error against the number of modes", study.scene())
     drawn = {}
     for name, runs in lines.items():
         runs = sorted(runs, key=lambda run: run.number("modes"))
@@ -288,7 +292,7 @@ def draw_error_over_time(study):
             axes.set_ylabel("error eps_t")
         if index >= len(lines) - columns:
             axes.set_xlabel(label("time", "s"))
-    headline(figure, "Error over time", f"{study.attribute('deck_name', '')}; dark: the largest error of each method, grey: that of the reference itself")
+    headline(figure, "Error over time", f"{study.scene()}; dark: the largest error of each method, grey: that of the reference itself")
     return figure
 
 
@@ -315,7 +319,7 @@ def draw_bit_speed(study):
             axes.set_ylabel(label("bit speed", "rpm"))
         if index >= len(study.lines) - columns:
             axes.set_xlabel(label("time", "s"))
-    headline(figure, "Bit speed", f"{study.attribute('deck_name', '')}; the fastest run of each method with vibration error up to 1 % (else its best) over the reference (grey); "
+    headline(figure, "Bit speed", f"{study.scene()}; the fastest run of each method with vibration error up to 1 % (else its best) over the reference (grey); "
              "shaded: window of errors")
     return figure
 
@@ -356,7 +360,7 @@ def draw_statistics(study):
         spectrum.set_visible(False)
     key.legend(handles=handles, loc="center", ncol=2, fontsize=8)
     headline(figure, f"Statistics beyond {study.window()[1]:g} s",
-             f"{study.attribute('deck_name', '')}; the fastest run of each method with vibration error up to 1 % (else its best), the reference in grey")
+             f"{study.scene()}; the fastest run of each method with vibration error up to 1 % (else its best), the reference in grey")
     return figure
 
 
@@ -389,7 +393,7 @@ def draw_static(study):
     for axes, key, colour in ((axial, "axial_force", COLOURS[1]), (torque, "torque", COLOURS[2])):
         axes.plot(profile[key] / 1e3, middle, color=colour, linewidth=1.4)
         axes.axvline(0, color=GREY, linewidth=0.6)
-    headline(figure, "Static state (black) in its clearance (grey)", study.attribute("deck_name", ""))
+    headline(figure, "Static state (black) in its clearance (grey)", study.scene())
     return figure
 
 
@@ -413,7 +417,7 @@ def draw_reference(study):
     logarithmic(axes.yaxis)
     axes.set_xlim(time[0], time[-1])
     axes.set_xlabel(label("time", "s")), axes.set_ylabel(label("largest lateral distance of a node", "m"))
-    headline(figure, "What the reference is worth", study.attribute("deck_name", ""))
+    headline(figure, "What the reference is worth", study.scene())
     return figure
 
 

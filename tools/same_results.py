@@ -3,6 +3,7 @@
 """Runs the shipped decks with two versions of the program and compares everything they write.
 
     same_results.py OLD NEW [--end 0.2] [--only PATTERN] [--names names.json] [--json table.json]
+    same_results.py --write PAGE table.json ...   writes the tables of such files into the page, between its marks
 
 OLD and NEW are programs (tooljoint), each run in its own source tree (--old-tree, --new-tree; default: this one) because decks
 and their parameters may have been renamed between them. Every deck of xml/ and examples/ and every gold of tests/regression/ is
@@ -19,6 +20,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -33,6 +35,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # What two runs of one program do not share, and texts, which may be reworded.
 VOLATILE = ("wall_s", "cpu_s", "real_time_factor", "memory", "program.", "deck.", "date", "status_at", "host", "cost_ratio", "warnings")
 BAD_INPUT = 2
+MARKS = ("<!-- same_results.py: begin -->", "<!-- same_results.py: end -->")
 COUNTS = ("steps", "rejected", "newton_iterations", "factorisations", "evaluations", "iterations", "solves")
 
 
@@ -122,7 +125,41 @@ def compare(old, new, options, names):
     return worst, count
 
 
+def version(program):
+    """The commit of a program, as it prints it."""
+    own = {**os.environ, "LD_LIBRARY_PATH": str(pathlib.Path(program).resolve().parent)}
+    printed = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True, env=own).stdout
+    return re.search(r"\b[0-9a-f]{7,40}\b", printed).group(0)[:8]
+
+
+def cell(row):
+    """What a table says of a scene."""
+    if row is None:
+        return ""
+    if "exit" in row:
+        return "refused by both" if row["exit"] == [BAD_INPUT, BAD_INPUT] else f"exit {row['exit'][0]} / {row['exit'][1]}"
+    if row["largest_difference"] == 0.0:
+        return "bitwise the same"
+    size = row["largest_difference"]
+    return f"{size if isinstance(size, str) else f'{size:.1e}'} ({row['where']})" + ("" if row["agrees"] else ", too large")
+
+
+def written(page, tables):
+    """The page with the tables between its marks: a row for each scene, a column for each pair of programs."""
+    before, rest = page.split(MARKS[0])
+    _, after = rest.split(MARKS[1])
+    names = list(dict.fromkeys(row["scene"] for table in tables for row in table["scenes"]))
+    found = [{row["scene"]: row for row in table["scenes"]} for table in tables]
+    lines = ["| scene | " + " | ".join(f"{table['old']} to {table['new']}" for table in tables) + " |", "|---|" + "---|" * len(tables)]
+    lines += [f"| {name} | " + " | ".join(cell(rows.get(name)) for rows in found) + " |" for name in names]
+    return before + MARKS[0] + "\n\n" + "\n".join(lines) + "\n\n" + MARKS[1] + after
+
+
 def main():
+    if sys.argv[1:2] == ["--write"]:
+        page = pathlib.Path(sys.argv[2])
+        page.write_text(written(page.read_text(encoding="utf-8"), [json.loads(pathlib.Path(name).read_text()) for name in sys.argv[3:]]), encoding="utf-8")
+        return 0
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("old")
     parser.add_argument("new")
@@ -168,7 +205,8 @@ def main():
         print("No scene was compared.")
         return 1
     if options.json:
-        options.json.write_text(json.dumps(table, indent=1) + "\n")
+        whole = {"old": version(options.old), "new": version(options.new), "end": options.end, "scenes": table}
+        options.json.write_text(json.dumps(whole, indent=1) + "\n")
     return 0 if agree else 1
 
 

@@ -130,8 +130,7 @@ void registerBasis(const std::string& name, const std::string& doc, const py::li
 
 void bindBases(py::module_& module) {
   py::class_<LentPart, std::shared_ptr<LentPart>>(
-      module, "PartView",
-      "What a basis asks of a part; each is computed once, when first asked for.")
+      module, "PartView", "What a basis needs of a part; each is computed once, at its first use.")
       .def_property_readonly(
           "name", [](const LentPart& p) { return p.get().part().name; }, "Name of the part.")
       .def_property_readonly(

@@ -70,7 +70,7 @@ using Laws = std::map<std::string, model::ScalarLaw>;
 void setLaws(parts::PartContent& content, Laws given) {
   const std::string who = "Part \"" + content.part.name + "\" (" + content.file + ")";
   for (auto& law : content.part.model.laws.own()) {
-    if (law.name == model::ScalarLaw::one().name) continue;
+    if (law.isOne()) continue;
     const auto known = given.find(law.name);
     if (known == given.end())
       throw DeckError(who + " has terms times the law of time \"" + law.name +

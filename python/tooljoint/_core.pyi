@@ -112,7 +112,7 @@ class Part:
 
 
 class PartView:
-    """What a basis asks of a part; each is computed once, when first asked for."""
+    """What a basis needs of a part; each is computed once, at its first use."""
     @property
     def boundary(self) -> numpy.ndarray:
         """Positions of interface and retained dofs."""

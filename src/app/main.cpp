@@ -68,13 +68,13 @@ int guarded(const tooljoint::app::Action& command) {
 }
 
 /// Reads the command line; an exit code where nothing is left to do (help, or an error that has
-/// been told).
+/// been printed).
 std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
   using tooljoint::terminal::wrapped;
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // CLI11 takes --help before it looks at words it does not know.
+    // CLI11 takes --help before words it does not know.
     if (const auto unknown = program.remaining(true); !unknown.empty()) {
       print(std::cerr,
             wrapped("tooljoint: " + tooljoint::texts::describeUnknown(program, unknown)) + "\n");

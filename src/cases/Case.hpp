@@ -76,7 +76,7 @@ struct CaseOutline {
   std::vector<std::string> notes;  ///< further lines on the coupling
 };
 
-/// A number that tells states at rest apart.
+/// A number that differs between states at rest.
 struct RestFigure {
   std::string name, unit, longName;
   double value = 0.0;

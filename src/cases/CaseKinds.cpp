@@ -49,7 +49,7 @@ const CaseKind& CaseKinds::of(const std::vector<std::string>& lists) const {
 
 namespace {
 
-/// The case of the deck that read() gives with the description that `file` asks for.
+/// The case of the deck that read() gives with the description that `file` needs.
 std::unique_ptr<Case> makeCase(
     const std::string& file, const std::function<deck::Deck(const deck::Deck::ChooseSpec&)>& read) {
   const CaseKind* kind = nullptr;

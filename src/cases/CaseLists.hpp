@@ -83,7 +83,7 @@ struct CommonLists {
 };
 CommonLists readCommonLists(const Teuchos::ParameterList& deck, Faults& faults);
 
-/// What the lists Reduction, Coupling, Transient and Output ask of each other.
+/// What the lists Reduction, Coupling, Transient and Output require of each other.
 /// \param parts names of the substructures, as far as they are known
 void checkCommonLists(const Teuchos::ParameterList& deck, const CommonLists& common,
                       const std::vector<std::string>& parts, Faults& faults);

@@ -159,10 +159,10 @@ void writeShapes(const ListedModes& listed, io::ResultsFile& file) {
       "the largest rotation");
 }
 
-/// More modes than these are told of before they are computed.
+/// More modes than these are announced before they are computed.
 constexpr int manyModes = 200;
 
-/// The number of modes to list, told where that takes long or is not what was given.
+/// The number of modes to list, printed where that takes long or is not what was given.
 int modesOf(const model::SecondOrderModel& model, int wanted) {
   const int count = std::min(wanted, model.size());
   if (count > manyModes)

@@ -19,7 +19,7 @@ struct ModesOptions {
   bool bases = false;          ///< the vectors of all bases too, behind the frequencies
 };
 
-/// When the laws of time are looked at where nothing else says so: at the end of the motion [s], 0
+/// When the laws of time are evaluated where nothing else says so: at the end of the motion [s], 0
 /// without one.
 double timeOfLaws(const Case& one);
 

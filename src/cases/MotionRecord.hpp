@@ -61,7 +61,7 @@ class MotionRecord {
   virtual void save(std::vector<double>& memory) const = 0;
   virtual void restore(const double*& memory) = 0;
 
-  /// The figures a person asks for first, as summary keys and as one line of the log.
+  /// The main figures, as summary keys and as one line of the log.
   virtual void summarise(io::Summary& summary) const = 0;
   virtual std::string describe() const = 0;
   /// Figures of merit of nodes: groups of results.h5 behind the motion, and tables beside it.

@@ -16,8 +16,8 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// A motion that is faster than its samples is looked at up to so many times as often; more often
-/// than its steps it cannot be looked at.
+/// A motion that is faster than its samples is sampled up to so many times as often; more often
+/// than its steps it cannot be sampled.
 constexpr double mostSamples = 1024;
 
 /// Of a part without modes: both planes of bending, torsion and tension of a beam among them.

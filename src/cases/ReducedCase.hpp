@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A case with its parts reduced and coupled, as its list Reduction asks.
+/// A case with its parts reduced and coupled, as its list Reduction says.
 #pragma once
 
 #include <memory>
@@ -37,7 +37,7 @@ ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress = tru
 /// motion. Throws the errors of reduction::fixedInterfaceModes.
 std::vector<transient::MissingMode> missingModes(const Case& one, const ReducedCase& reduced);
 
-/// True when the list Reduction asks for the error of the motion, or for modes by it.
+/// True when the list Reduction wants the error of the motion, or modes by it.
 bool estimatesMotion(const Case& one);
 
 /// Watches the motion of the reduced model. All arguments must outlive the estimator.

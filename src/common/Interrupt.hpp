@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// SIGINT and SIGTERM set a flag that loops look at each step, so that an interrupted run closes
+/// SIGINT and SIGTERM set a flag that loops read each step, so that an interrupted run closes
 /// its files. (Open MPI turns Ctrl-C into SIGTERM, and SIGKILL a second later: react within half a
 /// second.)
 #pragma once

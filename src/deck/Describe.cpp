@@ -29,7 +29,7 @@ std::string clause(const std::string& doc) {
   return text;
 }
 
-/// What a person is told about a thing that was named: "It is the ..." where the words begin with
+/// What is printed about a thing that was named: "It is the ..." where the words begin with
 /// an article.
 std::string introduce(const std::string& name, const std::string& words) {
   for (const char* article : {"the ", "a ", "an "}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How a deck gives a quantity, so that messages can tell it as the deck does.
+/// How a deck gives a quantity, so that messages can give it as the deck does.
 #pragma once
 
 #include <string>

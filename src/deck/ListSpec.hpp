@@ -37,7 +37,7 @@ struct Range {
 
 /// What stands in the tree when the deck gives nothing.
 struct Required {};  ///< an error when absent
-struct Optional {};  ///< absent stays absent: ask with isParameter()
+struct Optional {};  ///< absent stays absent: test with isParameter()
 using Default = std::variant<Required, Optional, bool, int, double, std::string, std::vector<int>,
                              std::vector<double>, std::vector<std::string>>;
 

@@ -25,7 +25,7 @@ const std::string unitsIntroduction =
     "`kg/m3`, `lb/gal`, `bbl/min`, `N s/m`, `ft lbf`, `ft-lbf`, `ft.lbf`, `deg/30m`, `W/(m s)`. "
     "`t`, `lb` and `klb` are masses, "
     "and "
-    "where a force or torque is asked for the weight of that mass under standard gravity, 9.80665 "
+    "where a force or torque is expected the weight of that mass under standard gravity, 9.80665 "
     "m/s2. `sg` is the density "
     "referred to 1000 kg/m3.";
 
@@ -324,11 +324,5 @@ std::string unitsJson() {
 }
 
 bool isUnitsTopic(const std::string& topic) { return lower(trim(topic)) == lower(unitsTopic); }
-
-std::vector<std::string> topics(const ListSpec& root) {
-  std::vector<std::string> result;
-  for (const Located& item : collect(root)) result.push_back(item.path);
-  return result;
-}
 
 }  // namespace tooljoint::deck

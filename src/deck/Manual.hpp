@@ -39,7 +39,4 @@ std::string unitsMarkdown(int headingLevel = 2);
 /// [{"quantity", "si", "units": [{"unit", "also": [...], "factor"}]}], 1 unit = factor si.
 std::string unitsJson();
 
-/// Topics a person may ask for: the paths of all lists, in the order of the manual.
-std::vector<std::string> topics(const ListSpec& root);
-
 }  // namespace tooljoint::deck

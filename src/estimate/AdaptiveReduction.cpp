@@ -100,7 +100,7 @@ class Rounds {
   }
 
  private:
-  /// More modes of this part can be asked for.
+  /// More modes of this part can be had.
   bool canGrow(std::size_t p) const {
     const int count = options_.modes.counts[p];
     return count != reduction::ModeRule::whole && count < interiors_[p];
@@ -122,7 +122,7 @@ class Rounds {
     const auto start = std::chrono::steady_clock::now();
     outcome_.frequencies = estimateFrequencies(parts_, outcome_.synthesis, estimates_.window);
     const double allowed = rule_.frequencyTolerance / frequencySafety;
-    // Fewer frequencies than asked for, although parts have more.
+    // Fewer frequencies than requested, although parts have more.
     bool missing =
         estimates_.window.belowHz <= 0 && sizeOf(outcome_.frequencies) < estimates_.window.count;
     for (const auto& e : outcome_.frequencies) {

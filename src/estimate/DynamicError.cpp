@@ -67,8 +67,7 @@ ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& righ
           (best < 0 || std::abs(modes.values[i] - right.values[j]) <
                            std::abs(modes.values[best] - right.values[j])))
         best = i;
-    if (best <
-        0) {  // repeated zeros may be told apart on one side only; they have no relative error
+    if (best < 0) {  // repeated zeros may be separate on one side only; they have no relative error
       left.col(j).setZero();
       continue;
     }

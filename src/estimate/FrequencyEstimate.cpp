@@ -29,7 +29,7 @@ namespace {
 
 /// A frequency below this fraction of the largest diagonal one is a rigid body's.
 constexpr double rigid = 1e-7;
-/// Modes with whole interfaces beyond those of the reduced ones, among which a shape is looked for.
+/// Modes with whole interfaces beyond those of the reduced ones, among which a shape is sought.
 constexpr int more = 6;
 
 /// Contribution of one part to the estimate of one mode.
@@ -182,7 +182,7 @@ class ModeCounts {
            !((gaps_[bad].doubtful || bad + 1 == gaps_.size()) && missing(gaps_[bad].middle())))
       ++bad;
     if (bad == gaps_.size()) return {};
-    std::size_t good = 0;  // the first `good` gaps lack nothing, as far as they are looked at
+    std::size_t good = 0;  // the first `good` gaps lack nothing, as far as they are computed
     while (good < bad) {
       const std::size_t middle = (good + bad) / 2;
       if (missing(gaps_[middle].middle()))
@@ -199,7 +199,7 @@ class ModeCounts {
   /// Relative distance of eigenvalues that counts do not part.
   static constexpr double closest = 1e-4;
   /// A full eigenvalue is beside a coupled one of a smaller estimated error. Where it is larger the
-  /// estimate may be that of another mode, and the full model is asked.
+  /// estimate may be that of another mode, and the full model is solved.
   static constexpr double sure = 1e-3;
   /// Part of a gap in which a bound is beside the mode below it.
   static constexpr double justAbove = 0.02;

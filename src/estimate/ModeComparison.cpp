@@ -25,7 +25,7 @@ namespace {
 
 using constants::twoPi;
 /// Full modes computed beyond those compared, so that a repeated value is not cut, and coupled
-/// modes beyond the full ones, among which a shape is looked for: the rigid-body motions of one
+/// modes beyond the full ones, among which a shape is sought: the rigid-body motions of one
 /// body.
 constexpr int moreModes = 6;
 

@@ -27,7 +27,7 @@ Matrix modalAssurance(const Sparse& M, const Eigen::MatrixXcd& a, const Eigen::M
 /// Consecutive values within repeatedWithin, and zeros, form a cluster. Every candidate is compared
 /// with the span of every cluster, the best pairs are taken first, and a cluster takes as many as
 /// it has modes, in the order of the candidates. Pairs are ordered by their cos^2 times that of the
-/// angle between (1, s / w) of both, w the larger |s|: values s tell apart modes of one shape, as
+/// angle between (1, s / w) of both, w the larger |s|: values s distinguish modes of one shape, as
 /// the two of an overdamped motion are. For a cluster of several modes `mac` is the least
 /// squared cosine of the principal angles (A. Bjorck and G. H. Golub, Math. Comp. 27 (1973)
 /// 579-594) between its span and that of its partners; for a single mode it is the MAC.

@@ -39,7 +39,7 @@ struct MotionEstimate {
       1;  ///< fraction of the window that was computed, below 1 where the motion was stopped
   double wall = 0;  ///< wall time of the estimate [s]
 
-  /// The motion is faster than the samples, or its error grows when it is looked at more often: the
+  /// The motion is faster than the samples, or its error grows when it is sampled more often: the
   /// error may be larger than said here.
   bool isTooFast() const {
     return error > 0.0 &&
@@ -77,7 +77,7 @@ struct MotionLimit {
 /// them (StateErrors). One step per sample, residuals as
 /// means over the interval (M D'' is M times the change of velocity), all matrices those of the
 /// model at that time. Not included: motion faster than the samples, which a second estimate
-/// from half of them tells of (MotionEstimate::isTooFast), and the error of the
+/// from half of them shows (MotionEstimate::isTooFast), and the error of the
 /// time integration. Compare the dual-weighted residuals of W. Bangerth and R. Rannacher, Adaptive
 /// Finite Element Methods for Differential Equations (2003), chapter 1, of which this is the
 /// forward form.

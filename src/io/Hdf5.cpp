@@ -73,7 +73,7 @@ bool reserve(hid_t file) {
   hsize_t end = 0;
   struct stat now {};
   if (descriptor < 0 || H5Fget_filesize(file, &end) < 0 || ::fstat(descriptor, &now) != 0)
-    return true;  // nothing to tell
+    return true;  // nothing to report
   const auto wanted = static_cast<off_t>(end);
   if (now.st_size >= wanted) return true;
   int error = ::posix_fallocate(descriptor, now.st_size, wanted - now.st_size);

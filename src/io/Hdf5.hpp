@@ -61,7 +61,7 @@ void letGo(hid_t file);
 /// Variable-length UTF-8 string type.
 Handle textType();
 
-/// Is there an object of this path? Every group on the way is looked at, so a missing one is no
+/// Is there an object of this path? Every group on the way is opened, so a missing one is no
 /// error.
 bool hasLink(hid_t file, const std::string& path);
 

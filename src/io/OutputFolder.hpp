@@ -47,7 +47,7 @@ class OutputFolder {
   /// Path for a file of this run ("results.h5" -> "DIR/results.h5"), to be handed to a writer that
   /// stages it as .part. A .part of that name left by an earlier run is removed.
   std::string file(const std::string& name);
-  /// Names asked for with file(), sorted, without .part: the summary lists them.
+  /// Names given to file(), sorted, without .part: the summary lists them.
   std::vector<std::string> files() const;
 
   /// The run ended well: give every staged file its name, summary.json last. Files of the run

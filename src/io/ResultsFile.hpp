@@ -48,11 +48,10 @@ class TimeSeries {
   TimeSeries(const TimeSeries&) = delete;
   TimeSeries& operator=(const TimeSeries&) = delete;
 
-  /// Add one row of rowSize() numbers. FileError when the file cannot be written, Error(Internal)
+  /// Add one row of its shape. FileError when the file cannot be written, Error(Internal)
   /// naming the dataset when a number is not finite.
   void append(const double* row);
   void append(double value) { append(&value); }
-  std::size_t rowSize() const { return rowSize_; }
   /// Rows appended so far, buffered ones included; 0 on ranks that do not write.
   std::size_t rows() const { return rows_; }
 

@@ -279,17 +279,4 @@ std::string ResultsReader::textAttribute(const std::string& object, const std::s
   return value;
 }
 
-double ResultsReader::numberAttribute(const std::string& object, const std::string& name) const {
-  const Handle attribute(
-      H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  if (!attribute.valid()) fail("attribute " + name + " of " + object);
-  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
-  double value = 0.0;
-  if (!isClass(type, H5T_FLOAT, H5T_INTEGER) || !isSingle(attribute) ||
-      H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) {
-    fail("number in the attribute " + name + " of " + object);
-  }
-  return value;
-}
-
 }  // namespace tooljoint::io

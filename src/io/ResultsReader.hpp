@@ -37,7 +37,6 @@ class ResultsReader {
   /// Attribute of a group or dataset ("/" for the file).
   bool hasAttribute(const std::string& object, const std::string& name) const;
   std::string textAttribute(const std::string& object, const std::string& name) const;
-  double numberAttribute(const std::string& object, const std::string& name) const;
 
  private:
   /// Number of values of an open dataset. FileError when they stand in other files, or are more

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Pictures for ParaView: a chain of nodes moving inside its channel, in the global frame. The
-/// numbers stand in the group /xdmf of results.h5, results.xdmf tells a reader where.
+/// numbers stand in the group /xdmf of results.h5, results.xdmf says where.
 #pragma once
 
 #include <string>

@@ -26,7 +26,7 @@ Vector symmetricValues(const Matrix& A);
 /// A = U diag(values) V', values decreasing.
 struct SingularValues {
   Vector values;
-  Matrix U, V;  ///< as many columns as were asked for
+  Matrix U, V;  ///< as many columns as were requested
 };
 /// Thin: min(rows, columns) vectors; Full: a whole orthogonal matrix.
 enum class SingularVectors { None, Thin, Full };

@@ -8,7 +8,7 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Numbers of work for each row: LAPACK asks for 4 at least, and takes blocks where there are more.
+/// Numbers of work for each row: LAPACK needs 4 at least, and takes blocks where there are more.
 constexpr int workOfARow = 40;
 
 /// A column x + iy of a pair, and its conjugate.

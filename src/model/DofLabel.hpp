@@ -21,7 +21,7 @@ struct DofLabel {
   static constexpr std::int32_t shared = -1;
 
   Kind kind = Kind::Physical;
-  std::int64_t entity = 0;  ///< Physical: node number, 1-based as a person sees it. Modal: part
+  std::int64_t entity = 0;  ///< Physical: node number, 1-based as printed. Modal: part
                             ///< number, 0-based. Interface: number of the interface, 0-based.
   std::int32_t component =
       0;  ///< Physical: 0-based component of the node. Modal, Interface: mode number, 0-based.

@@ -35,7 +35,7 @@ struct Place {
   Vector d, v;
 };
 
-/// At this frequency [rad/s] the states of a set are looked at: neither a fast nor a slow one
+/// At this frequency [rad/s] the states of a set are evaluated: neither a fast nor a slow one
 /// follows it without a lag.
 constexpr double lookedAt = 1.0;
 /// Smallest share of the tangent that is no rounding.

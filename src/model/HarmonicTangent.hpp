@@ -24,7 +24,7 @@ std::vector<Complex> tangentByStates(const StatefulPointLaw& law, double t, cons
 std::vector<Complex> tangentByStates(const StatefulPointLaw& law, double t, const Vector& d,
                                      const Vector& v, double omega);
 
-/// Smallest omega that tangentByStates() tells from rest [rad/s].
+/// Smallest omega that tangentByStates() separates from rest [rad/s].
 constexpr double slowestOmega = 1e-6;
 
 /// Point sets whose states change the tangent of small motions about q(0) of the model at the time

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How a room that states nonlinear problems asks for them to be solved without knowing the solver:
+/// How a room that states nonlinear problems has them solved without knowing the solver:
 /// the program binds this callback to the NOX driver of src/statics, a test may bind it to
 /// anything.
 #pragma once
@@ -20,7 +20,7 @@ enum class LineSearch {
   Work  ///< as far as the forces do work along it: right where they have a potential, however sharp
 };
 
-/// What is asked of a solver. The iteration has converged when max_i |scale_i r_i| <= tolerance
+/// A request to a solver. The iteration has converged when max_i |scale_i r_i| <= tolerance
 /// and, if updateTolerance > 0, the full Newton step dx has become |dx| <= updateTolerance |x|.
 struct SolveRequest {
   std::string what;              ///< for messages: "the static equilibrium, lambda = 1e4 1/m"

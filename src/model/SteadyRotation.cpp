@@ -37,7 +37,7 @@ std::vector<std::string> matrixLaws(const SecondOrderModel& model, bool ofSpeed)
   for (const auto* terms : {&model.damping, &model.stiffness})
     for (const auto& term : *terms) {
       const auto& law = model.laws[at(term.law)];
-      if (law.name != "1" && (speedLaw(law) != nullptr) == ofSpeed) names.insert(law.name);
+      if (!law.isOne() && (speedLaw(law) != nullptr) == ofSpeed) names.insert(law.name);
     }
   return {names.begin(), names.end()};
 }

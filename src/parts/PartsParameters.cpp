@@ -158,7 +158,7 @@ PartsSettings readSettings(const ParameterList& list) {
     if (name == rotarySpeedName) speed = readTimeLaw(name, one, {});
   });
   forEachList(list, "Laws", [&](const std::string& name, const ParameterList& one) {
-    if (name == "1")
+    if (model::ScalarLaw::isOne(name))
       throw DeckError(one.name() +
                       " has the name \"1\", which is the constant law. Choose another name.");
     settings.laws.push_back(readTimeLaw(name, one, speed));

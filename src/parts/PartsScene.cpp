@@ -136,7 +136,7 @@ class Builder {
     std::set<std::string> used;
     for (auto& content : scene_.contents)
       for (auto& law : content.part.model.laws.own()) {
-        if (law.name == "1") continue;
+        if (law.isOne()) continue;
         used.insert(law.name);
         const auto it = std::find_if(settings_.laws.begin(), settings_.laws.end(),
                                      [&](const auto& one) { return one.name == law.name; });

@@ -44,7 +44,7 @@ PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingInp
 
 /// The state the motion starts from, in coordinates of the coupled unreduced parts: that of the
 /// files, or rest under the loads of time t (K q = F + point forces, by `solver`); and what
-/// "Starts" adds. Returns that rest; empty where it is not asked for. ConvergenceError, DeckError.
+/// "Starts" adds. Returns that rest; empty where it is not wanted. ConvergenceError, DeckError.
 Vector findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver,
                  PartsScene& scene);
 

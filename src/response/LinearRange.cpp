@@ -14,7 +14,7 @@ namespace tooljoint::response {
 
 namespace {
 
-/// Places in a period at which the laws are looked at.
+/// Places in a period at which the laws are evaluated.
 constexpr int phases = 16;
 
 /// A point law, and its tangents at rest.

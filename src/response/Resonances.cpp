@@ -19,9 +19,9 @@ namespace {
 
 /// Of |s|: a mode with less damping has no finite peak.
 constexpr double noDamping = 1e-9;
-/// Modes asked for beyond the undamped ones up to the highest frequency, and at most.
+/// Modes computed beyond the undamped ones up to the highest frequency, and at most.
 constexpr int moreModes = 8, mostModes = 256;
-/// Speeds of a sweep whose modes are looked at.
+/// Speeds of a sweep whose modes are computed.
 constexpr int lookedSpeeds = 5;
 /// Iterations to a place of the sweep, and its relative accuracy.
 constexpr int mostIterations = 30;

@@ -33,7 +33,7 @@ constexpr int goldenSteps = 20;
 constexpr int narrowSteps = 13;
 /// Of the distance of points: resonances of a larger half width are seen by them.
 constexpr double seenWidth = 1.0;
-/// Half widths of a resonance within which its largest amplitude is looked for.
+/// Half widths of a resonance within which its largest amplitude is sought.
 constexpr double narrowSide = 2.0;
 /// Of the distance of points: two peaks nearer than this are one.
 constexpr double onePeak = 1e-3;

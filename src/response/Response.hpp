@@ -107,7 +107,7 @@ struct HarmonicResponse {
   std::vector<ResponseCheck> checks;     ///< spread points, and the highest peak of every output
   std::vector<AlongString::Node> nodes;  ///< of the margins along the string
   std::vector<cases::BendingPlace> elements;  ///< of the moments
-  std::optional<Growing> growing;             ///< the fastest of the modes looked at
+  std::optional<Growing> growing;             ///< the fastest of the modes computed
 };
 
 /// DeckError: a node or component that is not there or held, nothing that loads the model.

@@ -115,9 +115,10 @@ void RotatingCase::announceHeldStates() const { stability::warnOfHeldStates(mode
 void RotatingCase::announceUnknownStates() const {
   const auto unknown = model::setsWithUnknownStates(model(), time_);
   if (!unknown.empty())
-    log::warn("The laws of " + quotedList(unknown) +
-              " do not say how their states follow a harmonic motion. These states stay as they "
-              "are at rest in the responses.");
+    log::warn(
+        "The laws of " + quotedList(unknown) +
+        " do not say how their states respond to a harmonic motion. These states stay as they "
+        "are at rest in the responses.");
 }
 
 void RotatingCase::announceLaws() const {
@@ -127,7 +128,7 @@ void RotatingCase::announceLaws() const {
         "No matrix of this scene depends on the rotary speed, so its modes are the same at all "
         "speeds. A string needs the list Rotary Speed, parts need terms with the law \"Omega\".");
   else
-    log::info("speed       the matrices follow the laws " + quotedList(followed));
+    log::info("speed       the matrices change with the laws " + quotedList(followed));
   if (!held.empty())
     log::info("            " + quotedList(held) +
               " have their values of t = " + formatNumber(time_) + " s");

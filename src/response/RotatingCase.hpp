@@ -35,7 +35,7 @@ class RotatingCase {
   /// The model that is solved, and the parts it was reduced from (none for a full model).
   const model::SecondOrderModel& model() const;
   const std::vector<model::Substructure>& parts() const;
-  /// The full model, made when first asked for. Collective.
+  /// The full model, made at its first use. Collective.
   const model::SecondOrderModel& full() const;
 
   /// The model that is solved at a rotary speed [rad/s], with the point laws that are linearised.

@@ -18,9 +18,10 @@ void declareCommon(deck::ListSpec& list) {
           "Points at which the full model is solved beside the reduced one; of a response also at "
           "the highest peak of each output, unless 0.")
       .expert()
-      .choice("Axis", std::string("z"), {"x", "y", "z"},
-              "Axis of the rotation: tells forward from backward whirl and directs unbalance. That "
-              "of a string is z.")
+      .choice(
+          "Axis", std::string("z"), {"x", "y", "z"},
+          "Axis of the rotation: separates forward from backward whirl and directs unbalance. That "
+          "of a string is z.")
       .expert();
 }
 

@@ -40,7 +40,7 @@ constexpr int modesBeyond = 12, mostModes = 60, mostBeyond = 80;
 constexpr int entriesOfShapes = 200000;
 /// A model of so few dofs is not projected on fewer modes than it has.
 constexpr int fewDofs = 60;
-/// Growing modes of the projection that are looked at in the whole equations.
+/// Growing modes of the projection that are checked in the whole equations.
 constexpr std::size_t mostRefined = 4;
 /// Part of the fastest growth that counts as fast.
 constexpr double nearly = 0.8;
@@ -49,7 +49,7 @@ constexpr double independent = 1e-6;
 /// Accuracy of these modes: they span a basis, and what grows in it is refined.
 constexpr double basisAccuracy = 1e-4;
 /// Shift of the modes of a state that some motion leaves without any force [1/s2]: with one as
-/// small as the growth that is looked for, that motion would hide the accuracy of all others.
+/// small as the growth that is sought, that motion would hide the accuracy of all others.
 constexpr double floatingShift = -1.0;
 /// Growth below this part of |s| is within the accuracy of s.
 constexpr double noGrowth = 1e-7;
@@ -351,7 +351,7 @@ ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape
 std::string withoutStates(const std::vector<std::string>& held) {
   if (held.empty()) return "";
   return " The states of " + quotedList(held) +
-         " are held where modes are looked for, and followed from there for the least damped ones "
+         " are held where modes are sought, and followed from there for the least damped ones "
          "alone: other growth by them (by the delay of a cutting bit, by the control of a drive) "
          "is "
          "not seen. The motion shows it.";

@@ -213,10 +213,10 @@ class Newton {
 
 std::string explain(const NewtonReport& report, const NewtonOptions& options,
                     const SearchRecord& record, const std::string& worst) {
-  const std::string state = "the scaled residual is " + scientific(report.residual) +
-                            " (largest at " + worst + ") where " + scientific(options.tolerance) +
-                            " is asked for, the last relative step " + scientific(report.update) +
-                            " where " + scientific(options.updateTolerance) + " is";
+  const std::string state =
+      "the scaled residual is " + scientific(report.residual) + " (largest at " + worst +
+      "; tolerance " + scientific(options.tolerance) + "), the last relative step " +
+      scientific(report.update) + " (tolerance " + scientific(options.updateTolerance) + ")";
   if (!std::isfinite(report.residual))
     return "the residual is not finite at " + worst + " after " +
            std::to_string(report.iterations) + " iterations.";
@@ -237,7 +237,8 @@ std::string explainRounding(const model::NonlinearProblem& problem, const Vector
   if (!x.allFinite()) return "";
   const double rounding = roundingOf(problem, scale, x);
   if (!(rounding > options.tolerance)) return "";
-  return " Rounding to double precision may leave " + scientific(rounding) + ": ask for no less.";
+  return " Rounding to double precision may leave " + scientific(rounding) +
+         ": set no smaller tolerance.";
 }
 
 }  // namespace

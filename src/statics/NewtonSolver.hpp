@@ -32,7 +32,7 @@ struct NewtonOptions {
   LineSearch lineSearch = Backtracking;
 };
 
-/// The line search that a room asks for by model::SolveRequest.
+/// The line search that a room requests by model::SolveRequest.
 NewtonOptions::LineSearch lineSearch(model::LineSearch asked);
 
 /// What happened. `converged` is the only sign of success.

@@ -30,7 +30,7 @@ struct PathPoint {
   std::optional<int> negativePivots;  ///< of the problem
 };
 
-/// How a path ended. Anything but Reached is not what was asked for.
+/// How a path ended. Anything but Reached misses the request.
 enum class PathEnd {
   Reached,   ///< the last parameter
   Returned,  ///< the first parameter, backwards

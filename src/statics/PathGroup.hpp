@@ -46,7 +46,7 @@ struct PathContext {
   std::function<void(double parameter, const Vector& x)> accept;
 };
 
-/// Keeps what the problem throws, so that the driver can tell it from LOCA's own exceptions.
+/// Keeps what the problem throws, so that the driver can distinguish it from LOCA's own exceptions.
 template <class Work>
 void guarded(PathContext& context, Work&& work) {
   try {

@@ -97,7 +97,7 @@ class StepSearch : public NOX::LineSearch::Generic {
     for (int k = 0; k <= maxHalvings; ++k) {
       if (!evaluate(line, step)) return false;
       const double after = line.group.getNormF();
-      // Armijo, or already as good as asked for (there rounding decides about a decrease)
+      // Armijo, or already as good as requested (there rounding decides about a decrease)
       if (std::isfinite(after) && (after <= (1.0 - armijo * step) * before || solved(line.group))) {
         record_.failuresInARow = 0;
         return true;

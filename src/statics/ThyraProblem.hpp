@@ -195,7 +195,8 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
            chain->resistance(jacobian_) > linalg::DirectSolverOptions().singularTolerance;
   }
 
-  /// Keeps what the problem throws, so that the driver can tell it from NOX's own exceptions.
+  /// Keeps what the problem throws, so that the driver can distinguish it from NOX's own
+  /// exceptions.
   template <class Work>
   void guarded(Work&& work) const {
     try {

@@ -12,7 +12,7 @@
 namespace tooljoint::study {
 
 /// Displacements over time, samples x nodes x components, row-major, seen but not owned. The
-/// components in front are those that errors look at: of a string the three translations, the
+/// components in front are those that errors count: of a string the three translations, the
 /// lateral ones first.
 struct HistoryView {
   const double* time = nullptr;          ///< samples [s]
@@ -20,7 +20,7 @@ struct HistoryView {
   std::size_t samples = 0;
   std::size_t nodes = 0;
   std::size_t components = 6;
-  std::size_t judged = 3;     ///< components that eps_t and eps_n look at
+  std::size_t judged = 3;     ///< components that eps_t and eps_n count
   std::size_t vibrating = 2;  ///< components whose motion is the vibration
 
   double at(std::size_t sample, std::size_t node, std::size_t component) const {
@@ -30,7 +30,7 @@ struct HistoryView {
   double radius(std::size_t sample, std::size_t node) const;
 };
 
-/// Times looked at, both ends included (to 1e-9 s).
+/// Times compared, both ends included (to 1e-9 s).
 struct Window {
   double begin = -std::numeric_limits<double>::infinity();
   double end = std::numeric_limits<double>::infinity();

@@ -53,7 +53,7 @@ struct StudyRow {
   long modes = 0;     ///< kept modal coordinates of all parts
   long dofs = 0;  ///< of the model that was integrated; 0 until there is one. A motion that fails
                   ///< leaves this and `modeErrors`
-  ModeErrors modeErrors;  ///< of a reduced model, where the study asks for frequencies
+  ModeErrors modeErrors;  ///< of a reduced model, where the study wants frequencies
   std::string integrator;
   std::optional<double> stepOrTolerance;
   double simulated = 0.0;         ///< [s]
@@ -64,10 +64,10 @@ struct StudyRow {
   std::optional<double> energyResidual;
   std::optional<PointwiseErrors> errors;     ///< none for the reference itself
   std::optional<double> estimatedVibration;  ///< of vibration error, without the reference; where
-                                             ///< Reduction/Error Estimate asks for it
+                                             ///< Reduction/Error Estimate wants it
   std::optional<StatisticsDifference> statistics;
   double maxPenetration = 0.0;
-  long missedNodes = 0;  ///< nodes that passed the wall where the model does not look at contact
+  long missedNodes = 0;       ///< nodes that passed the wall where the model has no contact
   double givenUpAfter = 0.0;  ///< CPU time limit that ended the run [s]; 0: it was not the time
   std::string machine;        ///< on which it was timed
   std::optional<int> beside;  ///< rows that ran there meanwhile; none: not known

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a motion is like without looking at it sample by sample: for times at which two correct
+/// Statistics of a motion instead of its samples: for times at which two correct
 /// integrators no longer agree pointwise.
 #pragma once
 

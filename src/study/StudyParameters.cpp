@@ -253,7 +253,7 @@ ListSpec parameters() {
       .real("Time Limit", "s", deck::Optional{}, Range::positive(),
             "CPU time after which a run is given up and counts as failed; the reference has none.")
       .integer("Frequencies", 0, Range{0, 1000, false, false},
-               "How many of the lowest frequencies of the full model are looked for in each "
+               "How many of the lowest frequencies of the full model are sought in each "
                "reduced one, by shape (largest MAC); their errors stand beside those of "
                "the motion. What that costs is in no column. 0 for none.")
       .boolean("Pictures", true, "Draw the plots when the study is done.");

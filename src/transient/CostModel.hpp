@@ -23,8 +23,8 @@ struct CostModel {
 
 /// Cost of a step on this model in its initial state: of generalized-alpha with its usual number of
 /// iterations for an implicit integrator, of RK4 for an explicit one. Other integrators take the
-/// same pieces in other numbers, which the ratio of two models hardly feels. Throws ModelError when
-/// the model is inconsistent.
+/// same pieces in other numbers, on which the ratio of two models hardly depends. Throws ModelError
+/// when the model is inconsistent.
 CostModel costModel(const model::SecondOrderModel& model, const TransientOptions& options);
 
 /// A reduced model is called faster when a step of it is predicted to cost less than this part of

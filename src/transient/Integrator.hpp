@@ -56,7 +56,7 @@ struct Window {
   double begin = 0;
   double end = 0;
   double sampling = 0;  ///< sampling interval, a whole number of which fixed steps divide; 0 = none
-  double step = 0;      ///< step asked for by the deck; 0 = the integrator's own default
+  double step = 0;      ///< step of the deck; 0 = the integrator's own default
 };
 
 /// What a motion goes on with, beyond State, that ranks divide otherwise.
@@ -116,7 +116,7 @@ class Integrator {
   /// Length of equal steps that a second object can take again [s], known after prepare(); 0: none.
   virtual double equalStep() const { return 0; }
   /// Whether the phase of vibration is right to a higher order than the second in the step, of a
-  /// model with gyroscopic terms that matter or of one without; false: errors are looked for in
+  /// model with gyroscopic terms that matter or of one without; false: errors are sought in
   /// longer windows.
   virtual bool followsPhase(bool /*gyroscopic*/) const { return false; }
   /// Append what the motion of the next steps depends on beyond State: no factors.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Whether a reduced motion excites modes of its parts that the basis does not have. A part without
-/// modes follows its boundary like a spring, and nothing of its own motion tells what is missing. A
+/// modes follows its boundary like a spring, and nothing of its own motion shows what is missing. A
 /// mode phi of its interior with its boundary held, phi' M phi = 1, would be driven by
 ///
 ///     eta'' + c eta' + w^2 eta = -l q'',   l = phi' M Phi,   c = phi' C phi,

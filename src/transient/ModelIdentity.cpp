@@ -14,7 +14,7 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Intervals of the window at whose ends laws of time are looked at.
+/// Intervals of the window at whose ends laws of time are evaluated.
 constexpr int lawIntervals = 32;
 /// How far beyond its clearance a point is moved, and how fast it moves there, to see its force
 /// [m], [m/s].

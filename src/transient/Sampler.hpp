@@ -18,7 +18,7 @@ class Sampler {
           const RankShare* share);
   long count() const { return count_; }
   /// What the sink of this rank has thrown. The other ranks of a divided motion do not know of it:
-  /// the run asks all of them and then throws on all.
+  /// the run collects from all of them and then throws on all.
   const std::exception_ptr& failure() const { return failure_; }
 
   /// All samples in (from.t, to.t]; those that fall on the end of the step are the state itself.

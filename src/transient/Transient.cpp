@@ -191,7 +191,7 @@ class Run {
   void requireFitting(const Checkpoint& point) {
     if (point.integrator != options_.integrator)
       throw DeckError("The checkpoint was written by the integrator \"" + point.integrator +
-                      "\", the deck asks for \"" + options_.integrator +
+                      "\", the deck names \"" + options_.integrator +
                       "\". Restart with the same deck.");
     if (point.state.q.size() != model_.wholeSize() || point.state.x.size() != model_.stateSize() ||
         !isOfThisModel(point))

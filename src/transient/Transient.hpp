@@ -63,7 +63,7 @@ struct RunHooks {
   /// anywhere at the start instead of at an interrupt. Checkpoints come at multiples of the
   /// interval whether or not this is given: some integrators begin anew there.
   std::function<void(const Checkpoint&)> keep;
-  std::function<bool()> stop;  ///< looked at each step; default: the interrupt flag
+  std::function<bool()> stop;  ///< read each step; default: the interrupt flag
   /// Of a reduced model: the frequencies [rad/s] at which the modes of each part end, infinite
   /// where none is missing. With them the report has a cutOffEnergy.
   std::vector<double> cutOffs;

@@ -38,7 +38,7 @@ struct TransientOptions {
 /// after Start Time).
 TransientOptions readOptions(const Teuchos::ParameterList& transient);
 
-/// Whether the list asks for an integrator whose step is bounded by the largest frequency of the
+/// Whether the list names an integrator whose step is bounded by the largest frequency of the
 /// model.
 bool isExplicit(const Teuchos::ParameterList& transient);
 

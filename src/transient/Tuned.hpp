@@ -41,9 +41,9 @@ struct Tuned {
   static constexpr double mostMisplaced = 0.015;  ///< likewise, depending on when it is met [1]
   static constexpr double resolved = 0.15;        ///< w h at which any impact is [rad]
   static constexpr int calmSteps = 12;            ///< without motion, before steps grow
-  static constexpr int lookStride = 8;     ///< from one look at the energy to the next [steps]
+  static constexpr int lookStride = 8;     ///< from one sum of the energy to the next [steps]
   static constexpr double quiet = 1e-4;    ///< speeds below are rest [m/s]
-  static constexpr int mostHalvings = 20;  ///< that impacts may ask for
+  static constexpr int mostHalvings = 20;  ///< that impacts may need
   static constexpr int atATime = 3;        ///< of them
 
   // Phase correction and broad phase

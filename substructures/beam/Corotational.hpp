@@ -29,7 +29,7 @@ struct CorotationalResponse {
   Vector3 rotation1;        ///< local rotations (logarithm) in element axes [rad]
   Vector3 rotation2;
   Vector12 force;    ///< internal forces and spatial moments at the nodes, global axes [N, N m]
-  Matrix12 tangent;  ///< d force / d (positions, spatial spins), global axes; zero unless asked for
+  Matrix12 tangent;  ///< d force / d (positions, spatial spins), global axes; zero unless requested
 };
 
 /// Corotational element: a linear element in the frame of its chord.
@@ -45,7 +45,7 @@ class CorotationalElement {
 
   double initialLength() const { return initialLength_; }
 
-  /// Internal force and, if asked for, its exact derivative (not symmetric away from equilibrium,
+  /// Internal force and, if requested, its exact derivative (not symmetric away from equilibrium,
   /// since moments work on spins). Throws ModelError when the nodes coincide. Local rotations must
   /// stay below pi.
   CorotationalResponse evaluate(const ElementPose& pose, bool withTangent) const;

@@ -24,7 +24,7 @@ using DofMap = std::array<bool, 6>;
 
 /// Two-node element between neighbouring nodes of the string. All matrices are 12 x 12 in the frame
 /// of the element (BeamMatrices.hpp), with zero rows and columns at dofs that dofs() leaves out.
-/// They are asked for while equations are assembled, never in the step loop.
+/// They are computed while equations are assembled, never in the step loop.
 class Element {
  public:
   Element(const Section& section, double length) : section_(section), length_(length) {}

@@ -40,7 +40,7 @@ class StaticContact {
     double pull =
         1.0;  ///< share of what the law pulls open points with: 0 = a wall that only pushes
     Sliding sliding{0.0, 1.0};
-    /// Points that are asked for, first ... last - 1: what is given for others is of no use.
+    /// Points that are wanted, first ... last - 1: what is given for others is of no use.
     int first = 0, last = std::numeric_limits<int>::max();
 
     int end(int points) const { return std::min(last, points); }

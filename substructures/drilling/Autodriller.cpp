@@ -54,10 +54,11 @@ struct Lines : model::Formula<1, 2> {
 }  // namespace
 
 deck::ListSpec autodrillerParameters() {
-  return deck::ListSpec("Autodriller",
-                        "A PI controller that holds the weight on bit by the speed of the block. "
-                        "It sees the weight as what the hook load lacks; the block never goes up. "
-                        "Needs a Bit law that gives the weight on bit.")
+  return deck::ListSpec(
+             "Autodriller",
+             "A PI controller that holds the weight on bit by the speed of the block. "
+             "It takes the weight from what the hook load lacks; the block never goes up. "
+             "Needs a Bit law that gives the weight on bit.")
       .real("Weight On Bit", "N", Required{}, Range::positive(), "Set point.")
       .real("Proportional Gain", "m/(N s)", Required{}, Range::positive(),
             "Gain k_p: speed of the block for what the weight lacks.")

@@ -13,7 +13,7 @@
 
 namespace tooljoint::drillstring {
 
-/// A node of the mesh. In code nodes count from 0, wherever a person sees them from 1.
+/// A node of the mesh. In code nodes count from 0, in print and in decks from 1.
 struct Node {
   double s = 0.0;          ///< distance from the surface along the hole [m]
   double clearance = 0.0;  ///< radial clearance j0 [m]: bore radius minus outer or gauge radius

@@ -14,7 +14,7 @@ using beam::Vector12;
 
 namespace {
 
-constexpr const char* kConstant = "1";  ///< name of the law of what is constant in time
+constexpr const char* kConstant = model::ScalarLaw::kOne;
 
 bool isZero(const ElementTerm& term) {
   return std::all_of(term.matrices.begin(), term.matrices.end(),
@@ -127,10 +127,10 @@ class Builder {
     const auto mud = in_.mud->element(element.section(), bore, element.length(), gravity);
     model_.mass.back() += nodal(mud.mass);
     for (const auto& term : mud.damping)
-      if (term.law == kConstant || in_.rotary.present())
+      if (model::ScalarLaw::isOne(term.law) || in_.rotary.present())
         add(model_.damping, term.name, term.law, e, nodal(term.matrix));
     for (const auto& term : mud.stiffness)
-      if (term.law == kConstant || in_.rotary.present())
+      if (model::ScalarLaw::isOne(term.law) || in_.rotary.present())
         addStiffness(term.name, term.law, e, nodal(term.matrix));
     addLoad("mud", model::ScalarLaw::one(), e, slopeTurn(e, turn).transpose() * mud.load);
   }
@@ -146,7 +146,7 @@ class Builder {
     for (const auto& load : loads::pointLoads(in_.loads, in_.string.depths(), in_.rotary)) {
       Vector vector = Vector::Zero(kNodeDofs * model_.nodes);
       vector(kNodeDofs * (load.node - 1) + load.component) = load.value;
-      if (load.law.name == kConstant) out_.load += vector;
+      if (load.law.isOne()) out_.load += vector;
       model_.loads.push_back({load.name, model_.lawIndex(load.law), std::move(vector)});
     }
   }
@@ -154,7 +154,7 @@ class Builder {
   void addStiffness(const std::string& name, const std::string& law, int e,
                     const Matrix12& matrix) {
     add(model_.stiffness, name, law, e, matrix);
-    if (law == kConstant) out_.stiffness[static_cast<std::size_t>(e)] += matrix;
+    if (model::ScalarLaw::isOne(law)) out_.stiffness[static_cast<std::size_t>(e)] += matrix;
   }
 
   void add(std::vector<ElementTerm>& terms, const std::string& name, const std::string& law, int e,
@@ -176,7 +176,7 @@ class Builder {
     auto load = std::find_if(model_.loads.begin(), model_.loads.end(),
                              [&](const NodalLoad& l) { return l.name == name && l.law == index; });
     if (load == model_.loads.end()) {
-      if (law.name == kConstant) distributed_.push_back(model_.loads.size());
+      if (law.isOne()) distributed_.push_back(model_.loads.size());
       model_.loads.push_back({name, index, Vector::Zero(kNodeDofs * model_.nodes)});
       load = std::prev(model_.loads.end());
     }

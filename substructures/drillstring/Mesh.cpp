@@ -31,7 +31,7 @@ constexpr double shortestRest = 0.1;
 /// More elements than this are taken for a slip in a repeat count.
 constexpr int mostElements = 200000;
 
-/// Faults told at most: every stand of a string has those of its components.
+/// Faults printed at most: every stand of a string has those of its components.
 constexpr std::size_t mostFaults = 10;
 
 /// "diameter" or "radius", whichever the deck gives.
@@ -104,7 +104,7 @@ class Mesher {
     }
     if (out_.elementCount() > mostElements) {
       fault(where_, "The string has more than " + std::to_string(mostElements) +
-                        " elements; look at the repeat counts and at the "
+                        " elements; check the repeat counts and the "
                         "length of elements.");
       return false;
     }

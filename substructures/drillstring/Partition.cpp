@@ -29,10 +29,9 @@ deck::ListSpec partitionParameters() {
                     "Nodes (1-based) where the rule \"By nodes\" cuts; required there.")
       .expert();
   list.choice("Retained Dofs", deck::Optional{}, {"Nodes", "Contact", "Translations"},
-              "Dofs that stay physical at a retained node: all six, u v theta_z (and w with "
-              "Contact/Friction/Axial), or u v. Default: "
-              "Nodes for implicit "
-              "integrators, Translations for explicit ones.")
+              "Dofs that stay physical at a retained node: all six, u v theta_z, or u v (the last "
+              "two also w with Contact/Friction/Axial). Default: Nodes for implicit integrators, "
+              "Translations for explicit ones.")
       .formerly("Retain");
   list.choice("Retained Nodes", std::string("Gap"),
               {"Gap", "Static contacts", "Gauges", "All", "List", "None"},
@@ -236,6 +235,7 @@ std::vector<int> retainedDofs(const DrillString& string, const PartitionRules& r
       break;
     case Retain::Translations:
       components = {0, 1};
+      if (rules.axialContact) components.push_back(2);
       break;
   }
   const auto chosen = chosenNodes(string, rules, state);

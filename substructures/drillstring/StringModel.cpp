@@ -144,7 +144,7 @@ model::SecondOrderModel assembleRun(const StringModel& string, int firstElement,
 /// Positions of some kilometres are rounded to u = 5e-13 m; over an element of length l this is a
 /// strain u / l and a tension E A u / l, which changes its bending stiffness 12 E I / l^3 by (A l^2
 /// / 10 I) u / l: 3e-10 for 10 m of pipe, less on a finer mesh. The softest motion of a chain of n
-/// elements feels a change of tension as n^2 times the change of its entries, so that what is the
+/// elements changes with the tension by n^2 times the change of its entries, so that what is the
 /// same shrinks with n^2 as well: the lowest frequency is met to 1e-8.
 double roundingOfPlaces(int dofs) {
   const double few = 90.0 / std::max(1, dofs);

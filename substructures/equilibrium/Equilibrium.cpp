@@ -299,7 +299,7 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
   }
 }
 
-/// A torque below that of the largest axial force at this lever [m] is not told from rounding.
+/// A torque below that of the largest axial force at this lever [m] is within rounding.
 constexpr double leastLever = 1e-6;
 
 /// Torques about the axis of the string. A spin of all sections by the same angle meets no elastic

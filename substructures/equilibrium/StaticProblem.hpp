@@ -83,7 +83,7 @@ class StaticProblem : public model::ChainProblem {
   /// What unbalanced() and jacobian() have at some nodes.
   Vector unbalancedAt(Nodes nodes, const Vector& full) const;
   void jacobianAt(Nodes nodes, const Vector& x, Sparse& jacobian) const;
-  /// With the points at some nodes asked for.
+  /// With the points at some nodes.
   contact::StaticContact::Options contactOptions(Nodes nodes) const;
   Vector lateral(const Vector& full) const;  ///< u, v of the contact points
   bool touches() const { return switches_.contact && input_.contact != nullptr; }

@@ -110,7 +110,7 @@ class Forces final : public Load {
     std::vector<PointLoad> out;
     for (const auto& force : forces_) {
       const int node = nodeOf(force.place, depths, "Loads/Forces/" + force.name);
-      out.push_back({nodalForce, node, force.component, force.value, lawOf(force)});
+      out.push_back({"nodal force", node, force.component, force.value, lawOf(force)});
     }
     return out;
   }
@@ -118,6 +118,8 @@ class Forces final : public Load {
   std::vector<LoadRemark> describe(const RotarySpeed&) const override {
     return {{!forces_.empty(), "nodal forces", std::to_string(forces_.size()) + " in the list"}};
   }
+
+  std::string list() const override { return "Loads/Forces"; }
 
  private:
   std::vector<NodalForce> forces_;

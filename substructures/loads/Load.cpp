@@ -32,6 +32,7 @@ class OfLowerPart final : public Load {
   std::vector<LoadRemark> describe(const RotarySpeed& rotary) const override {
     return load_->describe(rotary);
   }
+  std::string list() const override { return load_->list(); }
 
  private:
   std::shared_ptr<const Load> load_;
@@ -100,7 +101,7 @@ Vector3 steadyBesideWeight(const Loads& loads, const LoadedElement& element,
       -element.section.massPerLength() * (element.frame.transpose() * acceleration(loads));
   for (const auto& load : loads)
     for (const auto& line : load->onElement(element, rotary))
-      if (line.law.name == model::ScalarLaw::one().name) sum += line.force;
+      if (line.law.isOne()) sum += line.force;
   return sum;
 }
 

@@ -31,9 +31,6 @@ struct PointLoad {
   std::string parameter = {};
 };
 
-/// Name of the loads of `Loads/Forces`.
-constexpr const char* nodalForce = "nodal force";
-
 /// A constant force per length on an element, in element axes, times a scalar law of time.
 struct LineLoad {
   std::string name;
@@ -56,8 +53,8 @@ struct LoadRemark {
   std::string text;  ///< its value, or why it does not act
 };
 
-/// Loads are asked while equations are assembled, never in the step loop; what changes in time is a
-/// scalar law.
+/// Loads are evaluated while equations are assembled, never in the step loop; what changes in time
+/// is a scalar law.
 class Load {
  public:
   virtual ~Load() = default;
@@ -75,6 +72,8 @@ class Load {
     return {};
   }
   virtual std::vector<LoadRemark> describe(const RotarySpeed& rotary) const = 0;
+  /// The list of the deck that a warning of all its entries names; empty: the load by its remark.
+  virtual std::string list() const { return {}; }
 };
 
 /// name -> load. A load whose description is called "Loads" has its parameters in the list `Loads`

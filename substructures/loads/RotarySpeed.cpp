@@ -101,7 +101,7 @@ const std::map<std::string, Form>& forms() {
 }  // namespace
 
 model::ScalarLaw RotarySpeed::scalar(const std::string& name) const {
-  if (name == "1") return model::ScalarLaw::one();
+  if (model::ScalarLaw::isOne(name)) return model::ScalarLaw::one();
   const auto it = forms().find(name);
   if (it == forms().end())
     throw Error(ExitCode::Internal, "\"" + name + "\" is no scalar law of the rotary speed.");

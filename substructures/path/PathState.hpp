@@ -39,7 +39,7 @@ struct PathState {
   Vector axialForce;                  ///< F_apa per element [N]
   Vector torque;                      ///< T_apa per element [N m]
   /// Corotational tangent of each element at this state in nodal frames, moments included; empty
-  /// unless asked for (pre-stress `Full tangent`), and then it takes the place of K_a + K_g(F_apa,
+  /// unless requested (pre-stress `Full tangent`), and then it takes the place of K_a + K_g(F_apa,
   /// T_apa).
   std::vector<beam::Matrix12> tangent;
   PathReport report;

@@ -12,9 +12,9 @@ namespace {
 
 /// Wu and Juvkam-Wold 1992: F = factor (E I w^2)^(1/3) in a vertical hole.
 constexpr double verticalSinusoidal = 2.55, verticalHelical = 5.55;
-/// Growth of the trial load while a root is looked for; two roots nearer than that count as none.
+/// Growth of the trial load while a root is sought; two roots nearer than that count as none.
 constexpr double growth = 1.05;
-/// Loads are looked for up to this multiple of those of a horizontal hole and of a bare bend.
+/// Loads are sought up to this multiple of those of a horizontal hole and of a bare bend.
 constexpr double most = 1e3;
 
 /// Least F > 0 with F^2 = factor^2 (E I/r) N(F).

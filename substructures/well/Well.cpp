@@ -37,7 +37,7 @@ Well::Well(std::shared_ptr<const Trajectory> trajectory, double boreRadius,
 }
 
 double Well::boreRadius(double s) const {
-  // an interval is closed and 1e-9 m wider, so that a node on its end sees both neighbours
+  // an interval is closed and 1e-9 m wider, so that a node on its end has both neighbours
   const double slack = 1e-9;
   double inside = std::numeric_limits<double>::infinity();
   bool covered = false;  // an interval reaches over s on both sides

@@ -5,6 +5,7 @@
 Help of every command, words that are no command, what `compare` says of two runs of DECK, and the pictures that PLOTTER draws of runs of a string and
 of PARTS_DECK.
 """
+import argparse
 import csv
 import json
 import pathlib
@@ -17,6 +18,8 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+import same_results  # noqa: E402
 from checks import COLUMNS, expect, finish, tooljoint, wide  # noqa: E402
 
 PROGRAM, MPIEXEC, DECK, PARTS_DECK, PLOTTER = sys.argv[1:6]
@@ -138,6 +141,21 @@ def reports():
             narrow(f"{command} {pathlib.Path(deck).name}", done)
 
 
+def versions():
+    """The comparison of two programs and its table, with one program beside itself: summaries of the runs full and brief."""
+    options = argparse.Namespace(static=1e-10, motion=1e-9, steps=0.01)
+    (_, _, none), _ = same_results.compare(pathlib.Path("full"), pathlib.Path("full"), options, {})
+    (ratio, where, size), count = same_results.compare(pathlib.Path("full"), pathlib.Path("brief"), options, {})
+    expect("results beside themselves are the same, those of another motion are not", none == 0.0 and ratio > 1.0 and count > 100, (none, ratio, where, count))
+    rows = [{"scene": "a", "largest_difference": none, "where": "", "agrees": True}, {"scene": "b", "largest_difference": size, "where": where, "agrees": False},
+            {"scene": "c", "exit": [2, 2]}]
+    here = same_results.version(PROGRAM)
+    page = same_results.written("before\n" + "\nold\n".join(same_results.MARKS) + "\nafter", [{"old": here, "new": here, "scenes": rows}, {"old": "x", "new": "y", "scenes": rows[:1]}])
+    expect("the table of scenes has a column for each pair of programs", page.startswith("before") and page.endswith("after") and "\nold\n" not in page
+           and f"| scene | {here} to {here} | x to y |" in page and "| a | bitwise the same | bitwise the same |" in page and f"({where}), too large |  |" in page
+           and "| c | refused by both |  |" in page, page)
+
+
 def main():
     for left in ("full", "reduced", "brief", "parts", "resting parts", "exported"):  # of an earlier run of this test
         shutil.rmtree(left, ignore_errors=True)
@@ -147,6 +165,7 @@ def main():
     pictures()
     reports()
     comparisons(times)
+    versions()
     return finish()
 
 

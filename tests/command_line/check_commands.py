@@ -171,6 +171,15 @@ def check_words():
     expect("the target records makes what tools write into docs/", len(written) > 4 and not absent, f"{absent} {sorted(written)}")
 
 
+def draw_map(folder):
+    """The tool that draws the maps of record takes the words of their page."""
+    changes = [word for text in SHORT["map"] if "Pictures" not in text for word in ("--set", text)]
+    done = subprocess.run([PROJECT / "tools/maps.py", "--program", PROGRAM, "--work", folder / "maps", "--figures", folder, "--only", "map_helical_170m", *changes],
+                          env={**os.environ, "TOOLJOINT_REPORT": "off"}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    drawn = (folder / "map_helical_170m.svg").read_text(encoding="utf-8") if done.returncode == 0 else ""
+    expect("tools/maps.py draws a map, which says of what scene and with what the axes do not vary", "<svg" in drawn and ">map_helical_170m; TOB 5 kN m, " in drawn, done.stderr[-300:])
+
+
 def check_tests():
     """Each pattern of `ctest -R` fits a test of this build, or one that the build has with more packages; each label of `-L` has tests."""
     listed = json.loads(subprocess.run([CTEST, "--test-dir", BUILD, "--show-only=json-v1"], stdout=subprocess.PIPE, text=True, check=True).stdout)["tests"]
@@ -195,6 +204,7 @@ def main():
     check_tests()
     run_validation(folder)
     run_pages(folder)
+    draw_map(folder)
     return finish()
 
 

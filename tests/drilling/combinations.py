@@ -4,6 +4,7 @@ closes, figures of merit, and a run that goes on from its checkpoint to the same
 import resource
 import subprocess
 
+import h5py
 import models
 import numpy as np
 from checks import expect
@@ -26,14 +27,15 @@ SCENES = {
     "penetration, autodriller and PI drive": ({"Law": "Tucker-Wang"}, {**SPEED, **DRILLER}, None),
 }
 # settings, and bounds of the difference from RK4 over the change of the motion: of the angle of the bit and of its advance. The steps of the
-# order h^2 leave a thousandth of the wave that returns from the bit; tolerances of a step add up over hundreds of them.
+# order h^2 leave a thousandth of the wave that returns from the bit; tolerances of a step add up over hundreds of them. RK4 adaptive and ARKODE
+# have their usual tolerances. A steep law makes forces of what is small in velocities: they may be ten times as wrong as the advance.
 REFERENCE = ("RK4", {"Transient/Integrator": "RK4", "Transient/Step": 1e-4})
 INTEGRATORS = (
-    ("RK4 adaptive", {"Transient/Integrator": "RK4 adaptive", "Transient/RK4 adaptive/Tolerance": 1e-5}, 1e-6, 1e-5),
+    ("RK4 adaptive", {"Transient/Integrator": "RK4 adaptive"}, 1e-6, 1e-5),
     ("generalized-alpha", {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 1e-3}, 2e-5, 3e-3),
     ("generalized-alpha, half the step", {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 5e-4}, 5e-6, 8e-4),
     ("generalized-alpha, step by its error", {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 5e-3, "Transient/Generalized-alpha/Step Tolerance": 1e-7}, 3e-4, 6e-2),
-    ("ARKODE", {"Transient/Integrator": "SUNDIALS ARKODE", "Transient/SUNDIALS ARKODE/Relative Tolerance": 1e-6}, 3e-5, 1e-3),
+    ("ARKODE", {"Transient/Integrator": "SUNDIALS ARKODE"}, 3e-5, 1e-3),
     ("CVODE", {"Transient/Integrator": "SUNDIALS CVODE", "Transient/SUNDIALS CVODE/Relative Tolerance": 1e-6}, 3e-4, 1e-3),
 )
 OF_EVERY_BIT = ("bit_speed_rpm", "stick_slip_index", "stuck_share", "weight_on_bit", "torque_on_bit", "axial_acceleration", "lateral_acceleration", "whirl",
@@ -66,6 +68,11 @@ def moved(run):
     return [run.nodes(component)[:, -1] - run.nodes(component)[0, -1] for component in (THETA_Z, W)]
 
 
+def forces(run, gives_weight):
+    with h5py.File(run.folder / "results.h5") as file:
+        return [file[f"transient/{name}"][:] for name in ("torque_on_bit", *(["weight_on_bit"] if gives_weight else []))]
+
+
 def figures_of(run, gives_weight):
     """Names of figures of merit that are missing, or are there without sense."""
     found = run.motion["figures"]
@@ -94,8 +101,10 @@ def combinations(program, sundials=True):
                 wrong = goes_on(program, name, path, run, settings, without)
                 expect(f"{what}: goes on from its checkpoint to the same numbers", not wrong, "; ".join(wrong[:4]))
                 if true is None:
-                    true = moved(run)
+                    true, true_forces = moved(run), forces(run, weight is None)
                     continue
+                worst = max(np.abs(a - b).max() / np.ptp(b) for a, b in zip(forces(run, weight is None), true_forces))
+                expect(f"{what}: error of the forces of the bit over their change {worst:.1e} within {10 * bounds[1]:.0e}", worst <= 10 * bounds[1])
                 errors[integrator] = found = [np.abs(a - b).max() / max(np.ptp(b), 1e-6) for a, b in zip(moved(run), true)]
                 expect(f"{what}: errors of angle and advance {found[0]:.1e}, {found[1]:.1e} within {bounds[0]:.0e}, {bounds[1]:.0e}",
                        all(error <= bound for error, bound in zip(found, bounds)))

@@ -320,6 +320,7 @@ class Studies(Style):
     def test_profiles_of_the_static_state(self):
         made = plot_study.draw_static(self.study(2))
         self.check(made)
+        self.assertIn("WOB 40 kN", made.texts[1].get_text(), "a figure says under which conditions it holds")
         self.assertEqual([axes.get_xlabel() for axes in made.axes], ["lateral displacement [mm]", "contact force [kN]", "axial force [kN]", "torque [kN m]"])
         self.assertGreater(*made.axes[0].get_ylim())
 

@@ -69,7 +69,7 @@ class Bases(unittest.TestCase):
         tj.basis("One Shape")(lambda part, count: np.ones((22, 5)))
         reduced = tj.reduce(left, "One Shape", modes=2)
         self.assertEqual(reduced.modes, 1)
-        self.assertIn("wanted 2 modes, but the 5 vectors given span 1", " ".join(reduced.remarks))
+        self.assertIn("requested 2 modes, but the 5 vectors given span 1", " ".join(reduced.remarks))
         with self.assertRaisesRegex(tj.UsageError, "for the time of its call"):
             kept[0].interior_mass
         with self.assertRaisesRegex(tj.UsageError, "already"):

@@ -3,7 +3,9 @@
 """Builds the documentation site and checks it: check_site.py CMAKE BUILD PROJECT
 
 Every link within the site leads to a file and an anchor that are there, every picture exists, every page of docs/ has become one, every page
-stands in the navigation of the first, and the reference of the Python package has all it offers. In Chromium, where it is installed, a page has no errors and its theme switch works. Links to other hosts are not opened (target `docs-linkcheck`).
+stands in the navigation of the first, long tables are CSV files, and the reference of the Python package has all it offers. In Chromium, where it
+is installed, a page has no errors and its theme switch works. Links to other hosts are those listed here; they are not opened (target
+`docs-linkcheck`).
 """
 import csv
 import html.parser
@@ -24,6 +26,12 @@ from pictured import RECORD  # noqa: E402
 
 GENERATED = {"index.html", "genindex.html", "search.html"}  # of Sphinx, or the way to the first page
 LARGEST_PICTURE = 150_000  # bytes; pictures are read over slow lines and stay in the repository for good
+ELSEWHERE = {"https://uscilab.github.io/cereal/"}  # links to other hosts, which only `docs-linkcheck` opens
+THEME = {"https://github.com/pradyunsg/furo", "https://pradyunsg.me"}  # those that the theme writes into each page
+# Target or tool of each figure of record; all but the first are part of the target `records`.
+MAKERS = {"architecture.svg": "tests/lint/picture.py", "cms_variants_*.png": "cms-variants", "hard_*.svg": "hard-cases", "map_*.svg": "maps", "step_error.svg": "step_accuracy",
+          "scale_*.svg": "scale", "speed_*.svg": "speed_against_error", "modes_*.svg": "speed_against_error", "drilling_*.png": "docs-pictures", "python_*.png": "docs-pictures",
+          "report_*.png": "docs-pictures", "tutorial_*.png": "docs-pictures"}
 LONGEST_TABLE = 90  # rows of a table in a page; longer ones are files of docs/tables
 
 
@@ -85,6 +93,11 @@ def broken(pages):
                 yield f"{path.name}: {link}: no such anchor"
 
 
+def elsewhere(pages):
+    """Links to other hosts."""
+    return {link for path, page in pages.items() for link in page.links if target(path, link) is None} - THEME
+
+
 def self_test(folder):
     """The checks find a page that lacks an anchor, a file and a place in the navigation."""
     folder.mkdir(exist_ok=True)
@@ -92,6 +105,7 @@ def self_test(folder):
     (folder / "b.html").write_text('<h1 id="there">b</h1><img src="gone.png"><a href="https://example.org/gone">elsewhere</a>', encoding="utf-8")
     pages = read(folder.resolve())
     expect("the checks find a broken link", sorted(broken(pages)) == ["a.html: b.html#gone: no such anchor", "b.html: gone.png: no such file"], str(sorted(broken(pages))))
+    expect("a link to another host", elsewhere(pages) == {"https://example.org/gone"}, sorted(elsewhere(pages)))
     expect("and a page outside of the navigation", unlisted(pages, folder.resolve() / "a.html") == ["b.html"], str(unlisted(pages, folder.resolve() / "a.html")))
 
 
@@ -122,6 +136,9 @@ def main():
     expect("every page of docs/ is on the site", sources and not missing, ", ".join(missing))
     wrong = sorted(broken(pages))
     expect(f"the {sum(len(page.links) for page in pages.values())} links of {len(pages)} pages lead somewhere", not wrong, "\n".join(wrong))
+    abroad = elsewhere(pages)
+    expect("links to other hosts are well-formed and listed in this test", abroad == ELSEWHERE and all(re.fullmatch(r"https://[\w-]+(\.[\w-]+)+/[\w./~#-]*", link) for link in abroad),
+           sorted(abroad ^ ELSEWHERE))
     outside = unlisted(pages, site / "docs/index.html")
     expect("every page stands in the navigation", not outside, ", ".join(outside))
     recorded = json.loads(RECORD.read_text(encoding="utf-8"))
@@ -131,6 +148,10 @@ def main():
     figures = sorted(path for path in (project / "docs/figures").iterdir() if path != RECORD)
     large = [path.name for path in figures if path.stat().st_size > LARGEST_PICTURE]
     expect("figures are small", figures and not large, ", ".join(large))
+    unmade = [path.name for path in figures if sum(path.match(pattern) for pattern in MAKERS) != 1]
+    records = re.search(r"if\(PYTHON3_FOR_FIGURES AND .*?\nendif", (project / "cmake/DeveloperTools.cmake").read_text(encoding="utf-8"), re.S)[0]
+    unmade += [maker for maker in list(MAKERS.values())[1:] if not re.search(rf"[ (]{maker}[ )]", records)]
+    expect("every figure has a maker, which the target records runs", not unmade, ", ".join(unmade))
     written = "".join(path.read_text(encoding="utf-8") for path in [*(project / "docs").rglob("*.md"), project / "README.md"])
     unseen = [path.name for path in figures if f"figures/{path.name}" not in written]
     expect("every figure is on a page", not unseen, ", ".join(unseen))

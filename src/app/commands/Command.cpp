@@ -40,7 +40,7 @@ const char* heading(Group group) {
   return "";
 }
 
-/// The validators of CLI tell their bounds with 300 digits, and take "nan".
+/// The validators of CLI print their bounds with 300 digits, and take "nan".
 CLI::Validator finiteNumber(const std::string& expected, bool (*good)(double)) {
   return CLI::Validator(
       [expected, good](std::string& text) {

@@ -29,7 +29,7 @@ struct CompareOptions {
 /// folders hold different scenes or different times in the window, or the reference does not move
 /// in it; ConvergenceError: the vibration error is above options.failAbove.
 void compare(const CompareOptions& options) {
-  constexpr double usualSpan = 3.0;  // s, over which motions are told apart by values
+  constexpr double usualSpan = 3.0;  // s, over which motions are compared by values
   const double end = options.end.value_or(options.begin + usualSpan);
   if (end < options.begin)
     throw UsageError("--to " + formatNumber(end) + " is before --from " +

@@ -21,7 +21,7 @@ struct FigureWindow {
   }
 };
 
-/// What the deck asks for, else the second half of the motion. DeckError when the window does not
+/// That of the deck, else the second half of the motion. DeckError when the window does not
 /// lie in the motion, or holds no sample.
 FigureWindow figureWindow(const io::FigureSettings& settings,
                           const Teuchos::ParameterList& transient);

@@ -116,7 +116,7 @@ class RestingParts : public RestingCase {
     file.write("/model/part_names", names, "Parts in the order of the deck");
     file.write("/model/components", model().componentNames, "Components of a node");
     file.write("/model/component_units", units,
-               "Unit of each component; empty where its name tells neither a translation nor a "
+               "Unit of each component; empty where its name says neither a translation nor a "
                "rotation");
     file.write("/model/part", part, {count}, "1",
                "Part of each node, counted from 1; the first one of a joined node");

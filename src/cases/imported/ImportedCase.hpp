@@ -47,7 +47,7 @@ class ImportedCase : public Case, public NodeChoice {
   void summarise(io::Summary& summary) const override;
   CaseOutline outline() const override;
   /// The parts may not come to rest, and a basis with interface forces leaves interface dofs to its
-  /// modes, which may not start where the neighbours do: only the reduction tells.
+  /// modes, which may not start where the neighbours do: only the reduction shows it.
   void verify() const override;
   std::shared_ptr<const RestingCase> solveStatic() const override;
 

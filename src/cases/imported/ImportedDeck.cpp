@@ -15,7 +15,7 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// What only several lists together can tell.
+/// Errors that only several lists together show.
 void crossCheck(const ImportedDeck& deck, Faults& faults) {
   const auto& output = deck.common.output;
   if (deck.deck.gives("Output/XDMF") && output.xdmf)

@@ -32,7 +32,7 @@ struct ImportedDeck {
 
   /// Reads the files and puts the parts together. DeckError, ModelError, FileError. Collective.
   parts::PartsScene build() const;
-  /// DeckError, ModelError: what the list Reduction asks of these parts and they do not have.
+  /// DeckError, ModelError: these parts lack what the list Reduction needs.
   void checkReduction(const parts::PartsScene& scene) const;
   /// Finds the state the parts start from; the rest as in parts::findStart. DeckError,
   /// ConvergenceError. Collective.

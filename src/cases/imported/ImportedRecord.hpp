@@ -21,7 +21,7 @@
 
 namespace tooljoint::cases {
 
-/// SI unit of a component of a node by its name; "" where it tells neither a translation nor a
+/// SI unit of a component of a node by its name; "" where it says neither a translation nor a
 /// rotation.
 std::string unitOf(const std::string& component);
 

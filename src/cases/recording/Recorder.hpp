@@ -36,7 +36,7 @@ struct Recorded {
 /// what is due next.
 class Recorder : public transient::ShareSink {
  public:
-  /// Opens the series of /transient that the list Output asks for. `model` and `file` must outlive
+  /// Opens the series of /transient that the list Output names. `model` and `file` must outlive
   /// the recorder.
   Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrderModel& model,
            const Recorded& wanted, TimeSpan span, io::ResultsFile& file);

@@ -28,7 +28,7 @@ struct RowFolder {
 /// and without the lists of analyses, and the files it names. Collective.
 std::string identity(const Case& owner);
 
-/// What tells rows apart.
+/// What distinguishes rows.
 struct RowKeys {
   std::string plural;  ///< in messages and names of files: "depths"
   std::string whose;   ///< all that decides every row

@@ -7,7 +7,7 @@
 namespace tooljoint::parallel {
 
 QuickStart::QuickStart() {
-  // What mpirun, PMIx and PMI launchers, and Slurm tell the processes that they start.
+  // What mpirun, PMIx and PMI launchers, and Slurm set for the processes that they start.
   for (const char* launched :
        {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMI_SIZE", "SLURM_PROCID"})
     if (std::getenv(launched)) return;

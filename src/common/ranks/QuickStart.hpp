@@ -6,7 +6,7 @@
 namespace tooljoint::parallel {
 
 /// Alive while MPI begins: of a process that no launcher started, Open MPI then starts no daemon
-/// and looks for no network, which takes it a third of a second. What the environment says already
+/// and seeks no network, which takes it a third of a second. What the environment says already
 /// stays; it is as before afterwards.
 class QuickStart {
  public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Sentences on many runs that differ in their numbers alone are told once, with a count.
+/// Sentences on many runs that differ in their numbers alone are printed once, with a count.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class LikewiseList {
  public:
   /// \param kind      what a sentence of the same kind begins with
   /// \param reason    whose numbers may differ
-  /// \param sentence  told when it is the first of its kind
+  /// \param sentence  printed when it is the first of its kind
   void add(const std::string& kind, const std::string& reason, const std::string& sentence) {
     const auto key = kind + '\n' + withoutNumbers(reason);
     const auto known = std::find_if(groups_.begin(), groups_.end(),

@@ -4,7 +4,7 @@
 namespace tooljoint::log {
 
 /// While it lives, a warning that differs from an earlier one in its numbers alone is counted, not
-/// printed; at its end each such kind is told again with its count, also in warnings(). Of many
+/// printed; at its end each such kind is printed again with its count, also in warnings(). Of many
 /// runs of one deck.
 class WarnOnce {
  public:

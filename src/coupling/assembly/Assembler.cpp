@@ -251,7 +251,7 @@ class Coupler {
         throw ModelError("The initial " + std::string(velocity ? "velocity" : "displacement") +
                          " of " + model::dofName(labelled_.model, solved.unknown) + " is " +
                          formatNumber(y[solved.unknown]) + ", but the " +
-                         rows_[at(solved.row)].name + " asks for " + formatNumber(value) +
+                         rows_[at(solved.row)].name + " requires " + formatNumber(value) +
                          ". Joined parts must start from the same state.");
       }
     };

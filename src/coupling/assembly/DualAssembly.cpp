@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,8 +18,6 @@ namespace {
 
 using model::DofLabel;
 using model::SecondOrderModel;
-
-const char* const joiningForces = "joining forces";
 
 class Builder {
  public:
@@ -119,8 +118,10 @@ class Builder {
       entries.emplace_back(j, coordinates_ + k, -value);
     });
     const int size = coordinates_ + count();
-    if (count() > 0)
-      out_.model.stiffness.push_back({joiningForces, sparse(size, size, entries), 0});
+    if (count() > 0) {
+      joining_ = out_.model.stiffness.size();
+      out_.model.stiffness.push_back({"joining forces", sparse(size, size, entries), 0});
+    }
     if (!values.isZero(0.0)) {
       Vector load = Vector::Zero(size);
       load.tail(count()) = -values;
@@ -131,9 +132,11 @@ class Builder {
   /// Of the parts; constant terms.
   Vector diagonalStiffness() const {
     Vector diagonal = Vector::Zero(out_.model.mass.rows());
-    for (const auto& term : out_.model.stiffness)
-      if (out_.model.laws[at(term.law)].name == "1" && term.name != joiningForces)
+    for (std::size_t i = 0; i < out_.model.stiffness.size(); ++i) {
+      const auto& term = out_.model.stiffness[i];
+      if (i != joining_ && out_.model.laws[at(term.law)].isOne())
         diagonal += term.matrix.diagonal();
+    }
     return diagonal;
   }
 
@@ -259,12 +262,10 @@ class Builder {
         entries.emplace_back(
             i, i, stiffness[i] != 0.0 && fastest > 0 ? std::abs(stiffness[i]) / fastest : 1.0);
     }
-    for (const auto& term : m.stiffness) {
-      if (term.name != joiningForces) continue;
-      forEachEntry(term.matrix, [&](int i, int j, double value) {
+    if (joining_)
+      forEachEntry(m.stiffness[*joining_].matrix, [&](int i, int j, double value) {
         if (bare[at(i)] != 0 || bare[at(j)] != 0) entries.emplace_back(i, j, value);
       });
-    }
     const linalg::DirectSolver solver(sparse(n, n, entries), model::namer(m));
     const Vector x = solver.solve(r);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -274,12 +275,13 @@ class Builder {
   const std::vector<AlignedPart>& alignedParts_;
   const Labelled& labelled_;
   const std::vector<SolvedRow>& solved_;
-  const int all_;             ///< coordinates of `labelled`
-  int coordinates_ = 0;       ///< of the model without multipliers
-  std::vector<int> owner_;    ///< per coordinate of `labelled`: its (first) part
-  std::vector<int> virtual_;  ///< row of its part's boundaryRows, -1 for a coordinate
-  std::vector<int> column_;   ///< place among the coordinates
-  Sparse labelRows_;          ///< scaled constraints over `labelled`
+  const int all_;                       ///< coordinates of `labelled`
+  int coordinates_ = 0;                 ///< of the model without multipliers
+  std::vector<int> owner_;              ///< per coordinate of `labelled`: its (first) part
+  std::vector<int> virtual_;            ///< row of its part's boundaryRows, -1 for a coordinate
+  std::vector<int> column_;             ///< place among the coordinates
+  std::optional<std::size_t> joining_;  ///< place of the term of the multipliers in the stiffness
+  Sparse labelRows_;                    ///< scaled constraints over `labelled`
   DualModel out_;
 };
 

@@ -13,7 +13,7 @@
 
 namespace tooljoint::coupling {
 
-/// Where nodes stand from one another, as far as links tell. A link between nodes whose distance
+/// Where nodes stand from one another, as far as links say. A link between nodes whose distance
 /// other links give otherwise would hold their rotations: u_to = u_from + theta x arm twice, with
 /// two arms, leaves theta x (arm - arm') = 0.
 class LinkLoops {

@@ -265,7 +265,7 @@ class Planner {
     Vector force = reduction::constantStiffness(m) * part.reference -
                    m.pointForce(0.0, part.reference, Vector::Zero(m.size()));
     for (const auto& load : m.loads)
-      if (m.laws[at(load.law)].name == "1") force -= load.vector;
+      if (m.laws[at(load.law)].isOne()) force -= load.vector;
     return force;
   }
 

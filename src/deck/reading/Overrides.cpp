@@ -45,7 +45,7 @@ Override parseOverride(const std::string& text, int number) {
   return result;
 }
 
-/// The type attribute of an override: what the description asks for, or a string when the text is a
+/// The type attribute of an override: that of the description, or a string when the text is a
 /// quantity with a unit.
 std::string typeFor(const ParameterSpec& parameter, const std::string& text) {
   std::string type = typeName(parameter.kind);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// A deck after its lexical reading: lists and parameters with the place each came from, before
-/// anybody asked whether the names mean something. Internal to src/deck.
+/// the names are checked. Internal to src/deck.
 #pragma once
 
 #include <string>

@@ -50,7 +50,7 @@ constexpr Quantity dynamicViscosity{"dynamic viscosity", "Pa s", {-1, 1, -1, 0, 
 constexpr Quantity rotarySpeed{"rotary speed", "rad/s", {0, 0, -1, 1, 0}};
 constexpr Quantity frequency{"frequency", "Hz", {0, 0, -1, 0, 1}};
 
-/// What the table is made of, kept apart from the compound units that people look for in a manual.
+/// What the table is made of, kept apart from the compound units of a manual.
 /// Quantities stand together. Inch, foot, pound, gallon and standard gravity are exact by
 /// definition (NIST SP 811, appendix B).
 std::vector<UnitSymbol> makeSymbols() {

@@ -8,7 +8,7 @@
 /// "deg/30m", "1/s". More than one factor below a "/" needs parentheses: "W/(m s)". Angles (rad)
 /// and cycles (Hz) are dimensions of their own: 1/s, rad/s and Hz are never mistaken for each
 /// other. A few symbols (t, lb, klb) stand for a mass and for the weight of that mass under
-/// standard gravity: toSi takes the reading that measures what is asked for.
+/// standard gravity: toSi takes the reading of the wanted quantity.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ std::optional<double> toSi(std::string_view text, const std::string& si, std::st
 /// "in" of "5 in": what follows the number of a quantity, without blanks around it.
 std::string unitText(const std::string& quantity);
 
-/// Units of the table that may stand where `si` is asked for, the best known ones: {"m", "mm",
+/// Units of the table that may stand where `si` is expected, the best known ones: {"m", "mm",
 /// "cm", "km", "ft", "in"}.
 std::vector<std::string> unitsLike(const std::string& si);
 

@@ -36,7 +36,7 @@ void setValue(Teuchos::ParameterList& list, const std::string& name, const Value
   std::visit(Setter{list, name}, value);
 }
 
-/// A text in the type `kind` asks for that says what the person most probably meant; "" when there
+/// A text in the type of `kind` that says what the person most probably meant; "" when there
 /// is none.
 std::string rewritten(Kind kind, const RawParameter& given) {
   std::vector<std::string> candidates = {given.text, "{" + given.text + "}"};

@@ -19,7 +19,7 @@
 namespace tooljoint::deck {
 namespace {
 
-/// What the parser told while it worked; hangs on the parser context.
+/// What the parser has reported; hangs on the parser context.
 struct ParserNews {
   bool documentType = false;
   int line = 0;

@@ -16,7 +16,7 @@ struct ColumnHeading {
 ColumnHeading splitHeading(const std::string& cell);
 
 /// Value in `si` of one `unit` as files of measurements write it: "klbf", "KLBF", "ft.lbf", "rpm";
-/// "g" is the standard gravity where an acceleration is asked for. Upper and lower case count only
+/// "g" is the standard gravity where an acceleration is expected. Upper and lower case count only
 /// where more than one unit would fit. Nothing for a unit that is unknown or measures something
 /// else.
 std::optional<double> unitFactor(const std::string& unit, const std::string& si);

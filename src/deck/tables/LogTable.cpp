@@ -19,7 +19,7 @@ namespace tooljoint::deck {
 namespace {
 
 constexpr std::uint64_t largestLog = 1U << 26U;  // bytes
-/// Faults that are told; the others are counted.
+/// Faults that are printed; the others are counted.
 constexpr std::size_t mostFaults = 10;
 /// Headings of the time, where the deck names none.
 const std::vector<std::string> timeNames{"time",     "elapsed time", "etim",     "t",

@@ -81,10 +81,6 @@ SummaryRow& SummaryRow::set(const std::string& key, const std::string& value) {
   data_->json[key] = value;
   return *this;
 }
-SummaryRow& SummaryRow::setNull(const std::string& key) {
-  data_->json[key] = nullptr;
-  return *this;
-}
 
 Summary::Summary() : data_(std::make_unique<Data>()) {
   set("format_version", summaryFormatVersion);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// summary.json: every number a script or a person asks for first. All documented keys are always
+/// summary.json: the main numbers, for scripts and people. All documented keys are always
 /// there, null where a stage did not run; docs/file-formats.md lists them.
 #pragma once
 
@@ -31,7 +31,6 @@ class SummaryRow {
   SummaryRow& set(const std::string& key, const char* value) {
     return set(key, std::string(value));
   }
-  SummaryRow& setNull(const std::string& key);
 
  private:
   friend class Summary;

@@ -56,7 +56,7 @@ class BlockFactor {
   /// those where x is not zero, each once. In a stiff chain that is a few neighbours.
   void solveNear(double* x, std::vector<int>& live, const double* weight, double small) const;
 
-  /// Blocks of A^-1 on the pattern, for what `wanted` asks of the diagonal blocks (and everything
+  /// Blocks of A^-1 on the pattern, for what `wanted` names of the diagonal blocks (and everything
   /// that takes): the recursion of Takahashi, Fagan and Chen (1973), which never leaves the fill.
   /// After factor(); costs about as much.
   ///

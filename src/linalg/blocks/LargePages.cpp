@@ -32,7 +32,7 @@ void shareLargePages(std::size_t bytes) {
   const auto end = [] { return reinterpret_cast<std::uintptr_t>(sbrk(0)); };
   const std::uintptr_t before = end();
   // What was free already is taken first. Where the heap does not grow (a limit, another allocator)
-  // nothing is asked for.
+  // nothing is requested.
   std::vector<void*> held;
   for (std::size_t size = 0; size < bytes && end() == before; size += page) {
     held.push_back(std::malloc(page));

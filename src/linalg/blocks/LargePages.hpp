@@ -41,9 +41,9 @@ struct LargePages {
 };
 
 /// Arrays too short for large pages of their own share them: what the process allocates next, up to
-/// so many bytes, is taken from memory that asks for them, address space until it is written to (an
+/// so many bytes, is taken from memory that requests them, address space until it is written to (an
 /// eighth of what a limit allows at most). Many vectors read one after the other are then read a
-/// tenth faster. To be called where a program begins: what is free already is not asked for again.
+/// tenth faster. To be called where a program begins: what is free already is not requested again.
 /// Does nothing for a few megabytes, without glibc, or where the heap cannot grow. By default
 /// enough for the vectors of a million dofs.
 void shareLargePages(std::size_t bytes = std::size_t{1} << 30);

@@ -27,7 +27,7 @@ struct DirectSolverOptions {
   int refinements = 3;       ///< at most so many steps of iterative refinement per solve
   double singularTolerance =
       3.6e-15;  ///< relative size of A v below which v is a motion nothing resists (16 eps)
-  bool checkSingular = true;  ///< look for such a v after each factorisation (two extra solves)
+  bool checkSingular = true;  ///< seek such a v after each factorisation (two extra solves)
   parallel::Ranks ranks = parallel::Ranks::Own;  ///< All: MUMPS divides its factors among them
 };
 
@@ -50,8 +50,8 @@ class DirectSolver {
   /// Factors another matrix; the ordering is kept when the pattern is the same. Errors as the
   /// constructor.
   void refactor(const Sparse& A);
-  /// The same without looking for a motion that nothing resists: for one matrix of a sequence whose
-  /// first was looked at.
+  /// The same without seeking a motion that nothing resists: for one matrix of a sequence whose
+  /// first was checked.
   void refactorUnchecked(const Sparse& A);
 
   /// x with A x = b; b is a vector or the columns of a matrix, with size() rows.
@@ -74,7 +74,7 @@ class DirectSolver {
   Matrix apply(const Matrix& b) const;
 
   int size() const;
-  /// Negative eigenvalues of A, where its factors tell them: a symmetric A, factored by MUMPS.
+  /// Negative eigenvalues of A, where its factors give them: a symmetric A, factored by MUMPS.
   std::optional<int> negativeEigenvalues() const;
   /// Backward error of the last solve (largest of its columns); 0 before the first.
   double lastResidual() const;

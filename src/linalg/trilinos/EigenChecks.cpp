@@ -28,7 +28,7 @@ using constants::epsilon;
 using ColumnSparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Ldlt = Eigen::SimplicialLDLT<ColumnSparse, Eigen::Lower, Eigen::AMDOrdering<int>>;
 
-/// Error of factors beyond which their pivots do not tell the inertia.
+/// Error of factors beyond which their pivots do not give the inertia.
 constexpr double largestError = 1e-10;
 /// The same of factors without pivoting, which may be good by chance: others are tried above it.
 constexpr double doubtfulError = 1e-13;
@@ -308,7 +308,7 @@ void recomputeErrors(EigenPairs& modes, const Sparse& K, const Sparse& M, double
   forEachEntry(K, [&](int i, int j, double value) {
     largest = std::max(largest, d[i] * std::abs(value) * d[j]);
   });
-  // Rounding of the largest stiffness reaches modes that do not feel it: a free coordinate of a
+  // Rounding of the largest stiffness reaches modes without part in it: a free coordinate of a
   // diagonal K has |K||phi| = 0.
   const double rounding = 64.0 * epsilon / tolerance * largest;
   modes.residuals.resize(modes.values.size());

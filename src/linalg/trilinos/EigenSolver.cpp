@@ -30,7 +30,7 @@ namespace tooljoint::linalg {
 namespace {
 
 using constants::epsilon;
-/// Residual of the iteration as a part of the accuracy asked for. Rounding of long strings, eps
+/// Residual of the iteration as a part of the accuracy requested. Rounding of long strings, eps
 /// times the largest over the lowest eigenvalue, does not allow much less.
 constexpr double iterationShare = 1e-4;
 
@@ -391,7 +391,7 @@ EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& opti
 
 EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options) {
   EigenPairs modes;
-  modes.method = "none asked for";
+  modes.method = "none requested";
   if (count == 0) {
     modes.vectors.resize(pencil.size(), 0);
     return modes;

@@ -56,7 +56,7 @@ struct EigenOptions {
 /// of eigenvalues below the last gap is counted by Sylvester's law of inertia, so a missed mode is
 /// found. Small pencils or many modes: dense. ModelError: sizes differ, count > n, K or M
 /// unsymmetric or not finite, M not positive definite (dof named). ConvergenceError: the residuals,
-/// the orthogonality or the count are not what was asked for.
+/// the orthogonality or the count are not as requested.
 EigenPairs lowestModes(const Sparse& K, const Sparse& M, int count,
                        const EigenOptions& options = {});
 

@@ -165,9 +165,9 @@ double besideValues(const Upper& found, double near) {
   return near;
 }
 
-/// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 tells the wanted values
-/// apart and Jordan chains at zero do not swamp them. Where all that is wanted are these, a shift
-/// as small as they are has no inverse, and the one before serves.
+/// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 separates the wanted
+/// values apart and Jordan chains at zero do not swamp them. Where all that is wanted are these, a
+/// shift as small as they are has no inverse, and the one before serves.
 std::unique_ptr<ShiftedInverse> goodInverse(const ScaledPencil& pencil, std::size_t wanted,
                                             const DofNamer& name) {
   double shift = firstShift(pencil);
@@ -231,7 +231,7 @@ void keepIndependentZeros(const ShiftedInverse& inverse, std::vector<Complex>& v
   }
 }
 
-/// Where a mode is to be looked for: a real value of a singular mass at the massless dof that
+/// Where a mode is to be sought: a real value of a singular mass at the massless dof that
 /// relaxes fastest, at -k/c, of which the vector may have no digit; others where they move most.
 std::string placeOf(const ScaledPencil& pencil, Complex s, const ComplexVector& phi,
                     const DofNamer& name) {

@@ -24,9 +24,6 @@ using CrsMatrix = Tpetra::CrsMatrix<double, LocalOrdinal, GlobalOrdinal, Node>;
 using MultiVector = Tpetra::MultiVector<double, LocalOrdinal, GlobalOrdinal, Node>;
 using Vector = Tpetra::Vector<double, LocalOrdinal, GlobalOrdinal, Node>;
 
-/// Rows stored on this rank (13.2: getNodeNumElements; 14 and later: getLocalNumElements).
-inline std::size_t localSize(const Map& map) { return map.getNodeNumElements(); }
-
 /// Host access to a multivector; the view must be gone before anybody else touches the data.
 inline auto readHost(const MultiVector& x) { return x.getLocalViewHost(Tpetra::Access::ReadOnly); }
 inline auto overwriteHost(MultiVector& x) {

@@ -20,7 +20,7 @@ struct Channel {
 /// A batch of `size()` points with `width()` coordinates each, all obeying one law.
 ///
 /// All arrays are point-major: coordinate c of point p stands at p*width()+c; tangents at
-/// (p*width()+row)*width()+column. `active` lists the points to look at (0-based, increasing); the
+/// (p*width()+row)*width()+column. `active` lists the points to evaluate (0-based, increasing); the
 /// others are left untouched in the outputs. Virtual calls happen once per batch, never per point.
 /// Implementations allocate nothing in evaluate*().
 class PointLaw {
@@ -39,7 +39,7 @@ class PointLaw {
                                    double* dfdv) const = 0;
 
   /// Distance a point can still move before its force may exceed the law's negligible tail [m], per
-  /// point; <= 0 means it must be looked at now; for the points given, the others are left
+  /// point; <= 0 means it must be evaluated now; for the points given, the others are left
   /// untouched. Used to evaluate only points that can act before the next look.
   virtual void clearanceLeft(const std::vector<int>& points, const double* d,
                              double* gap) const = 0;

@@ -74,7 +74,7 @@ class StatefulPointLaw : public PointLaw {
   virtual void recordState(double t, const double* d, const double* v, const double* x,
                            double* out) const = 0;
 
-  // What set-up code sees, which knows no states: the law in its initial state at (d, v). Tangents
+  // For set-up code, which has no states: the law in its initial state at (d, v). Tangents
   // are those of motion too fast for the state to follow.
   void evaluate(double t, const std::vector<int>& active, const double* d, const double* v,
                 double* f) const final;
@@ -118,7 +118,7 @@ inline int stateSize(const PointLaw& law) {
   return with != nullptr ? law.size() * with->states() : 0;
 }
 
-/// PointLaw::record() in the states x, which a law without does not look at.
+/// PointLaw::record() in the states x, which a law without does not read.
 inline void record(const PointLaw& law, double t, const double* d, const double* v, const double* x,
                    double* out) {
   if (const auto* with = stateful(law))

@@ -43,7 +43,7 @@ class Reader {
     for (int i = 0; i < static_cast<int>(m.dofs.size()); ++i)
       positions_[m.dofs[static_cast<std::size_t>(i)]] = i;
     const auto mass = squareTerms("mass");
-    if (mass.size() != 1 || mass.front().law != "1")
+    if (mass.size() != 1 || !model::ScalarLaw::isOne(mass.front().law))
       fail("mass", "must be one matrix without a law");
     m.mass = mass.front().matrix;
     for (const auto& term : squareTerms("stiffness"))

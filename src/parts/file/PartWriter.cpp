@@ -198,7 +198,8 @@ class Hdf5Writer {
   void load(const model::LoadTerm& term) {
     const std::string path =
         "/loads/" + plain(term.name) +
-        (lawName(m_, term.law) == "1" ? "" : " times " + plain(lawName(m_, term.law)));
+        (model::ScalarLaw::isOne(lawName(m_, term.law)) ? ""
+                                                        : " times " + plain(lawName(m_, term.law)));
     column(path, term.vector, "N, N m", "Load \"" + term.name + "\"");
     file_.attribute(path, "law", lawName(m_, term.law));
     file_.attribute(path, "name", term.name);

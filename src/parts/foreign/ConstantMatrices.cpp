@@ -16,11 +16,11 @@ Sparse sumOf(const PartContent& content, const Terms& terms, const std::string& 
   const auto& m = content.part.model;
   Sparse sum(m.size(), m.size());
   for (const auto& term : terms) {
-    const auto& law = m.laws[static_cast<std::size_t>(term.law)].name;
-    if (law != "1")
+    const auto& law = m.laws[static_cast<std::size_t>(term.law)];
+    if (!law.isOne())
       throw ModelError("Part " + inQuotes(content.part.name) + " cannot be written as " + format +
                        ": its matrix " + inQuotes(term.name) + " varies in time with the law " +
-                       inQuotes(law) +
+                       inQuotes(law.name) +
                        ", and the file holds constant matrices. Write HDF5 or "
                        "Matrix Market instead.");
     sum += Sparse(term.matrix);

@@ -138,11 +138,11 @@ class DmigWriter {
     const auto& m = content_.part.model;
     Vector sum = Vector::Zero(m.size());
     for (const auto& load : m.loads) {
-      const auto& law = m.laws[static_cast<std::size_t>(load.law)].name;
-      if (law != "1")
+      const auto& law = m.laws[static_cast<std::size_t>(load.law)];
+      if (!law.isOne())
         throw ModelError("Part " + inQuotes(content_.part.name) +
                          " cannot be written as Nastran DMIG: its load " + inQuotes(load.name) +
-                         " varies in time with the law " + inQuotes(law) +
+                         " varies in time with the law " + inQuotes(law.name) +
                          ", and the file holds constant loads. Write HDF5 or Matrix Market "
                          "instead.");
       sum += load.vector;

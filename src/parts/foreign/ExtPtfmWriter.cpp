@@ -73,7 +73,7 @@ class ExtPtfmWriter {
   std::pair<double, long> samples() const {
     const auto& m = content_.part.model;
     const bool constant = std::all_of(m.loads.begin(), m.loads.end(), [&](const auto& load) {
-      return m.laws[static_cast<std::size_t>(load.law)].name == "1";
+      return m.laws[static_cast<std::size_t>(load.law)].isOne();
     });
     if (constant) return {1.0, 2};
     if (!(times_.step > 0.0) || !(times_.end > times_.begin))

@@ -31,7 +31,7 @@ Basis subspaceBasis(const PartView& part, const Matrix& X, int count, const std:
   Basis basis = fixedInterfaceBasis(part, vectors);
   const int wanted = std::min(count, sizeOf(part.partition().interior));
   if (basis.modes() < wanted)
-    basis.remarks.push_back("wanted " + std::to_string(wanted) + " modes, but the " +
+    basis.remarks.push_back("requested " + std::to_string(wanted) + " modes, but the " +
                             std::to_string(X.cols()) + " vectors given span " +
                             std::to_string(basis.modes()));
   return basis;

@@ -34,7 +34,7 @@ class TreeFactor {
   TreeFactor(std::shared_ptr<const SubstructureTree> tree, const Sparse& K, const Sparse& M,
              double shift, double step);
 
-  /// K + shift M is positive definite to working precision; nothing else may be asked otherwise.
+  /// K + shift M is positive definite to working precision; nothing else may be called otherwise.
   bool definite() const { return definite_; }
   double shift() const { return shift_; }
   const SubstructureTree& tree() const { return *tree_; }

@@ -124,7 +124,7 @@ const Sparse& PartView::stiffness() const {
     const model::MatrixTerm* only = nullptr;
     int constant = 0;
     for (const auto& term : model().stiffness)
-      if (model().laws[at(term.law)].name == "1") only = &term, ++constant;
+      if (model().laws[at(term.law)].isOne()) only = &term, ++constant;
     if (constant == 1) return only->matrix;
     return constantStiffness(model());
   });

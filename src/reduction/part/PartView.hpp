@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a reduction method asks of a part: how its dofs are sorted, its stiffness, the blocks of
+/// What a reduction method needs of a part: how its dofs are sorted, its stiffness, the blocks of
 /// its interior and their factors, its constraint modes.
 #pragma once
 

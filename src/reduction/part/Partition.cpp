@@ -131,7 +131,7 @@ Partition partition(const model::SecondOrderModel& model, const Sparse& K,
 Sparse constantStiffness(const model::SecondOrderModel& model) {
   Sparse K(model.size(), model.size());
   for (const auto& term : model.stiffness)
-    if (model.laws[at(term.law)].name == "1") K += term.matrix;
+    if (model.laws[at(term.law)].isOne()) K += term.matrix;
   return K;
 }
 

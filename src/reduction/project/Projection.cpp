@@ -173,7 +173,7 @@ void tidyStiffness(Sparse& k, bool symmetric, Eigen::Index boundary, const Vecto
 std::vector<model::MatrixTerm> stiffnessTerms(const model::SecondOrderModel& model) {
   std::vector<model::MatrixTerm> terms, varying;
   for (const auto& term : model.stiffness) {
-    if (model.laws[at(term.law)].name != "1") {
+    if (!model.laws[at(term.law)].isOne()) {
       varying.push_back(term);
     } else if (terms.empty()) {
       terms.push_back(term);
@@ -213,7 +213,7 @@ ProjectedMatrices projectMatrices(const PartView& part, const Basis& basis) {
   out.constantStiffness = Sparse(Phi.cols(), Phi.cols());
   for (const auto& term : stiffnessTerms(part.model())) {
     Sparse reduced = project(term.matrix, Phi);
-    const bool constant = laws[at(term.law)].name == "1";
+    const bool constant = laws[at(term.law)].isOne();
     if (basis.forces() > 0 && masslessFlexibility)
       reduced = withExactInterfaces(reduced, basis, constant);
     if (constant) {

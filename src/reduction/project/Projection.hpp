@@ -32,7 +32,7 @@ Sparse project(const Sparse& A, const Sparse& Phi);
 
 /// All matrices of `part`. For an orthonormal basis whose m_DD is I and whose sym(k_DD) is diagonal
 /// to 1e-10, these and the block k_DC (and k_CD where K is symmetric) are set to what they are in
-/// theory; otherwise they are left as projected and the defects tell. Entries of the constant
+/// theory; otherwise they are left as projected and the defects show it. Entries of the constant
 /// stiffness below 1e-14 of |phi_i|' |K| |phi_j| are rounding and left out. Mass and damping are
 /// projected on basis.inertial where the basis has it. A damping matrix that is a combination a M +
 /// b K of the part (Rayleigh damping) becomes a m + b k.

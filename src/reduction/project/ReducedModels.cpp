@@ -25,8 +25,9 @@ bool same(const model::SharedSparse& a, const model::SharedSparse& b) {
                       sizeof(double) * static_cast<std::size_t>(a.nonZeros())) == 0);
 }
 
-std::string nameOfReaction(const model::MatrixTerm& term) {
-  return term.law == 0 ? "reference state" : "reference state: " + term.name;
+std::string nameOfReaction(const model::SecondOrderModel& model, const model::MatrixTerm& term) {
+  const bool constant = model.laws[at(term.law)].isOne();
+  return constant ? "reference state" : "reference state: " + term.name;
 }
 
 }  // namespace
@@ -82,7 +83,8 @@ Vector ReducedModels::projected(const Vector& load) {
 const std::vector<ReducedModels::Reaction>& ReducedModels::reactions() {
   if (reactions_.empty())
     for (const auto& term : stiffnessTerms(like_.model))
-      reactions_.push_back({nameOfReaction(term), transposedBasis().times(-term.matrix), term.law});
+      reactions_.push_back(
+          {nameOfReaction(like_.model, term), transposedBasis().times(-term.matrix), term.law});
   return reactions_;
 }
 
@@ -98,7 +100,7 @@ void ReducedModels::addLoads(const model::Substructure& part, const Vector& offs
   };
   if (isLargeAndFull(core_->basis.vectors)) {
     for (const auto& term : stiffnessTerms(like_.model))
-      add(nameOfReaction(term), projected(-(term.matrix * offset)), term.law);
+      add(nameOfReaction(like_.model, term), projected(-(term.matrix * offset)), term.law);
     return;
   }
   for (const auto& reaction : reactions()) add(reaction.name, reaction.force(offset), reaction.law);

@@ -35,7 +35,7 @@ void classify(const Sparse& K, InteriorVectors& result) {
     mode.kind = mode.rigid ? "rigid-body" : "free-interface";
     mode.why = mode.rigid           ? "rigid-body motion"
                : mode.shown() < 0.0 ? "requested; the free part is buckled"
-                                    : "asked for";
+                                    : "as requested";
   }
 }
 

@@ -18,7 +18,7 @@ struct ModalVector {
   Vector shape;           ///< dofs of the group, mass-normalised
   double residual = 0;    ///< relative, of the equation that defines it, recomputed
   std::string kind;
-  std::string why = "asked for";
+  std::string why = "as requested";
   std::string name = {};  ///< "vector k" when empty
   bool floating = false;  ///< moves without elastic energy: omega^2 is zero but for rounding
   bool rigid = false;     ///< floating, and no skew stiffness acts on it

@@ -14,22 +14,22 @@ namespace tooljoint::response {
 
 deck::ListSpec campbellParameters() {
   deck::ListSpec list("Campbell",
-                      "Damped modes against the rotary speed, followed by their shapes, and the "
+                      "Damped modes against the rotary speed, tracked by their shapes, and the "
                       "critical speeds: what `tooljoint campbell` computes.");
   list.real("Lowest Speed", "rad/s", 0.0, deck::Range::nonNegative(), "First rotary speed.")
       .real("Highest Speed", "rad/s", deck::Required{}, deck::Range::positive(),
             "Last rotary speed.")
       .integer("Points", 41, deck::Range::atLeast(2), "Speeds, evenly spaced.")
       .integer("Modes", 12, deck::Range::atLeast(1),
-               "Vibrating modes followed at every speed: the lowest ones, or those nearest "
+               "Vibrating modes tracked at every speed: the lowest ones, or those nearest "
                "Target Frequency.")
       .real("Target Frequency", "Hz", deck::Optional{}, deck::Range::positive(),
-            "The modes nearest this frequency are followed, not the lowest ones.")
+            "The modes nearest this frequency are tracked, not the lowest ones.")
       .expert()
       .real("Lowest Frequency", "Hz", 0.0, deck::Range::nonNegative(),
             "Lower end of a window of frequencies; with Highest Frequency.")
       .real("Highest Frequency", "Hz", deck::Optional{}, deck::Range::positive(),
-            "Upper end of a window: all vibrating modes in it are followed, whatever Modes says, "
+            "Upper end of a window: all vibrating modes in it are tracked, whatever Modes says, "
             "but those whose resonance is wider than the window.")
       .real("Shape Speed", "rad/s", deck::Optional{}, deck::Range::nonNegative(),
             "The nearest speed of the diagram has the shapes of its modes written, beside those "

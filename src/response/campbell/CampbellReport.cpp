@@ -74,7 +74,7 @@ Columns checkTable(const CampbellDiagram& diagram, bool estimated) {
   const auto& rows = diagram.checks;
   Columns table{{
       {"speed", "rad/s", "Rotary speed", collect(rows, [](const auto& r) { return r.speed; })},
-      {"mode", "1", "Number of the mode, 0 for one that is not followed",
+      {"mode", "1", "Number of the mode, 0 for one that is not tracked",
        collect(rows, [](const auto& r) { return r.mode; })},
       {"full", "Hz", "Frequency of the full model",
        collect(rows, [](const auto& r) { return r.full.imag() / twoPi; })},

@@ -16,9 +16,9 @@ namespace {
 constexpr double noVibration = 1e-6;
 /// Of |s|: what grows more slowly grows by rounding.
 constexpr double noGrowth = 1e-8;
-/// Modes looked at beyond those followed: the next ones may come below them.
+/// Modes computed beyond those tracked: the next ones may come below them.
 constexpr int beyond = 8;
-/// Of the width of a window, looked at on either side of it.
+/// Of the width of a window, searched on either side of it.
 constexpr double margin = 0.25;
 /// Of the width, the largest |Re s| of a mode in the window.
 constexpr double mostDecay = 0.5;

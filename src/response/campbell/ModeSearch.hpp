@@ -44,7 +44,7 @@ class ModeSearch {
 
  private:
   bool nearest() const { return settings_.target.has_value(); }
-  /// Where modes are looked for; none for the lowest ones.
+  /// Where modes are sought; none for the lowest ones.
   std::optional<linalg::DampedTarget> target(int count) const;
   linalg::QuadraticModes solve(const RotatingCase& rotating, double speed, int count) const;
   void markWindow(VibratingModes& modes) const;

@@ -71,7 +71,7 @@ ModeTracker::Partners ModeTracker::match(const VibratingModes& candidates) const
     shapes.col(static_cast<Eigen::Index>(i)) = at_.now[i].shape;
   }
   const Matrix mac = estimate::modalAssurance(mass_, shapes, candidates.shapes);
-  // single modes first: of close values the shapes tell which is which
+  // single modes first: of close values the shapes show which is which
   std::vector<int> modesLeft, candidatesLeft = range(candidates.values.size());
   for (int i = 0; i < static_cast<int>(values.size()); ++i) {
     Eigen::Index j = 0;

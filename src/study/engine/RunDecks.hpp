@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The decks of many runs of one case: each read and checked, with faults told where the override
+/// The decks of many runs of one case: each read and checked, with faults given where the override
 /// stands.
 #pragma once
 

@@ -192,9 +192,9 @@ class Planner {
       }
       if (run.scene->reduces() != run.plan.reduced)
         fault(source, run.plan.reduced
-                          ? "asks for the reduced model, but its deck has no Reduction list. Add "
+                          ? "runs the reduced model, but its deck has no Reduction list. Add "
                             "one to the deck or with Set."
-                          : "asks for the full model, but puts a Reduction list back with Set.");
+                          : "runs the full model, but puts a Reduction list back with Set.");
       if (run.scene->nodes() != reference.nodes())
         fault(source, "has " + std::to_string(run.scene->nodes()) + " nodes (" + run.plan.label +
                           "), the reference " + std::to_string(reference.nodes()) +

@@ -15,7 +15,7 @@
 namespace tooljoint::study {
 namespace {
 
-/// CPU time of the reference and its companions from which the way to a cheaper one is told [s].
+/// CPU time of the reference and its companions from which the way to a cheaper one is printed [s].
 constexpr double longReference = 60.0;
 constexpr int kStoreFormat = 4;  ///< raised when the meaning of a stored row changes
 

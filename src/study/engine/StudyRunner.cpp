@@ -20,7 +20,7 @@ namespace tooljoint::study {
 
 namespace {
 
-/// A trial of this CPU time tells what a motion will take [s]; a shorter one is repeated longer.
+/// A trial of this CPU time shows what a motion will take [s]; a shorter one is repeated longer.
 constexpr double enoughCpu = 0.05;
 constexpr double trialGrowth = 4.0;
 
@@ -166,7 +166,8 @@ Execution integrate(const cases::Case& scene, const cases::Measures& measures,
     const Stopwatch watch;
     long looks = 0;
     hooks.stop = [&] {
-      // the clock costs as much as a few per cent of a short step; other groups of ranks may ask
+      // the clock costs as much as a few per cent of a short step; other groups of ranks may read
+      // it
       if (++looks % 64 == 0) {
         parallel::progress();
         late = options.timeLimit && watch.cpu() > *options.timeLimit;

@@ -29,7 +29,7 @@ struct PreparedModel {
   long modes = 0;
   double setupCpu = 0.0, setupWall = 0.0;  ///< reduction and coupling
   ModeErrors modeErrors;                   ///< what comparing costs is in no time
-  std::string notCompared;  ///< why there are no `modeErrors` although they were asked for
+  std::string notCompared;  ///< why there are no `modeErrors` although they were wanted
 
   const model::SecondOrderModel& model() const { return reduced ? reduction.model() : full.model; }
 };
@@ -51,7 +51,7 @@ struct Execution {
   double setupCpu = 0.0, setupWall = 0.0;  ///< of the model in kernel form
   long missedNodes = 0;
   double maxPenetration = 0.0;
-  std::optional<double> estimatedVibration;  ///< where Reduction/Error Estimate asks for that of
+  std::optional<double> estimatedVibration;  ///< where Reduction/Error Estimate wants that of
                                              ///< the transient; its time is not in `cpu` and `wall`
 };
 

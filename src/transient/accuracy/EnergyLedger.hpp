@@ -48,7 +48,7 @@ struct EnergyAccount {
 class EnergyLedger {
  public:
   /// Every `stride`-th step is booked (explicit steps are far shorter than what the sums need), and
-  /// every one that is shorter than others: what asks for it is fast.
+  /// every one that is shorter than others: what needs it is fast.
   void start(CompiledModel& model, const State& state, int stride);
   /// Call after every step. Allocates nothing.
   void book(CompiledModel& model, const State& to);

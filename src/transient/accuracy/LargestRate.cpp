@@ -12,7 +12,7 @@ namespace {
 
 /// Arnoldi steps: the norm of a string of 1e5 dofs is then known within 1 %.
 constexpr int arnoldiSteps = 60;
-/// Times at which laws are looked at for their largest size.
+/// Times at which laws are evaluated for their largest size.
 constexpr int lawSamples = 1000;
 /// How deep a wall is met [m]: laws that grow with depth have no stiffness of their own.
 constexpr double depth = 1e-3;
@@ -46,7 +46,7 @@ double largestRoot(double g, double k, double c) {
 LargestRate::Rates LargestRate::operator()(const State& state, double end) {
   const auto laws = largestLaws(state.t, end);
   model_.setTime(state.t);
-  evaluatePoints(state);
+  evaluatePoints(state, Which::All);
   const auto sum = [&](const MatrixSum& matrices, std::vector<double> Tangents::*points) {
     return [this, &matrices, &laws, points](const Vector& x, Vector& y) {
       y.setZero();
@@ -57,15 +57,24 @@ LargestRate::Rates LargestRate::operator()(const State& state, double end) {
   };
   const double k = norm(sum(model_.stiffness(), &Tangents::position));
   const double g = norm(sum(model_.damping(), &Tangents::velocity));
-  const double contact = norm([this](const Vector& x, Vector& y) {
-    y.setZero();
-    subtractPoints(&Tangents::position, x, y);
-  });
-  const double c = norm([this](const Vector& x, Vector& y) {
-    y.setZero();
-    subtractPoints(&Tangents::state, x, y);
-  });
+  const double contact = normOfPoints(&Tangents::position), c = normOfPoints(&Tangents::state);
   return {largestRoot(g, k, c) + model_.cut().largest(ofStates_), std::sqrt(contact)};
+}
+
+double LargestRate::ofDampingLaws(const State& state) {
+  if (std::all_of(model_.points().begin(), model_.points().end(),
+                  [](const PointBatch& batch) { return batch.law().hasWalls(); }))
+    return 0.0;
+  model_.setTime(state.t);
+  evaluatePoints(state, Which::WithoutWalls);
+  return normOfPoints(&Tangents::velocity);
+}
+
+double LargestRate::normOfPoints(std::vector<double> Tangents::*points) const {
+  return norm([this, points](const Vector& x, Vector& y) {
+    y.setZero();
+    subtractPoints(points, x, y);
+  });
 }
 
 /// The value of each law where it is largest in size.
@@ -82,7 +91,7 @@ std::vector<double> LargestRate::largestLaws(double begin, double end) const {
   return largest;
 }
 
-void LargestRate::evaluatePoints(const State& state) {
+void LargestRate::evaluatePoints(const State& state, Which which) {
   model_.bindStates(state.x.data());
   tangents_.clear();
   ofStates_ = 0;
@@ -91,6 +100,7 @@ void LargestRate::evaluatePoints(const State& state) {
     const std::size_t entries = at(batch.points() * w) * at(w);
     const std::vector<double> none(entries, 0.0);
     tangents_.push_back({none, none, none});
+    if (which == Which::WithoutWalls && batch.law().hasWalls()) continue;
     batch.gatherAll(state.q.data(), state.v.data());
     const Vector start = Eigen::Map<const Vector>(batch.d(), batch.points() * w);
     Vector d = start;
@@ -146,7 +156,7 @@ void LargestRate::addStates(const PointStates& states, int point) {
   ofStates_ = std::max(ofStates_, Matrix(tangents.gx).norm());
 }
 
-/// Friction grows with the force, which a wall met on the way does not tell: of df/dv the part
+/// Friction grows with the force, which a wall met on the way does not show: of df/dv the part
 /// along the normal n = (df/dd)'f / |(df/dd)'f| is left.
 void LargestRate::keepNormalDamping() {
   Vector n = position_.transpose() * force_;

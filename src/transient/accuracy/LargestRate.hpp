@@ -34,6 +34,9 @@ class LargestRate {
   /// For a motion that starts at `state` and ends at the time `end`. Where points are evaluated,
   /// what a batch holds of its last evaluation is lost.
   Rates operator()(const State& state, double end);
+  /// |M^-1 R' df/dv R|_M of the points that meet no wall, such as a bit, as they are at `state`
+  /// [1/s]; 0 without such points. The same is lost.
+  double ofDampingLaws(const State& state);
 
  private:
   /// Tangents of all points of a batch, width x width each, row-major.
@@ -42,7 +45,8 @@ class LargestRate {
     std::vector<double> state;  ///< df/dx dg/dd
   };
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  void evaluatePoints(const State& state);
+  enum class Which { All, WithoutWalls };
+  void evaluatePoints(const State& state, Which which);
   bool goToWall(const PointBatch& batch, int point, int coordinate, double way, Vector& d);
   void evaluate(PointBatch& batch, int point, double t, const Vector& d);
   void addStates(const PointStates& states, int point);
@@ -50,6 +54,7 @@ class LargestRate {
   void takeLarger(int point, Tangents& tangents) const;
   void subtractPoints(std::vector<double> Tangents::*which, const Vector& x, Vector& y) const;
   std::vector<double> largestLaws(double begin, double end) const;
+  double normOfPoints(std::vector<double> Tangents::*points) const;
   template <class Product>
   double norm(const Product& times) const;
 

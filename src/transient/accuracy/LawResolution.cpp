@@ -10,7 +10,7 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Steps of a run at which laws are looked at: the first ones, as many spread over the rest, and
+/// Steps of a run at which laws are evaluated: the first ones, as many spread over the rest, and
 /// those with a corner.
 constexpr long lawSteps = 10000;
 

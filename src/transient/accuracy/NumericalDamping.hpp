@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a scheme that damps vibration says of it: DampingSamples asks integrators with this
+/// What a scheme that damps vibration says of it: DampingSamples calls integrators with this
 /// interface.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which step an error asks for. Steps are the longest one cut into halves `level` times; an error
+/// Which step an error needs. Steps are the longest one cut into halves `level` times; an error
 /// of third order falls to an eighth per halving. Longer steps come only when they will last: each
 /// change of the step costs a factorisation.
 #pragma once

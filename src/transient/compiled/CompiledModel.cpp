@@ -71,7 +71,7 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms,
   }
   for (const auto& term : terms_) samples.push_back(&term.values);
   product_ = linalg::BlockProduct(pattern, samples, &like);
-  constant_ = terms_.size() == 1 && laws[at(terms_[0].law)].name == "1";
+  constant_ = terms_.size() == 1 && laws[at(terms_[0].law)].isOne();
   if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
   last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
 }

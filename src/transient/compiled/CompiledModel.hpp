@@ -41,7 +41,7 @@ class MatrixSum {
             const linalg::BlockPattern& pattern, const linalg::BlockProduct& like);
   bool empty() const { return terms_.empty(); }
   /// True if a law has another value than last time. The sum is formed when the laws stand still or
-  /// somebody asks for it; while they change, products go term by term.
+  /// it is needed; while they change, products go term by term.
   bool update(const std::vector<double>& lawValues);
   /// What update() and products have left, to come back to: the sum is formed anew where another
   /// has been.
@@ -190,7 +190,6 @@ class CompiledModel {
   /// All blocks in runs whose vectors stay in a near cache: what is done run by run reads long
   /// vectors once.
   const std::vector<linalg::BlockRange>& runs() const { return runs_; }
-  bool hasDamping() const { return !damping_.empty(); }
 
   /// Values of the laws at time().
   const std::vector<double>& lawValues() const { return lawValues_; }

@@ -79,7 +79,7 @@ auto PointBatch::measure(const double* q) {
 void PointBatch::look(double t, double h, const double* q) {
   for (int p : active_) isActive_[at(p)] = 0;
   clearances_.look(t, h, q, measure(q), [&](int p, bool acts) { isActive_[at(p)] = acts ? 1 : 0; });
-  // What stands in a factored matrix has to be looked at as long as it stands there.
+  // What stands in a factored matrix has to be evaluated as long as it stands there.
   for (int p : frozen_.points()) isActive_[at(p)] = 1;
   listActive();
 }

@@ -35,10 +35,10 @@ class PointBatch {
   /// What evaluates a law with states; null for a law without.
   PointStates* states() const { return states_.get(); }
 
-  /// Measure the clearances at q (time t) and choose the points to look at in a step of length h
+  /// Measure the clearances at q (time t) and choose the points to evaluate in a step of length h
   /// from there.
   void look(double t, double h, const double* q);
-  /// Measure the clearances at q and add points that have touched without being looked at; true if
+  /// Measure the clearances at q and add points that have touched without being evaluated; true if
   /// there were any. When the next look() is at the time t given here, it is at this q and the
   /// clearances are not measured again.
   bool addMissed(const double* q, double t = std::numeric_limits<double>::quiet_NaN());
@@ -76,7 +76,7 @@ class PointBatch {
   /// Where the next evaluateHere() evaluates, offsets included.
   double* position() { return d_.data(); }
   double* velocity() { return v_.data(); }
-  /// Forces, with tangents if asked, at position() and velocity().
+  /// Forces, with tangents if wanted, at position() and velocity().
   void evaluateHere(double t, const std::vector<int>& points, bool tangent);
   void evaluateHere(double t, int point, bool tangent);
   /// df/dd and df/dv of the last evaluation with tangents, width() x width() per point, row-major.
@@ -114,7 +114,7 @@ class PointBatch {
   void addTangentTimes(const double* x, double* y) const { frozen_.addTimes(rows_, x, y); }
   double frozenTimes(int row, const double* x) const { return frozen_.times(rows_, row, x); }
 
-  // One point or one row (point * width() + coordinate) at a time, for what looks at single points.
+  // One point or one row (point * width() + coordinate) at a time, for the work on single points.
   /// R_row x and y += factor R_row'.
   double rowTimesVector(int row, const double* x) const { return rows_.times(row, x); }
   void addRow(int row, double factor, double* y) const { rows_.add(row, factor, y); }
@@ -137,7 +137,7 @@ class PointBatch {
   /// All points evaluated here, and those that were active since the last bookPowers().
   const std::vector<int>& everyPoint() const { return all_; }
   const std::vector<int>& acted();
-  /// What is booked up to now is not looked at again.
+  /// What is booked up to now is not changed again.
   void bookPowers();
   /// Position, velocity of all points for recording (all of them are gathered).
   void gatherAll(const double* q, const double* v);

@@ -2,7 +2,7 @@
 /// \file
 /// Clearances of the points of a batch from step to step, and which points they let act.
 ///
-/// A point is looked at in a step when its clearance may close within the step at twice the rate
+/// A point is evaluated in a step when its clearance may close within the step at twice the rate
 /// last seen; after the step every other point is checked (by itself or by the bound of
 /// ContactBroadPhase), and one that has touched is added and the step corrected: none is ever
 /// missed.

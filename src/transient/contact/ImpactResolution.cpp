@@ -84,7 +84,7 @@ ImpactResolution::Bound ImpactResolution::bound(int b, int point, double t, doub
   return found;
 }
 
-/// v'M v: the mean over the run so far, or that of the step looked at where it is more.
+/// v'M v: the mean over the run so far, or that of the present step where it is more.
 double ImpactResolution::square() const {
   return std::max(current_, time_ > 0 ? squares_ / time_ : 0.0);
 }

@@ -100,9 +100,9 @@ class ImpactResolution {
   std::vector<Set> sets_;
   MassNorm norm_;
   double share_ = 0;               ///< mass of a coordinate on average [kg]
-  double squares_ = 0, time_ = 0;  ///< integral of v'M v over the time looked at [J s]
+  double squares_ = 0, time_ = 0;  ///< integral of v'M v over the time measured [J s]
   double unseen_ = 0;              ///< time since the last look
-  double current_ = 0;             ///< v'M v of the step looked at, once it is asked for
+  double current_ = 0;             ///< v'M v of the present step, once it is needed
   double reference_ = 0;           ///< <v^2> that a point is measured by [m2/s2]
   bool alone_ = false;             ///< it is seen by itself
   long kept_ = 0;                  ///< steps

@@ -9,7 +9,7 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Part of the depth behind a wall at which its damping is looked at again: what it sets in with.
+/// Part of the depth behind a wall at which its damping is evaluated again: what it sets in with.
 constexpr double onsetShare = 1.0 / 16.0;
 /// Of the way out of a wall, to find where it begins.
 constexpr int bisections = 24;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The wall that a point meets, as its law tells of it from outside. With J = df/dd at the point,
+/// The wall that a point meets, as found by evaluating its law. With J = df/dd at the point,
 /// the normal is n = J'f / |J'f|; behind the wall, n'f has the stiffness k = -n'J n and the damping
 /// c = -n' df/dv n. A point of mass 1/W = 1/(n' R M^-1 R' n) vibrates there with w = sqrt(k W).
 #pragma once

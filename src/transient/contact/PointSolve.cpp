@@ -15,7 +15,7 @@ constexpr double tiny = 1e-300;  // keeps zero out of denominators
 
 }  // namespace
 
-/// y - free - G phi(y); phi and, if asked, its derivative in y.
+/// y - free - G phi(y); phi and, if wanted, its derivative in y.
 PointSolve::Local PointSolve::defect(PointBatch& batch, double t, double c, const Local& y,
                                      Local& phi, LocalMatrix* slope) const {
   const Local position = d + y;

@@ -29,7 +29,7 @@ class StepFactor {
   /// Convergence was slow: factor anew before the next iteration.
   void want() { wanted_ = true; }
   bool isWanted() const { return wanted_; }
-  /// A step took this many relaxations: ask for a new factor once that would have paid.
+  /// A step took this many relaxations: want a new factor once that would have paid.
   void account(double relaxations);
   /// Relaxations beside those of account().
   void charge(double relaxations) { debt_ += relaxations; }

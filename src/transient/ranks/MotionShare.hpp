@@ -11,7 +11,7 @@
 
 namespace tooljoint::transient {
 
-/// The share of this rank; null where all ranks do the same, which a warning says if the deck asks
+/// The share of this rank; null where all ranks do the same, which a warning says if the deck wants
 /// for something else. Collective.
 std::unique_ptr<RankShare> shareOf(const model::SecondOrderModel& model,
                                    const TransientOptions& options, const Integrator& integrator);

@@ -4,10 +4,11 @@
 ///
 ///     M (a + ca delta) + cv C delta + K (q + delta) = F + R' f(q + delta, cv delta, t)
 ///
-/// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme asks for it, see
+/// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme wants it, see
 /// AlphaStep::setPhaseCorrection) is solved for delta = v / cv, first by relaxation of the point
-/// forces with the effective matrix S = ca M + cv C + K - R'PR factored once (PointRelaxation), and
-/// where that is slow by modified Newton with exact tangents (NewtonIteration).
+/// forces with the effective matrix S = ca M + cv C + K - R'PR factored once
+/// (ContactForceIteration), and where that is slow by modified Newton with exact tangents
+/// (NewtonIteration).
 #pragma once
 
 #include <cmath>
@@ -16,8 +17,8 @@
 
 #include "transient/Integrator.hpp"
 #include "transient/compiled/CompiledModel.hpp"
+#include "transient/implicit/ContactForceIteration.hpp"
 #include "transient/implicit/NewtonIteration.hpp"
-#include "transient/implicit/PointRelaxation.hpp"
 
 namespace tooljoint::transient {
 
@@ -60,7 +61,7 @@ class ImplicitStep {
   Strategies strategies_;
   StepEquations equations_;
   StepFactor factor_;
-  PointRelaxation relaxation_;
+  ContactForceIteration relaxation_;
   NewtonIteration newton_;
   State predicted_;  ///< to go back to
 };

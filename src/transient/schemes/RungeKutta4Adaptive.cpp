@@ -13,8 +13,13 @@
 /// Where a point meets or leaves a wall within the step, the force has a kink, and one step and two
 /// can agree on a rebound that both miss. Half a step is there at most 0.5 over the rate of the
 /// stiffest contact.
+///
+/// Where a law such as that of a bit is steep, a velocity within the tolerance leaves its force
+/// open: steps at the limit of stability would grow until the force swings about its value. Half a
+/// step is at most 2 over the rate at which laws damp, which is found anew every 100 steps.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "common/Error.hpp"
@@ -24,10 +29,13 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Errors of steps that add up to more than this part of the motion are told, of the steps of the
-/// first `judged` seconds, as long as equal steps are judged: without damping the error of the
+/// Errors of steps that add up to more than this part of the motion are printed, of the steps of
+/// the first `judged` seconds, as long as equal steps are judged: without damping the error of the
 /// motion is as large.
 constexpr double coarse = 0.05, judged = 3.0;
+
+/// Steps for which the rate of laws is good.
+constexpr int stepsOfARate = 100;
 
 deck::ListSpec rungeKutta4AdaptiveParameters() {
   return deck::ListSpec("RK4 adaptive", "Parameters of the adaptive Runge-Kutta integrator.")
@@ -78,6 +86,7 @@ class RungeKutta4Adaptive final : public Integrator {
     difference_ = state.q;
     const double impact = rhs_.largestRates(state, window.end).impact;
     longestAtWalls_ = impact > 0 ? 2.0 * rungeKuttaImpactLimit / impact : end_ - window.begin;
+    boundByLaws(state);
     rhs_.look(state.t, 0.0, state.q.data());
     rhs_.complete(state);
   }
@@ -86,6 +95,7 @@ class RungeKutta4Adaptive final : public Integrator {
     for (;;) {
       // A step ends where the run does, or a law has a corner, without a sliver before it.
       const double end = rhs_.model().nextCorner(from.t, end_), left = end - from.t;
+      step_ = std::min(step_, longestOfLaws_);
       const bool last = step_ >= left * (1 - 1e-9);
       const double h = last ? left : step_;
       const double error = tryStep(from, to, h);
@@ -93,6 +103,10 @@ class RungeKutta4Adaptive final : public Integrator {
       if (error <= tolerance_ && !missesImpact) {
         to.t = last ? end : from.t + h;
         rhs_.accept(to);
+        if (++sinceRate_ >= stepsOfARate) {
+          boundByLaws(to);
+          rhs_.complete(to);
+        }
         addUp(to, error);
         counters_.accept(h);
         if (error <= tolerance_ / 100 && !last) step_ *= growth_;
@@ -110,16 +124,26 @@ class RungeKutta4Adaptive final : public Integrator {
     restore(numbers);
   }
   void save(std::vector<double>& memory) const override {
-    memory.insert(memory.end(), {step_, longestAtWalls_, errors_, largest_});
+    memory.insert(memory.end(),
+                  {step_, longestAtWalls_, longestOfLaws_, sinceRate_, errors_, largest_});
   }
   void restore(const double*& memory) override {
     step_ = *memory++;
     longestAtWalls_ = *memory++;
+    longestOfLaws_ = *memory++;
+    sinceRate_ = *memory++;
     errors_ = *memory++;
     largest_ = *memory++;
   }
 
  private:
+  void boundByLaws(const State& state) {
+    const double rate = rhs_.rateOfLaws(state);
+    longestOfLaws_ =
+        rate > 0 ? 2.0 * rungeKuttaLawLimit / rate : std::numeric_limits<double>::infinity();
+    sinceRate_ = 0;
+  }
+
   /// Two half steps into `to`, their error against one whole step as result (not a number when the
   /// step blew up).
   double tryStep(const State& from, State& to, double h) {
@@ -192,6 +216,8 @@ class RungeKutta4Adaptive final : public Integrator {
   double largest_ = 0;      ///< way and change of velocity from the start in that norm
   State begin_;
   double longestAtWalls_ = 0;  ///< step in which a point meets or leaves a wall [s]
+  double longestOfLaws_ = 0;   ///< step by the rate of laws [s]
+  double sinceRate_ = 0;       ///< steps since it was found
   ExplicitRightHandSide rhs_;
   RungeKuttaStep stage_;
   State whole_, half_;

@@ -10,7 +10,7 @@
 namespace tooljoint::transient {
 namespace {
 
-/// The damping of the scheme is looked at in so many first steps, in which what the start excites
+/// The damping of the scheme is measured in so many first steps, in which what the start excites
 /// is lost, and then once in so many: a look costs some products with M.
 constexpr long firstSteps = 64, stride = 11;
 
@@ -36,7 +36,7 @@ void DampingSamples::look(const MotionNorm& norm, const State& from, const State
 }
 
 double DampingSamples::damped(const MotionNorm& norm, double span) const {
-  const double energy = 0.5 * norm.inertia() * vibrated_;  // integral over the time looked at
+  const double energy = 0.5 * norm.inertia() * vibrated_;  // integral over the time measured
   if (!(energy > 0)) return 0.0;
   return 1 - std::exp(-std::max(0.0, 0.25 * span * lost_ / energy));
 }

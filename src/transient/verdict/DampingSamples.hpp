@@ -7,8 +7,8 @@
 ///
 ///     d = T <e / h> / (4 <v'M v / 2>)
 ///
-/// v'M v from the speeds of the nodes. In the same steps it is asked whether contact rests on walls
-/// too stiff for them: vibration of such contact is held down by steps and halves alike.
+/// v'M v from the speeds of the nodes. In the same steps it is checked whether contact rests on
+/// walls too stiff for them: vibration of such contact is held down by steps and halves alike.
 #pragma once
 
 #include <vector>

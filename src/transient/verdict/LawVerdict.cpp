@@ -18,7 +18,7 @@ namespace {
 constexpr double unresolved = 0.01;
 /// And without a refusal: as much as an error of the motion that none passes.
 constexpr double lostLaw = 0.5;
-/// Pieces of a step that LawWatch looks at.
+/// Intervals of a step in which LawWatch evaluates laws.
 constexpr int pieces = 16;
 
 void say(const model::ScalarLaw& law, double missed, const std::string& steps,

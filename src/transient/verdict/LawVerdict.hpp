@@ -20,7 +20,7 @@ struct JudgedSpan {
 void judgeLaws(const model::SecondOrderModel& model, const Integrator& run, const JudgedSpan& span);
 
 /// The same of steps that choose their length by their error, which does not see what a law does
-/// between the times at which a step looks at it: each step is looked at while the run goes.
+/// between the times at which a step evaluates it: each step is measured while the run goes.
 class LawWatch {
  public:
   explicit LawWatch(const model::SecondOrderModel& model);

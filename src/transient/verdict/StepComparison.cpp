@@ -19,7 +19,7 @@ constexpr double rounding = 1e-6;
 /// Speeds of the second half below this part of those of all T are rest: what chatters on after a
 /// landing, or rings out, has no share in the motion.
 constexpr double rest = 0.01;
-/// Shorter steps cost more than they tell: contact that they do not resolve is warned of.
+/// Shorter steps cost more than they are worth: contact that they do not resolve is warned of.
 constexpr int mostParts = 32;
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A second look at the steps of a run: the first T seconds of its motion, from where it begins
+/// The steps of a run once more: the first T seconds of its motion, from where it begins
 /// (StepError.hpp), are integrated twice more, side by side, in the steps of the run and otherwise:
 ///
 ///     D^2 = sum |q - q'|^2 / sum |q' - q(0)|^2        over the steps of the run in T
@@ -45,7 +45,7 @@ class StepComparison {
   /// \param window  that of the run, with the length of its equal steps
   /// \param span    T [s]
   /// \param start   q, v and states where the compared motion begins
-  /// \param stop    true when the user has asked for an end
+  /// \param stop    true when the user wants an end
   StepComparison(CompiledModel& model, std::function<std::unique_ptr<Integrator>()> make,
                  const Window& window, double span, const State& start, std::function<bool()> stop);
   /// The other steps become a quarter as long; false where they are a 32nd of a step already.

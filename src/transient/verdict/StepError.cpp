@@ -27,7 +27,7 @@ constexpr double negligibleMotion = 1e-3;
 constexpr double quiet = 1e-6;
 /// Over longer times [s] contact parts any two motions.
 constexpr double longest = 3.0;
-/// Times T that a run lasts in which later motion is looked at for itself.
+/// Times T that a run lasts in which later motion is measured for itself.
 constexpr double longer = 1.2;
 /// Motion begins anew where it is so many times as large as before; it is compared from there when
 /// that is after this part of T, of which too little would be left.

@@ -98,7 +98,7 @@ struct Findings {
   bool isRight() const { return shorter && !isWide() && speedError() <= warning; }
   /// What the summary holds: 0 where a step error within the warning is not known to be all.
   double reported() const { return isUnknown() && !(stepError() > warning) ? 0.0 : stepError(); }
-  /// Whether neighbours have to be asked.
+  /// Whether neighbours have to be evaluated.
   bool isInDoubt() const { return shorter && !isLost() && (isTooLarge() || (late && !isRight())); }
 };
 

@@ -22,7 +22,7 @@ constexpr double frictionStep = 1e-4, weightStep = 100.0;
 constexpr double lockedUp = 1e4;
 /// Where the search begins when the deck's coefficient is a bound.
 constexpr double startingFriction = 0.2;
-/// Columns of the scaled Jacobian nearer to dependent than this are not told apart.
+/// Columns of the scaled Jacobian nearer to dependent than this are not separated.
 constexpr double dependent = 1e-4;
 /// A coefficient nearer than this to 0 or 1 stands at its bound.
 constexpr double nearBound = 1e-6;
@@ -162,7 +162,7 @@ struct Search : Eigen::DenseFunctor<double> {
   double scale_;
 };
 
-/// The unknowns that some measurement sees.
+/// The unknowns that some measurement depends on.
 std::vector<std::size_t> seen(const Model& model) {
   std::vector<std::size_t> all(model.unknowns().size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;

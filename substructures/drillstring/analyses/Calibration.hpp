@@ -36,8 +36,8 @@ struct Calibration {
 
 /// Levenberg-Marquardt from the values of the deck; confidence intervals of the linearised problem
 /// by Student's t with the scatter of the residuals, quantities at a bound held there. Coefficients
-/// of stretches that no measurement sees keep their values. DeckError: fewer measured values than
-/// unknowns, or values that do not tell the unknowns apart. ConvergenceError.
+/// of stretches that no measurement depends on keep their values. DeckError: fewer measured values
+/// than unknowns, or values that do not separate the unknowns. ConvergenceError.
 Calibration calibrate(const Scene& scene, const softstring::TorqueDragSettings& settings,
                       const std::vector<Measurement>& measured);
 
@@ -51,7 +51,7 @@ struct BroomRow {
 std::vector<BroomRow> broomstick(const Scene& scene,
                                  const softstring::TorqueDragSettings& settings);
 
-/// What the deck asks for.
+/// What the deck requests.
 struct CalibrationResults {
   std::optional<Calibration> fit;
   std::vector<BroomRow> broomstick;

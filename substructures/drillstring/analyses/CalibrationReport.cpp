@@ -37,7 +37,7 @@ void print(const Calibration& fit) {
                           one.atBound ? "at its bound" : "+- " + text(one.uncertainty), suffix,
                           text(one.deck)));
     if (one.atBound) bounds.push_back(one.name);
-    // measurements do not tell the static coefficient from the dynamic one
+    // measurements do not separate the static coefficient from the dynamic one
     if (!force)
       settings.push_back(fmt::format("--set \"{}={}\"", staticOf(one.parameter), text(one.value)));
     settings.push_back(fmt::format("--set \"{}={}{}\"", one.parameter, text(one.value), suffix));
@@ -57,7 +57,7 @@ void print(const Calibration& fit) {
                     "uncertainties in the deck say: values may be wrong, or the model lacks "
                     "something.",
                     fit.scatter));
-  log::info("in a deck, where measurements do not tell static from dynamic friction");
+  log::info("in a deck, where measurements do not separate static from dynamic friction");
   for (const auto& setting : settings) log::info("  " + setting);
 }
 

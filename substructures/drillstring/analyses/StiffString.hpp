@@ -63,7 +63,8 @@ class StiffString {
 
   /// The static state that slides as the operation says, with the `Dynamic` friction coefficient.
   /// Where the one near the string without friction is unstable, or there is none, the one that the
-  /// string slides to from a slight helix. An equilibrium that is not found is told in the result.
+  /// string slides to from a slight helix. An equilibrium that is not found is marked in the
+  /// result.
   StiffLoads under(const softstring::Operation& operation) const;
 
  private:

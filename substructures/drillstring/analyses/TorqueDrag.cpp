@@ -357,8 +357,7 @@ bool actsBetween(const loads::Loads& one, const Scene& scene) {
   const auto depths = scene.string.depths();
   const auto points = loads::pointLoads(one, depths, scene.rotary);
   if (std::any_of(points.begin(), points.end(), [&](const auto& load) {
-        return load.law.name == "1" && load.value != 0.0 && load.name != loads::nodalForce &&
-               load.node < static_cast<int>(depths.size());
+        return load.law.isOne() && load.value != 0.0 && load.node < static_cast<int>(depths.size());
       }))
     return true;
   for (std::size_t e = 0; e < scene.string.elements.size(); ++e) {
@@ -375,9 +374,11 @@ bool actsBetween(const loads::Loads& one, const Scene& scene) {
 void warnOfForces(const Scene& scene) {
   const std::string without =
       "has no part in torque and drag, which knows the weight of the string, the bit and the wall.";
-  if (scene.list().isSublist("Loads") && scene.list().sublist("Loads").isSublist("Forces"))
-    log::warn(scene.deck.error("Loads/Forces", without));
   for (const auto& load : scene.loads) {
+    if (!load->list().empty()) {
+      log::warn(scene.deck.error(load->list(), without));
+      continue;
+    }
     if (!actsBetween({load}, scene)) continue;
     const auto remarks = load->describe(scene.rotary);
     log::warn("The load \"" + (remarks.empty() ? "of a kind of its own" : remarks.front().load) +

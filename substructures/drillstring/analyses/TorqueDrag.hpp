@@ -39,7 +39,7 @@ struct TorqueDragProfile {
   TorqueDragRow row;
   softstring::Loads loads;
   std::vector<double> vonMises;             ///< [Pa]
-  std::vector<double> sinusoidal, helical;  ///< critical compressions [N]; NaN where not asked for
+  std::vector<double> sinusoidal, helical;  ///< critical compressions [N]; NaN where not requested
   std::optional<StiffLoads> stiff = std::nullopt;  ///< none: not computed at this depth
 };
 
@@ -83,7 +83,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
 Margin largestOver(double length, const std::vector<double>& depth,
                    const std::vector<double>& force);
 
-/// Every operation at every depth, the stiff string where the deck asks for it. Collective.
+/// Every operation at every depth, the stiff string where the deck says so. Collective.
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFolder& store);
 
 /// Prints the tables of the deepest bit and writes torque_drag.csv (a row for each depth and

@@ -59,7 +59,7 @@ std::string beside(double stiff, double soft) {
   return (text == "-0.0" || text == "+0.0" ? "0.0" : text) + " %";
 }
 
-/// Why the stiff string has no result, with what the soft one tells of it.
+/// Why the stiff string has no result, with what the soft one shows of it.
 std::string reason(const TorqueDragRow& row, const StiffLoads& stiff) {
   const auto buckled = [&](const Margin& margin, const char* limit) {
     return fmt::format("Its compression at {} is {:.1f} times the {} limit (soft string). {}",

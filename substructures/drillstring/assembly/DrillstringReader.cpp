@@ -49,7 +49,7 @@ std::optional<double> lengthOf(const ComponentLibrary& library, const std::strin
 }
 
 /// The assembly with as many of its first component as reach from the bit to the surface; without
-/// any where an analysis asks for a bit that is not as deep as the others are long.
+/// any where an analysis has a bit that is not as deep as the others are long.
 std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit, bool asked) {
   auto assembly = settings.assembly;
   std::vector<double> lengths;

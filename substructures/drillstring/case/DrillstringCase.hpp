@@ -38,7 +38,7 @@ class DrillstringCase : public cases::Case, public cases::NodeChoice {
   std::vector<std::string> remarks() const override;
   void summarise(io::Summary& summary) const override;
   cases::CaseOutline outline() const override;
-  /// A string that nothing holds along its axis may float: only the static state tells.
+  /// A string that nothing holds along its axis may float: only the static state shows it.
   void verify() const override;
   /// Path and static state; those of an earlier case when Substructures, Coupling, Reduction,
   /// Output and Transient without its Start Time alone differ: friction, drive and bit of the

@@ -33,7 +33,7 @@ class StringFigures {
   bool known() const { return samples_ > 0; }
   /// Sets the keys transient.figures.
   void summarise(io::Summary& summary) const;
-  /// What the figures of the bit tell of the motion and of its law.
+  /// What the figures of the bit say of the motion and of its law.
   std::vector<std::string> warnings() const;
   /// Lines of the log.
   std::string describe() const;

@@ -7,6 +7,7 @@
 
 #include "common/Constants.hpp"
 #include "common/Text.hpp"
+#include "deck/Defaults.hpp"
 #include "substructures/drillstring/scene/BottomHoleParameters.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
@@ -74,33 +75,42 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
   return items;
 }
 
-/// What `tooljoint torque-drag` and `tooljoint bha` would do for the lists that are there.
+/// What `tooljoint torque-drag` and `tooljoint bha` would do, by their lists or, where the deck
+/// could go without, by default.
 std::vector<std::string> analyses(const Scene& scene) {
   const auto counted = [](std::size_t count, const std::string& what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
   };
   std::vector<std::string> found;
-  if (scene.list().isSublist("Torque and Drag")) {
+  const auto read = [&](const deck::ListSpec& spec, bool possible, const auto& describe) {
+    const bool given = scene.list().isSublist(spec.name());
+    if (!given && !possible) return;
+    deck::withDefaults(
+        spec, given ? scene.list().sublist(spec.name()) : Teuchos::ParameterList(),
+        [&](const auto& list) { found.push_back(describe(list, given ? "" : " by default")); });
+  };
+  const bool pressed = scene.contact.has_value() && loads::acceleration(scene.loads).norm() > 0.0;
+  const bool rubs = pressed && scene.contact->friction;
+  read(softstring::torqueDragParameters(), rubs, [&](const auto& list, const std::string& how) {
     using softstring::StiffDepths;
-    const auto own = softstring::readTorqueDrag(scene.list().sublist("Torque and Drag"));
+    const auto own = softstring::readTorqueDrag(list);
     const auto depths =
         own.depths.empty() ? static_cast<std::size_t>(own.count) : own.depths.size();
-    found.push_back("  torque and drag: " + counted(depths, "depth") + ", " +
-                    counted(own.operations.size(), "operation") + ", the stiff string at " +
-                    (own.stiff == StiffDepths::None      ? "none of them"
-                     : own.stiff == StiffDepths::Deepest ? "the deepest"
-                                                         : "all of them") +
-                    (own.measured ? ", calibration to " + *own.measured : "") +
-                    " (tooljoint torque-drag)");
-  }
-  if (scene.list().isSublist("Bottom-Hole Assembly")) {
-    const auto own = readBottomHole(scene.list().sublist("Bottom-Hole Assembly"));
+    return "  torque and drag" + how + ": " + counted(depths, "depth") + ", " +
+           counted(own.operations.size(), "operation") + ", the stiff string at " +
+           (own.stiff == StiffDepths::None      ? "none of them"
+            : own.stiff == StiffDepths::Deepest ? "the deepest"
+                                                : "all of them") +
+           (own.measured ? ", calibration to " + *own.measured : "") + " (tooljoint torque-drag)";
+  });
+  read(bottomHoleParameters(), pressed, [&](const auto& list, const std::string& how) {
+    const auto own = readBottomHole(list);
     const auto atLeastOne = [](std::size_t count) { return count == 0 ? std::size_t{1} : count; };
-    found.push_back(
-        "  bottom-hole assembly: " + counted(atLeastOne(own.inclinations.size()), "hole") + ", " +
-        counted(atLeastOne(own.weights.size()), "weight") + " on bit, " +
-        counted(atLeastOne(own.toolFaces.size()), "tool face") + " (tooljoint bha)");
-  }
+    return "  bottom-hole assembly" + how + ": " +
+           counted(atLeastOne(own.inclinations.size()), "hole") + ", " +
+           counted(atLeastOne(own.weights.size()), "weight") + " on bit, " +
+           counted(atLeastOne(own.toolFaces.size()), "tool face") + " (tooljoint bha)";
+  });
   return found;
 }
 

@@ -17,15 +17,15 @@
 
 namespace tooljoint::drillstring {
 
-/// What a person asks first of a motion.
+/// The main figures of a motion.
 struct MotionFigures {
   long samples = 0;
   double minBitSpeed = 0.0;  ///< Omega + dtheta_z/dt of the last node [rad/s]
   double maxBitSpeed = 0.0;
   double sumBitSpeed = 0.0;
   double maxPenetration = 0.0;  ///< largest r - j0 of a contact node [m]
-  std::vector<int> missed;  ///< contact nodes (1-based) the reduced model did not look at and that
-                            ///< passed the wall
+  std::vector<int> missed;      ///< contact nodes (1-based) the reduced model has no contact at and
+                                ///< that passed the wall
   double meanBitSpeed() const {
     return samples == 0 ? 0.0 : sumBitSpeed / static_cast<double>(samples);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Deck list `Bottom-Hole Assembly`: in which hole, under which loads and tool faces the lower part
-/// of the string is looked at.
+/// of the string is computed.
 #pragma once
 
 #include <optional>

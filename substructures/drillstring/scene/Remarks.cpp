@@ -36,4 +36,14 @@ std::string unbalanceRemark(const Scene& scene) {
          "not those of the string. Set Top Drive/Control to \"Speed\", or leave the unbalance out.";
 }
 
+std::string axialFrictionRemark(const Scene& scene) {
+  if (!scene.contact || !scene.contact->axialFriction || !scene.reduces()) return "";
+  const auto& nodes = scene.partition.retainedNodes;
+  if (nodes == "Gap" || nodes == "Static contacts" || nodes == "All") return "";
+  return "Contact/Friction/Axial acts on nodes that Substructures/Retained Nodes \"" + nodes +
+         "\" may leave to the modes of the parts: the change of the hook load of a string that "
+         "begins to turn was 10 % off with 4 to 8 modes in a part, 0.001 % with 24. Set Retained "
+         "Nodes to \"Static contacts\".";
+}
+
 }  // namespace tooljoint::drillstring

@@ -19,4 +19,8 @@ std::string bitFrictionRemark(const Scene& scene);
 /// A sentence when an unbalance turns with the set speed of a drive that does not hold it; else "".
 std::string unbalanceRemark(const Scene& scene);
 
+/// A sentence when friction acts along the hole at nodes that a reduced model does not keep; else
+/// "".
+std::string axialFrictionRemark(const Scene& scene);
+
 }  // namespace tooljoint::drillstring

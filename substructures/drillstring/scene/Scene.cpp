@@ -78,7 +78,7 @@ namespace {
 
 using cases::Faults;
 
-/// What the list Coupling asks of the others.
+/// What the list Coupling requires of the others.
 void crossCheckCoupling(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   if (scene.coupling->ownNumbers)
@@ -148,7 +148,7 @@ void checkBitRadius(const Scene& scene, Faults& faults) {
                                               ". Give the radius of a bit that fits into it.");
 }
 
-/// What a law at the bit asks of the loads and supports.
+/// What a law at the bit requires of the loads and supports.
 void checkBit(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   const auto& law = *scene.bit->law;
@@ -178,7 +178,7 @@ bool vibrates(const Scene& scene) {
 
 bool hasAxialFriction(const Scene& scene) { return scene.contact && scene.contact->axialFriction; }
 
-/// What an autodriller asks of the others.
+/// What an autodriller requires of the others.
 void checkAutodriller(const Scene& scene, Faults& faults) {
   const std::string path = "Top Drive/Autodriller";
   if (!scene.bit || !scene.bit->law->givesWeight())
@@ -197,7 +197,7 @@ void checkAutodriller(const Scene& scene, Faults& faults) {
                "of Supports/Top.");
 }
 
-/// What the drive asks of the bit and the supports.
+/// What the drive requires of the bit and the supports.
 void checkTopDrive(const Scene& scene, Faults& faults) {
   const auto& drive = scene.topDrive;
   const bool feeds = scene.bit && scene.bit->law->givesWeight();
@@ -268,7 +268,7 @@ void checkAxialFriction(const Scene& scene, Faults& faults) {
              "weight that it takes from the bit.");
 }
 
-/// What bends and eccentric gauges ask of the other lists.
+/// What bends and eccentric gauges require of the other lists.
 void checkSidedFeatures(const Scene& scene, Faults& faults) {
   const auto& string = scene.string;
   const auto refuse = [&](const std::string& what, int node) {
@@ -285,7 +285,7 @@ void checkSidedFeatures(const Scene& scene, Faults& faults) {
                                   "\"Clamped\", or leave Gauge Offset out.");
 }
 
-/// What only several lists together can tell.
+/// Errors that only several lists together show.
 void crossCheck(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   if (list.isSublist("Substructures") && !scene.reduces() && !scene.coupling)

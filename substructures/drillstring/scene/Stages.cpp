@@ -101,7 +101,7 @@ double reactionAtTop(const StringModel& string, double t, int component) {
   Vector force = reduction::constantStiffness(model) * state -
                  model.pointForce(t, state, Vector::Zero(model.size()));
   for (const auto& load : model.loads)
-    if (model.laws[static_cast<std::size_t>(load.law)].name == "1") force -= load.vector;
+    if (model.laws[static_cast<std::size_t>(load.law)].isOne()) force -= load.vector;
   for (std::size_t i = 0; i < model.dofs.size(); ++i)
     if (model.dofs[i] == model::DofLabel::physical(1, component))
       return force(static_cast<Eigen::Index>(i));
@@ -345,14 +345,15 @@ void judgeBit(const Scene& scene) {
 }
 
 void judgeRounding(const Scene& scene, const StaticStage& stage) {
-  constexpr double worthAWarning = 10;  // of what was asked for
+  constexpr double worthAWarning = 10;  // of the tolerance
   const double residual = stage.state.report.residual;
   if (residual > worthAWarning * scene.statics.tolerance)
-    log::warn("The residual of the static state ends at " + linalg::scientific(residual) +
-              " of the largest load, where " + linalg::scientific(scene.statics.tolerance) +
-              " is asked for: double precision leaves as much where elements are short beside what "
-              "the string stretches. Take longer elements, or set Static/Reference to "
-              "\"Hanging\".");
+    log::warn(
+        "The residual of the static state ends at " + linalg::scientific(residual) +
+        " of the largest load, where " + linalg::scientific(scene.statics.tolerance) +
+        " is the tolerance: double precision leaves as much where elements are short beside what "
+        "the string stretches. Take longer elements, or set Static/Reference to "
+        "\"Hanging\".");
 }
 
 }  // namespace

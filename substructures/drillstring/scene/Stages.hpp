@@ -38,7 +38,7 @@ std::vector<int> freeDirections(const Scene& scene);
 /// Static/Unstable State "Perturb" it goes on from unstable states until one is stable.
 /// ConvergenceError, ModelError.
 StaticStage findEquilibrium(const Scene& scene);
-/// Torque at the top against what loads, friction and supports below ask for: above 2 % of the
+/// Torque at the top against what loads, friction and supports below give: above 2 % of the
 /// scale of StaticState a warning, above 10 % a ConvergenceError. With the pre-stress "Axial and
 /// torque", or sections that are not round, always a warning: there the model itself resists a spin
 /// about the curved axis.
@@ -55,7 +55,7 @@ model::SecondOrderModel fullModel(const StaticStage& stage);
 /// The full model with what the list Coupling adds, always in primal assembly.
 model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage);
 
-/// The parts the deck's Substructures list asks for.
+/// The parts of the deck's Substructures list.
 std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage);
 
 /// These parts as the list Coupling wants them, and what joins them.

@@ -183,13 +183,6 @@ TEST(Manual, JsonHoldsWhatTheDescriptionHolds) {
   EXPECT_EQ(nlohmann::json::parse(manualJson(smallScene(), "Mud"))[0]["path"], "scene/Mud");
 }
 
-TEST(Manual, TopicsAreThePathsOfAllLists) {
-  EXPECT_EQ(topics(smallScene()),
-            (std::vector<std::string>{"scene", "scene/Contact", "scene/Contact/Intervals",
-                                      "scene/Contact/Intervals/<interval>", "scene/Transient",
-                                      "scene/Transient/NOX", "scene/Mud"}));
-}
-
 TEST(Manual, UnitsAreListedByQuantity) {
   const std::string text = unitsMarkdown();
   EXPECT_EQ(text.find("## Units\n\n"), 0U);

@@ -133,7 +133,8 @@ TEST(NewtonSolver, AToleranceBelowRoundingIsToldSo) {
   Vector x = Vector::Ones(1);
   const NewtonReport report = solve(stiff, x);
   EXPECT_FALSE(report.converged);
-  EXPECT_NE(report.message.find("Rounding to double precision may leave 3.6e-03: ask for no less."),
+  EXPECT_NE(report.message.find(
+                "Rounding to double precision may leave 3.6e-03: set no smaller tolerance."),
             std::string::npos)
       << report.message;
   NewtonOptions attainable;

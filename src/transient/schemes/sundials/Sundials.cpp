@@ -310,8 +310,8 @@ class Sundials final : public Integrator {
     if (!state.a.allFinite()) trouble = SundialsTrouble::NotFinite;
     switch (trouble) {
       case SundialsTrouble::Accuracy:
-        text << name_ << " is asked at t = " << t << " s for more digits than numbers have. Raise "
-             << own << "Relative Tolerance, Absolute Tolerance or Absolute Velocity Tolerance.";
+        text << name_ << " needs more digits than numbers have at t = " << t << " s. Raise " << own
+             << "Relative Tolerance, Absolute Tolerance or Absolute Velocity Tolerance.";
         break;
       case SundialsTrouble::ErrorTest:
         text << name_ << " cannot hold its tolerances at t = " << t

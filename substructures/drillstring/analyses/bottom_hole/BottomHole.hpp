@@ -75,7 +75,7 @@ struct BottomHoleState {
   }
 };
 
-/// What of the string is looked at.
+/// What of the string is computed.
 class BottomHole {
  public:
   /// DeckError: no weight or no wall, supports or forces at nodes of their own, lengths beyond the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What an engineer asks of the static state of a bottom-hole assembly.
+/// The static state of a bottom-hole assembly: figures.
 #pragma once
 
 #include <optional>

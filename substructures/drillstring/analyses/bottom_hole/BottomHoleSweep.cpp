@@ -64,7 +64,7 @@ ModelledLength lengthFor(const BottomHole& assembly, const BottomHolePoint& poin
   return found;
 }
 
-/// The longest that any hole asks for, under the largest weight on bit with an equilibrium.
+/// The longest that any hole needs, under the largest weight on bit with an equilibrium.
 ModelledLength modelledLength(const BottomHole& assembly, const BottomHoleSettings& settings,
                               const std::vector<std::optional<double>>& holes) {
   auto weights = settings.weights;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/implicit/PointRelaxation.hpp"
+#include "transient/implicit/ContactForceIteration.hpp"
 
 #include <cmath>
 
@@ -7,27 +7,28 @@
 
 namespace tooljoint::transient {
 
-void PointRelaxation::bind(const StepParts& parts) {
+void ContactForceIteration::bind(const StepParts& parts) {
   parts_ = parts;
   points_.bind(*parts.model, *parts.strategies);
-  for (Vector* x : {&delta_, &q_, &guess_, &drift_, &others_}) x->setZero(parts.model->size());
+  drift_.bind(parts);
+  for (Vector* x : {&delta_, &q_, &others_}) x->setZero(parts.model->size());
   possible_ = parts.strategies->has(Strategy::Relaxation);
   for (const auto& batch : parts.model->points())
     possible_ = possible_ && batch.width() <= PointSolve::widest;
 }
 
-void PointRelaxation::prepare(const StepScheme& scheme) {
+void ContactForceIteration::prepare(const StepScheme& scheme) {
   points_.setWeights(parts_.equations->weight());
   if (possible_) points_.impacts().set(*parts_.model, scheme.h, scheme.impact);
 }
 
-void PointRelaxation::restore(const double*& memory, const StepScheme& scheme) {
+void ContactForceIteration::restore(const double*& memory, const StepScheme& scheme) {
   if (scheme.h > 0) points_.setWeights(parts_.equations->weight());
   points_.impacts().restore(memory);
   if (scheme.h > 0) points_.impacts().set(*parts_.model, scheme.h, scheme.impact);
 }
 
-bool PointRelaxation::solve(State& to, const StepScheme& scheme, Counters& counters) {
+bool ContactForceIteration::solve(State& to, const StepScheme& scheme, Counters& counters) {
   scheme_ = &scheme;
   counters_ = &counters;
   if (compliance_ != parts_.factor->number()) points_.setCompliance(parts_.factor->factor());
@@ -43,7 +44,7 @@ bool PointRelaxation::solve(State& to, const StepScheme& scheme, Counters& count
   return true;
 }
 
-void PointRelaxation::complete(State& to) const {
+void ContactForceIteration::complete(State& to) const {
   to.q += delta_;
   to.v = scheme_->velocity * delta_;
   to.a += scheme_->acceleration * delta_;
@@ -51,23 +52,17 @@ void PointRelaxation::complete(State& to) const {
 
 /// The iteration itself: delta_. When it has been found before points were found to be missed, it
 /// goes on from there, at these points first.
-bool PointRelaxation::settle(const State& to, bool again) {
-  const double c = scheme_->velocity;
-  const double norm =
-      parts_.factor->matrix().hasDrifted() ? parts_.factor->matrix().driftNorm(*scheme_) : 0.0;
-  const double negligible = Tuned::rightEnough * parts_.equations->tolerance();
-  bool changed = false, near = false, phase = false;
-  if (again)
-    changed = join(to);
-  else
-    phase = begin(to, norm);
-  double last = 0, work = again ? 0 : 1;
-  int turn = -1;  // of the colours, once points take turns
-  int idle = 0;   // pairs of sweeps in a row without progress
-  for (int iteration = 1; turn >= 0 || iteration <= parts_.maxIterations; ++iteration) {
+bool ContactForceIteration::settle(const State& to, bool again) {
+  const double c = scheme_->velocity, tolerance = parts_.equations->tolerance();
+  drift_.start(*scheme_);
+  bool changed = again && join(to), near = false;
+  bool phase = !again && begin(to);
+  double work = again ? 0 : 1;
+  Turns turns(*parts_.strategies, parts_.maxIterations);
+  for (int iteration = 1; turns.areTaken() || iteration <= parts_.maxIterations; ++iteration) {
     const bool joins = again && iteration == 1;
     if (!joins) {
-      work += relaxOnce(to, near, norm);
+      work += relaxOnce(to, near);
       changed = false;
     }
     const double error = parts_.equations->error();
@@ -77,11 +72,7 @@ bool PointRelaxation::settle(const State& to, bool again) {
       phase = false;
       changed = true;
     }
-    if (norm > 0 &&
-        norm * parts_.model->cut().largest((delta_ - guess_).cwiseAbs().maxCoeff()) > negligible) {
-      guess_ = delta_;
-      findDrift();
-      parts_.factor->charge(Tuned::driftPrice);
+    if (drift_.follow(delta_)) {
       changed = true;
       good = false;
     }
@@ -89,22 +80,9 @@ bool PointRelaxation::settle(const State& to, bool again) {
       parts_.factor->account(work);
       return true;
     }
-    if (!std::isfinite(error)) return false;
-    if (turn < 0 && iteration % Tuned::colours == 0) {
-      if (iteration > Tuned::colours && error > Tuned::slowestRelaxation * last) {
-        if (!parts_.strategies->use(Strategy::Turns)) return false;
-        turn = 0;
-      }
-      last = error;
-    } else if (turn > 0 && turn % (2 * Tuned::colours) == 0) {
-      idle = error > Tuned::progress * last ? idle + 1 : 0;
-      if (turn >= Tuned::colours * parts_.maxIterations || idle > Tuned::mostIdle) return false;
-      last = error;
-    }
-    near = turn < 0 ? points_.correct(to.t, c, parts_.equations->tolerance(), changed)
-                    : points_.sweepEveryFourth(to.t, c, parts_.equations->tolerance(),
-                                               turn++ % Tuned::colours) &&
-                          !changed;
+    if (!std::isfinite(error) || !turns.goOn(iteration, error)) return false;
+    near = turns.areTaken() ? points_.sweepEveryFourth(to.t, c, tolerance, turns.next()) && !changed
+                            : points_.correct(to.t, c, tolerance, changed);
     if (!near) work += 1.0;
   }
   return false;
@@ -113,24 +91,16 @@ bool PointRelaxation::settle(const State& to, bool again) {
 /// Start at the predicted v; returns whether the phase is to be corrected. Points whose tangent in
 /// S is far stiffer than they are stay there in the first iterate, which the phase correction is
 /// taken from, and what is extrapolated further makes vibration of a few steps per period grow.
-/// With what laws have changed, drift_ is that of guess_.
-bool PointRelaxation::begin(const State& to, double norm) {
-  const double c = scheme_->velocity;
-  points_.guess(to.t, c, to.v);
-  if (norm > 0) {
-    guess_ = to.v / c;
-    if (norm * parts_.model->largest(guess_) > Tuned::rightEnough * parts_.equations->tolerance())
-      findDrift();
-    else
-      guess_.setZero(), drift_.setZero();
-  }
+bool ContactForceIteration::begin(const State& to) {
+  points_.guess(to.t, scheme_->velocity, to.v);
+  if (drift_.isAny()) drift_.begin(to.v / scheme_->velocity);
   parts_.factor->phase().leaveOut();
   return parts_.factor->phase().applies(*scheme_);
 }
 
 /// Take in the points that were missed; the phase correction stays as it is, since they have only
 /// just touched. True when one of them is an impact and there is none to be after all.
-bool PointRelaxation::join(const State& to) {
+bool ContactForceIteration::join(const State& to) {
   double force = parts_.equations->reference();
   const double error =
       points_.join(to.t, scheme_->velocity, delta_, parts_.equations->tolerance(), force);
@@ -142,14 +112,14 @@ bool PointRelaxation::join(const State& to) {
 }
 
 /// One relaxation, of all points or near few. Returns what one near few costs beside one of all.
-double PointRelaxation::relaxOnce(const State& to, bool near, double norm) {
+double ContactForceIteration::relaxOnce(const State& to, bool near) {
   double work = 0;
   if (near) {
     parts_.strategies->count(Strategy::NearSolves);
     points_.solveNear(parts_.factor->factor(), parts_.equations->tolerance(), delta_);
     work = points_.nearShare();
   } else {
-    points_.solve(parts_.factor->factor(), otherForces(norm), delta_);
+    points_.solve(parts_.factor->factor(), otherForces(), delta_);
   }
   ++counters_->newtonIterations;
   double force = near ? parts_.equations->reference() : parts_.equations->linearReference();
@@ -159,17 +129,11 @@ double PointRelaxation::relaxOnce(const State& to, bool near, double norm) {
   return work;
 }
 
-/// drift_ = (S(now) - S(then)) guess_
-void PointRelaxation::findDrift() {
-  drift_.setZero();
-  parts_.factor->matrix().addDrift(*scheme_, guess_, drift_);
-}
-
 /// What acts beside the linear residual and the points, if anything.
-const Vector* PointRelaxation::otherForces(double norm) {
+const Vector* ContactForceIteration::otherForces() {
   const PhaseCorrection& phase = parts_.factor->phase();
-  if (!(norm > 0)) return phase.isTaken() ? &phase.force() : nullptr;
-  others_ = -drift_;
+  if (!drift_.isAny()) return phase.isTaken() ? &phase.force() : nullptr;
+  others_ = -drift_.force();
   if (phase.isTaken()) others_ += phase.force();
   return &others_;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The fast way through an implicit step: the effective matrix S is factored once, and the point
-/// forces are found by nodal compliance. With f = P y + p, P the tangents frozen in S and y = R
-/// delta,
+/// The contact forces of an implicit step and their update in an iteration: the effective matrix S
+/// is factored once, and the point forces are found by nodal compliance. With f = P y + p, P the
+/// tangents frozen in S and y = R delta,
 ///
 ///     S delta = -R0 + R'p,      p = f(y) - P y
 ///
@@ -13,10 +13,10 @@
 ///
 /// with J taken once where the step is expected to end is Newton point by point (PointForces): one
 /// solve and one evaluation of the laws per iteration, no product, no factorisation. It converges
-/// by what the points feel of each other's change of tangent. Where only few points are left to
-/// correct, only what they reach is solved and evaluated: a force moves a few neighbours in a step.
-/// A point whose force jumps (contact that switches within the step, friction that reverses) is
-/// solved as what it is, see PointSolve; its error is then measured in y.
+/// with the effect of each point's change of tangent on the others. Where only few points are left
+/// to correct, only what they reach is solved and evaluated: a force moves a few neighbours in a
+/// step. A point whose force jumps (contact that switches within the step, friction that reverses)
+/// is solved as what it is, see PointSolve; its error is then measured in y.
 #pragma once
 
 #include <vector>
@@ -29,7 +29,7 @@
 
 namespace tooljoint::transient {
 
-class ContactForceIteration {
+class ContactForceUpdate {
  public:
   /// The strategies, which must outlive this, say what may be used.
   void bind(CompiledModel& model, Strategies& strategies);
@@ -39,7 +39,7 @@ class ContactForceIteration {
   PointImpacts& impacts() { return impacts_; }
   const PointImpacts& impacts() const { return impacts_; }
 
-  /// The compliance of the points looked at, from the factor of the effective matrix (invert() is
+  /// The compliance of the active points, from the factor of the effective matrix (invert() is
   /// called), which must outlive its use.
   void setCompliance(linalg::BlockFactor& factor);
 
@@ -66,16 +66,16 @@ class ContactForceIteration {
   /// |w (f - P y - p)|_2 over |w f|_2 where they were evaluated: how much of the forces of all
   /// points is not accounted for (infinite where there are none any more).
   double wrongShare() const;
-  /// Take in the points looked at since start(): they have had no force up to now, and are
+  /// Take in the points active since start(): they have had no force up to now, and are
   /// evaluated at delta as by evaluate(). Only they are corrected next.
   double join(double t, double c, const Vector& delta, double small, double& force);
   /// One Newton step at every point, and the whole way at those where Newton does not help. True
   /// when it was only taken at the few points wrong by more than a part of `small` (never if `all`
-  /// are asked for), and solveNear() can follow.
+  /// are wanted), and solveNear() can follow.
   bool correct(double t, double c, double small, bool all);
   /// Every Tuned::colours-th point, from the one of this colour, if it is wrong: solved by itself
   /// while its neighbours stand still. In turns for all colours this is block Gauss-Seidel over the
-  /// points, which converges where neighbours that stick and slip throw each other off when all
+  /// points, which converges where neighbours that stick and slip disturb each other when all
   /// move at once. Returns as correct().
   bool sweepEveryFourth(double t, double c, double small, int colour);
   /// Leaves the forces that act in the step with the points.

@@ -2,7 +2,7 @@
 /// \file
 /// The relaxation of point forces near few points: what is measured after it, and that it ends
 /// where the relaxation of all ends.
-#include "transient/contact/ContactForceIteration.hpp"
+#include "transient/contact/ContactForceUpdate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "transient/Tuned.hpp"
 
 namespace tooljoint::transient {
-namespace ContactForceIterationTest {
+namespace ContactForceUpdateTest {
 
 constexpr double ca = 4e6, cv = 2e3;  // steps of about 1 ms
 
@@ -62,10 +62,10 @@ struct TwoFloors {
   linalg::BlockFactor factor;
   Vector residual, delta = Vector::Zero(300);
   Strategies strategies;
-  ContactForceIteration relaxation;
+  ContactForceUpdate relaxation;
 };
 
-TEST(ContactForceIteration, MeasuresAPointAgainWhoseChangeDoesNotTravel) {
+TEST(ContactForceUpdate, MeasuresAPointAgainWhoseChangeDoesNotTravel) {
   TwoFloors step;
   const double before = step.error();
   ASSERT_GT(before, 1e3 * step.small);
@@ -77,7 +77,7 @@ TEST(ContactForceIteration, MeasuresAPointAgainWhoseChangeDoesNotTravel) {
   EXPECT_LT(step.error(), 1e-3 * before) << "its force is now that of where it is";
 }
 
-TEST(ContactForceIteration, SaysThatLittleIsLeftOfTheForceExpected) {
+TEST(ContactForceUpdate, SaysThatLittleIsLeftOfTheForceExpected) {
   TwoFloors step;
   step.relaxation.guess(0.0, cv, Vector::Constant(300, -1e-3 * cv));  // both on the floor
   step.delta.setConstant(1e-2);                                       // and far above it
@@ -85,7 +85,7 @@ TEST(ContactForceIteration, SaysThatLittleIsLeftOfTheForceExpected) {
   EXPECT_GT(step.relaxation.wrongShare(), 100);
 }
 
-TEST(ContactForceIteration, NearFewPointsEndsWhereAllEnd) {
+TEST(ContactForceUpdate, NearFewPointsEndsWhereAllEnd) {
   TwoFloors all, near;
   all.error();
   EXPECT_NEAR(all.relaxation.wrongShare(), 1.0, 0.02) << "next to none of the force was expected";
@@ -154,11 +154,11 @@ struct SoftFloors {
   linalg::BlockFactor factor;
   Vector residual, delta = Vector::Zero(300);
   Strategies strategies;
-  ContactForceIteration relaxation;
+  ContactForceUpdate relaxation;
   double force = 0;
 };
 
-TEST(ContactForceIteration, GoesOnWhereItWasWhenAPointWasMissed) {
+TEST(ContactForceUpdate, GoesOnWhereItWasWhenAPointWasMissed) {
   SoftFloors all(true), later(false);
   auto& floors = later.model.points()[0];
   ASSERT_EQ(floors.active(), std::vector<int>{0});
@@ -175,7 +175,7 @@ TEST(ContactForceIteration, GoesOnWhereItWasWhenAPointWasMissed) {
             1e-9 * all.delta.cwiseAbs().maxCoeff());
 }
 
-TEST(ContactForceIteration, TakesNothingForAnImpactThatHasComeToRest) {
+TEST(ContactForceUpdate, TakesNothingForAnImpactThatHasComeToRest) {
   SoftFloors step(false);
   auto& floors = step.model.points()[0];
   EXPECT_NEAR(step.delta[60], -1e-4, 1e-6);
@@ -204,7 +204,7 @@ bool isImpact(double stiffness, double depth) {
   model.combine(ca, cv, 1.0, factor.values());
   EXPECT_LT(factor.factor(), 0);
   Strategies strategies;
-  ContactForceIteration relaxation;
+  ContactForceUpdate relaxation;
   relaxation.bind(model, strategies);
   relaxation.setWeights(Vector::Constant(1, 1 / ca));
   relaxation.impacts().set(model, 1e-3, 0.5);
@@ -217,12 +217,12 @@ bool isImpact(double stiffness, double depth) {
   return floor.isScaled();
 }
 
-TEST(ContactForceIteration, TellsAStiffWallFromWhereASoftOneBegins) {
+TEST(ContactForceUpdate, TellsAStiffWallFromWhereASoftOneBegins) {
   EXPECT_TRUE(isImpact(1e9, 1e-6));
   EXPECT_TRUE(isImpact(1e9, 1e-10));
   EXPECT_FALSE(isImpact(1e6, 1e-10))
       << "it damps by 1 kN within a nanometre, but is no stiffer than 1e6 N/m beyond";
 }
 
-}  // namespace ContactForceIterationTest
+}  // namespace ContactForceUpdateTest
 }  // namespace tooljoint::transient

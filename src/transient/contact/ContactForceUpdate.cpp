@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/contact/ContactForceIteration.hpp"
+#include "transient/contact/ContactForceUpdate.hpp"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 namespace tooljoint::transient {
 
-void ContactForceIteration::bind(CompiledModel& model, Strategies& strategies) {
+void ContactForceUpdate::bind(CompiledModel& model, Strategies& strategies) {
   model_ = &model;
   strategies_ = &strategies;
   impacts_.bind(model, strategies);
@@ -23,19 +23,19 @@ void ContactForceIteration::bind(CompiledModel& model, Strategies& strategies) {
   live_.reserve(4 * blocks_.size());
 }
 
-void ContactForceIteration::setWeights(const Vector& weight) {
+void ContactForceUpdate::setWeights(const Vector& weight) {
   weight_ = weight;
   for (std::size_t b = 0; b < forces_.size(); ++b)
     forces_[b].setWeights(model_->points()[b], weight);
 }
 
-void ContactForceIteration::setCompliance(linalg::BlockFactor& factor) {
+void ContactForceUpdate::setCompliance(linalg::BlockFactor& factor) {
   factor.invert(blocks_);
   inverse_ = factor.inverse();
   for (auto& forces : forces_) forces.forgetCompliance();
 }
 
-void ContactForceIteration::start(const Vector& q, const Vector& residual) {
+void ContactForceUpdate::start(const Vector& q, const Vector& residual) {
   q_ = &q;
   residual_ = &residual;
   for (std::size_t b = 0; b < forces_.size(); ++b) {
@@ -46,7 +46,7 @@ void ContactForceIteration::start(const Vector& q, const Vector& residual) {
   }
 }
 
-void ContactForceIteration::guess(double t, double c, const Vector& v) {
+void ContactForceUpdate::guess(double t, double c, const Vector& v) {
   for (std::size_t b = 0; b < forces_.size(); ++b) {
     const PointBatch& batch = model_->points()[b];
     forces_[b].takeAll(batch);
@@ -56,7 +56,7 @@ void ContactForceIteration::guess(double t, double c, const Vector& v) {
 }
 
 /// Laws, impacts and answers at y.
-void ContactForceIteration::prepare(std::size_t number, double t, double c) {
+void ContactForceUpdate::prepare(std::size_t number, double t, double c) {
   PointForces& forces = forces_[number];
   PointBatch& batch = model_->points()[number];
   if (forces.taken().empty()) return;
@@ -65,8 +65,8 @@ void ContactForceIteration::prepare(std::size_t number, double t, double c) {
   forces.agree(batch, c);
 }
 
-double ContactForceIteration::join(double t, double c, const Vector& delta, double small,
-                                   double& force) {
+double ContactForceUpdate::join(double t, double c, const Vector& delta, double small,
+                                double& force) {
   double worst = 0;
   for (std::size_t b = 0; b < forces_.size(); ++b) {
     PointForces& forces = forces_[b];
@@ -82,15 +82,15 @@ double ContactForceIteration::join(double t, double c, const Vector& delta, doub
   return largestOfAll(worst, force);
 }
 
-double ContactForceIteration::largestOfAll(double worst, double& force) const {
+double ContactForceUpdate::largestOfAll(double worst, double& force) const {
   double both[2] = {worst, force};
   model_->cut().reduce(both, 2, nullptr, 0);
   force = both[1];
   return both[0];
 }
 
-double ContactForceIteration::evaluate(double t, double c, const Vector& delta, double small,
-                                       double& force) {
+double ContactForceUpdate::evaluate(double t, double c, const Vector& delta, double small,
+                                    double& force) {
   double worst = 0;
   for (std::size_t b = 0; b < forces_.size(); ++b) {
     PointForces& forces = forces_[b];
@@ -107,7 +107,7 @@ double ContactForceIteration::evaluate(double t, double c, const Vector& delta, 
   return largestOfAll(worst, force);
 }
 
-double ContactForceIteration::wrongShare() const {
+double ContactForceUpdate::wrongShare() const {
   double sums[2] = {0, 0};
   for (std::size_t b = 0; b < forces_.size(); ++b)
     forces_[b].addSquares(model_->points()[b], sums[0], sums[1]);
@@ -117,8 +117,8 @@ double ContactForceIteration::wrongShare() const {
              : std::sqrt(sums[0] / sums[1]);  // infinite where all that was expected is gone
 }
 
-void ContactForceIteration::solve(const linalg::BlockFactor& factor, const Vector* force,
-                                  Vector& delta) {
+void ContactForceUpdate::solve(const linalg::BlockFactor& factor, const Vector* force,
+                               Vector& delta) {
   if (force != nullptr)
     delta = *force - *residual_;
   else
@@ -132,8 +132,7 @@ void ContactForceIteration::solve(const linalg::BlockFactor& factor, const Vecto
 }
 
 /// delta += S^-1 R' (change of p)
-void ContactForceIteration::solveNear(const linalg::BlockFactor& factor, double small,
-                                      Vector& delta) {
+void ContactForceUpdate::solveNear(const linalg::BlockFactor& factor, double small, Vector& delta) {
   live_.clear();
   for (std::size_t b = 0; b < forces_.size(); ++b) {
     const PointBatch& batch = model_->points()[b];
@@ -148,13 +147,13 @@ void ContactForceIteration::solveNear(const linalg::BlockFactor& factor, double 
   isNear_ = true;
 }
 
-bool ContactForceIteration::isFew(long here) {
+bool ContactForceUpdate::isFew(long here) {
   const double points = model_->cut().sum(static_cast<double>(here));
   nearShare_ = Tuned::positionsPerPoint * points / model_->wholeSize();
   return nearShare_ < 1.0;
 }
 
-bool ContactForceIteration::correct(double t, double c, double small, bool all) {
+bool ContactForceUpdate::correct(double t, double c, double small, bool all) {
   long wrong = 0;
   for (const auto& forces : forces_)  // what was not evaluated is not wrong
     for (int p : forces.taken()) wrong += forces.isWrong(p, small) ? 1 : 0;
@@ -171,11 +170,11 @@ bool ContactForceIteration::correct(double t, double c, double small, bool all) 
   return few;
 }
 
-void ContactForceIteration::finish(double t, double c) {
+void ContactForceUpdate::finish(double t, double c) {
   for (std::size_t b = 0; b < forces_.size(); ++b) forces_[b].stand(model_->points()[b], t, c);
 }
 
-bool ContactForceIteration::sweepEveryFourth(double t, double c, double small, int colour) {
+bool ContactForceUpdate::sweepEveryFourth(double t, double c, double small, int colour) {
   long moved = 0, looked = 0;
   for (const auto& batch : model_->points()) looked += static_cast<long>(batch.active().size());
   long place = std::lround(model_->cut().before(static_cast<double>(looked)));

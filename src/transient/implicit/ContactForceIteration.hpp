@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The fast way through an implicit step: relaxation of the point forces with a factor of S that
-/// many steps share (ContactForceIteration). Once in a step it takes the phase correction and the
+/// many steps share (ContactForceUpdate). Once in a step it takes the phase correction and the
 /// points that have only just touched into account; where all points at once do not get there, they
 /// take turns.
 #pragma once
@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "transient/Integrator.hpp"
-#include "transient/contact/ContactForceIteration.hpp"
+#include "transient/contact/ContactForceUpdate.hpp"
+#include "transient/implicit/MatrixDrift.hpp"
 #include "transient/implicit/StepParts.hpp"
+#include "transient/implicit/Turns.hpp"
 
 namespace tooljoint::transient {
 
-class PointRelaxation {
+class ContactForceIteration {
  public:
   /// What the parts are must outlive this.
   void bind(const StepParts& parts);
@@ -33,22 +35,21 @@ class PointRelaxation {
 
  private:
   bool settle(const State& to, bool again);
-  bool begin(const State& to, double norm);
+  bool begin(const State& to);
   bool join(const State& to);
-  double relaxOnce(const State& to, bool near, double norm);
-  void findDrift();
-  const Vector* otherForces(double norm);
+  double relaxOnce(const State& to, bool near);
+  const Vector* otherForces();
 
   StepParts parts_;
   const StepScheme* scheme_ = nullptr;
   Counters* counters_ = nullptr;
 
-  ContactForceIteration points_;
+  ContactForceUpdate points_;
   bool possible_ = false;
   long compliance_ = -1;  ///< number of the factor whose compliance the points have
   Vector delta_, q_;      ///< and q at its end
-  Vector guess_, drift_;  ///< where iterations began, and what the changes of the laws make of it
-  Vector others_;         ///< forces beside the linear residual and the points
+  MatrixDrift drift_;
+  Vector others_;  ///< forces beside the linear residual and the points
 };
 
 }  // namespace tooljoint::transient
