@@ -37,16 +37,16 @@ VELOCITY_ROUNDING, AXIAL_ROUNDING = 2.2e-10, 2.6e-7
 COUNTS = "steps", "newton_iterations", "factorisations", "rejected", "halved"
 # With its own tolerance of 0.01 the steps of this scene grow beyond the limit of stability until the fastest mode, grown from
 # rounding, has the size of the tolerance: 1e-14 of the density changes velocities by 4e-8 in 0.02 s and counts of steps in 0.2 s.
-ACCURATE = ["--set", "Transient/RK4 adaptive/Tolerance=1e-6"]
+ACCURATE = ["--set", "Transient/RK4 adaptive/Tolerance=1e-8"]
 # (deck, words, end of the motion [s], ranks)
-SHORT = [("helical_170m", FULL, 0.1, (2, 3)), ("frame", [], 0.1, (2, 3)), ("stress_170m", FULL, 0.02, (4,)), ("buckling_100m", FULL, 0.02, (2,)),
+SHORT = [("helical_170m", FULL, 0.1, (2, 3)), ("frame", [], 0.1, (2, 3)), ("stress_170m", FULL, 0.02, (2,)), ("buckling_100m", FULL, 0.02, (2,)),
          ("helical_170m_source", FULL + ACCURATE, 0.01, (2,)), ("stick_slip_2500m", FULL, 0.02, (2,)), ("vertical_1000m", [], 0.02, (2,)),
          ("inclined_1000m", FULL, 0.02, (2,)), ("build_hold_1400m", FULL, 0.02, (2,)), ("vertical_5000m", FULL, 0.02, (2,)),
          ("extended_reach_5000m", FULL, 0.02, (2,)), ("vertical_10000m", FULL, 0.02, (2,))]
 ALL = [(name, words, 0.2, (2, 3, 4))
        for name in ("first_run", "helical_170m", "stress_170m", "buckling_100m", "inclined_1000m", "vertical_1000m", "build_hold_1400m",
                     "stick_slip_2500m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m") for words in ([], FULL)] + \
-      [("helical_170m_source", FULL + ACCURATE, 0.2, (2, 3, 4)), ("frame", [], 0.2, (2, 3))]
+      [("helical_170m_source", FULL + ACCURATE, 0.05, (2, 3, 4)), ("frame", [], 0.2, (2, 3))]
 
 
 def run(deck, words, end, ranks, folder):
@@ -91,6 +91,7 @@ def check(name, words, end, rank_counts):
         for kind, (size, where) in compare(values, found).items():
             expect(f"{what}, {ranks} ranks: {kind} to {BOUNDS[kind]:g}", size <= BOUNDS[kind], f"{size:.1e} in {where}")
             print(f"       {size:.1e} {where}")
+    return summary["peak_memory_mb"]
 
 
 def first_rank(parent):
@@ -123,8 +124,11 @@ def full_disk():
 
 
 def main():
-    for scene in ALL if "--all" in sys.argv[3:] else SHORT:
-        check(*scene)
+    every = "--all" in sys.argv[3:]
+    memory = {scene[0]: check(*scene) for scene in (ALL if every else SHORT)}
+    # 236 MB; 28 MB more where the problem at rest and its factors stay while the stability is checked
+    more = memory["vertical_5000m"] - memory["stress_170m"]
+    expect("27000 dofs take at most 250 MB more than 1000", every or more <= 250, f"{more:.0f} MB")
     full_disk()
     return finish()
 
