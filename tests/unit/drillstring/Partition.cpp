@@ -101,6 +101,8 @@ TEST(Partition, RetainsTheComponentsAskedForAndLoadedDofs) {
   rules.axialContact = true;
   EXPECT_EQ(retainedDofs(s, rules, state), (std::vector<int>{25, 42, 43, 44, 47}));
   rules.retain = Retain::Translations;
+  EXPECT_EQ(retainedDofs(s, rules, state), (std::vector<int>{25, 42, 43, 44}));
+  rules.axialContact = false;
   EXPECT_EQ(retainedDofs(s, rules, state), (std::vector<int>{25, 42, 43}));
 }
 
