@@ -34,7 +34,7 @@ namespace {
 /// motion is as large.
 constexpr double coarse = 0.05, judged = 3.0;
 
-/// Steps for which the rate of laws is good.
+/// Steps for which the rate of laws is good: to find it takes some products, and memory.
 constexpr int stepsOfARate = 100;
 
 deck::ListSpec rungeKutta4AdaptiveParameters() {

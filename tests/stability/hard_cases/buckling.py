@@ -291,7 +291,7 @@ def skew(program, short):
             deck = parts_deck(program, "c23", imported, settings, Parts=kick)
             run = program.run("c23", deck)
             listed = program.run("c23_modes", deck, command="modes", extra=("--count", "8"))
-            yield judged(run, f"growth of the motion [1/s], {label}", f"skew part {share:g}",
+            yield judged(run, f"growth of the motion [1/s], {modes} modes", f"skew part {share:g}",
                          lambda: against(float(truth), growth_of_pair(run.time(), run.nodes(0)[:, 5])), 0.01 if modes == 22 else 0.05,
                          required=True, note="grows as it must")
             yield statement("modes", f"skew part {share:g}, {modes} modes: said to be of the symmetric part", "a sentence", "said" if "symmetric part" in " ".join(listed.output.split()) else "no word",
