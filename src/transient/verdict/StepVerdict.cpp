@@ -77,14 +77,14 @@ struct Findings {
   /// Contact that neither the steps nor what they are compared with resolve.
   bool isUnknown() const { return rests && shorterStep > 0 && (!shorter || shorter->unresolved); }
   /// The step error. S where nothing is compared, which refuses nothing below 1. Else the largest
-  /// of D, where neighbours do not part as far; of the speeds, where the motion is another; and of
-  /// V where it is above the warning, which refuses nothing: vibration too fast for the step has
-  /// little of the displacement.
+  /// of D, which refuses nothing where neighbours part as far; of the speeds, where the motion is
+  /// another; and of V where it is above the warning, which refuses nothing either: vibration too
+  /// fast for the step has little of the displacement.
   double stepError() const {
     if (isLost()) return error;
     if (!shorter) return std::min(error, limit);
     if (isParting()) return 0.0;
-    double found = partsLikeNeighbours(limit) ? 0.0 : shorter->size;
+    double found = partsLikeNeighbours(limit) ? std::min(shorter->size, limit) : shorter->size;
     if (isOther()) found = std::max(found, std::min(lostMotion, speedError() / speedTolerance));
     const double fast = shorter->velocities / velocityTolerance;
     return fast > warning ? std::max(found, std::min(fast, limit)) : found;

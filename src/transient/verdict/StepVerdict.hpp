@@ -19,7 +19,7 @@ using Comparison = std::function<StepComparison(const State& from, double span)>
 /// Error Warning`, or contact rests on walls too stiff for the step, the motion is compared
 /// (StepComparison.hpp). The step error is then the largest of
 ///
-///     D                       unless neighbours part as far: the motion is chaotic
+///     D                       at most the limit where neighbours part as far: chaotic motion
 ///     (max(r, 1/r) - 1)/2.5   at most 1, where V is above 0.8 and D above 0.4 times the warning
 ///     min(V/4, limit)         where V/4 is above the warning
 ///
