@@ -110,7 +110,7 @@ def in_a_bore(program, short):
                 if load > 1.5 or wall != 1e8 or not run.done:
                     continue  # beyond, more than one state is stable
                 moved = program.run("c12_motion", COLUMN, {**settings, **PUSH, "Loads/Forces/push/Value": 100.0, "Damping/Mass Coefficient": 8.0,
-                                                           **times(15.0 if load < 1.2 else 5.0, 0.05), **alpha(2.5e-4)})
+                                                           **times(45.0 if load < 1.2 else 5.0, 0.05), **alpha(2.5e-4)})
 
                 def ends():
                     u, v = (moved.nodes(c)[-1] for c in (U, V))
