@@ -114,12 +114,18 @@ std::string commandPage(const CLI::App& command) {
          ".SH OPTIONS\n" + options(command) + ends + ".SH SEE ALSO\n.BR tooljoint (1)\n";
 }
 
+/// What a program is, of its description "Name: what it is."
+std::string whatItIs(const CLI::App& program) {
+  const std::string text = program.get_description();
+  const auto begin = text.find(": ") + 2;
+  return text.substr(begin, text.rfind('.') - begin);
+}
+
 std::string programPage(const CLI::App& program) {
   std::string text =
-      heading("tooljoint", "component mode synthesis and drillstring simulator") +
-      bold("tooljoint") + " " + italic("COMMAND") + " [" + italic("OPTION") +
-      "]...\n.br\n.B mpirun \\-np\n" + italic("N") + "\n" + bold("tooljoint") + " " +
-      italic("COMMAND") + " [" + italic("OPTION") + "]...\n" + ".SH DESCRIPTION\n" +
+      heading("tooljoint", whatItIs(program)) + bold("tooljoint") + " " + italic("COMMAND") + " [" +
+      italic("OPTION") + "]...\n.br\n.B mpirun \\-np\n" + italic("N") + "\n" + bold("tooljoint") +
+      " " + italic("COMMAND") + " [" + italic("OPTION") + "]...\n" + ".SH DESCRIPTION\n" +
       roff(program.get_description()) +
       "\nEvery command but doc, new, template, report, paraview and compare reads a deck, a "
       "file of lists and parameters.\n" +

@@ -25,7 +25,7 @@ TOOLKIT = {
     "texts": ("cases common deck io", "what the program prints: last screens, manual pages, completions, templates"),
     "app": (f"{CASES} cases response study texts", "the program: a file for each command"),
 }
-PROGRAM = ("app", "texts")  # rooms of src/ that the installed library leaves out; only they may speak of a string
+PROGRAM = ("app", "texts")  # rooms of src/ that the installed library leaves out
 # Room: (rooms of substructures/, rooms of src/, what it holds)
 DRILLSTRING = {
     "well": ("", GROUND, "trajectories, surveys, bore"),
