@@ -24,6 +24,13 @@ constexpr int mostParts = 32;
 
 }  // namespace
 
+double farthest(const Norms& ratios) {
+  double found = 1;
+  for (const double ratio : ratios)
+    if (std::abs(std::log(ratio)) > std::abs(std::log(found))) found = ratio;
+  return found;
+}
+
 StepComparison::StepComparison(CompiledModel& model,
                                std::function<std::unique_ptr<Integrator>()> make,
                                const Window& window, double span, const State& start,
@@ -145,9 +152,9 @@ StepComparison::Difference StepComparison::differenceOf(const Sums& sums) const 
   const Norms speeds = rootRatio(sums.latePath, sums.otherLatePath);
   const auto late = sums.latePath.max(sums.otherLatePath);
   for (int norm = 0; norm < speeds.size(); ++norm)
-    if (moving[norm] && late[norm] > rest * rest * sums.otherPath[norm] &&
-        std::abs(std::log(speeds[norm])) > std::abs(std::log(found.speeds)))
-      found.speeds = speeds[norm];
+    if (moving[norm] && late[norm] > rest * rest * sums.otherPath[norm])
+      found.ratios[norm] = speeds[norm];
+  found.speeds = farthest(found.ratios);
   return found;
 }
 

@@ -29,12 +29,16 @@
 
 namespace tooljoint::transient {
 
+/// The ratio of speeds that is farther from 1, up or down.
+double farthest(const Norms& ratios);
+
 class StepComparison {
  public:
   struct Difference {
     Norms sizes{0, 0};        ///< D in both norms
     double size = 0;          ///< the larger one
-    double speeds = 1;        ///< r, the one farther from 1
+    Norms ratios{1, 1};       ///< r in both norms; 1 where nothing moves
+    double speeds = 1;        ///< the one farther from 1
     double velocities = 0;    ///< V, the larger one
     bool still = false;       ///< nothing moves: the others say nothing
     bool whole = false;       ///< the run ends within T

@@ -44,7 +44,7 @@ struct Findings {
   /// Speed over that of the shorter steps, and of their neighbour where it is known: both motions
   /// are as good, and of chaotic motion the mean of two says more.
   double speeds() const {
-    return neighbour ? shorter->speeds * std::sqrt(neighbour->speeds) : shorter->speeds;
+    return neighbour ? farthest(shorter->ratios * neighbour->ratios.sqrt()) : shorter->speeds;
   }
   /// max(r, 1/r) - 1
   double speedError() const { return std::exp(std::abs(std::log(speeds()))) - 1; }
