@@ -352,7 +352,10 @@ def announced():
     done = tooljoint("check", DECK, "--set", "Torque and Drag/Depths={400, 800}", "--set", "Torque and Drag/Operations={Trip in}", "--set", "Torque and Drag/Stiff String=All Depths")
     plain = " ".join(tooljoint("check", DECK).stdout.split())
     for text in ("torque and drag by default: 20 depths, 7 operations, the stiff string at the deepest (tooljoint torque-drag)",
-                 "bottom-hole assembly by default: 1 hole, 1 weight on bit, 1 tool face (tooljoint bha)"):
+                 "bottom-hole assembly by default: 1 hole, 1 weight on bit, 1 tool face (tooljoint bha)",
+                 "buckling by default: up to 50 kN on the bit, crookedness 0.02 of the clearance, jumps where states become unstable (tooljoint buckling)",
+                 "no campbell no Campbell list: give its Highest Speed", "no response no Response list: give its Highest Speed or Highest Frequency, and Outputs",
+                 "no map no Map list: give its Grid and Values"):
         expect(f"check of a deck without their lists: {text}", text in plain, plain[-800:])
     expect("check: depths, operations and the stiff string", "2 depths, 1 operation, the stiff string at all of them" in " ".join(done.stdout.split()), done.stdout[-600:] + done.stderr)
 
