@@ -33,8 +33,10 @@ constexpr int mostDisturbances = 3;
 constexpr double slidingTolerance = 1e-5;
 /// Iterations of a string that slides to rest, over Static/Max Iterations.
 constexpr int slidingEffort = 6;
-/// Radius of the helix that disturbs a compressed string before each part, over the clearance.
-constexpr double helixSize = 0.05;
+/// Helix that disturbs the string before each part: of the clearance, and its pitch [m], two to
+/// four half waves of drill pipe that buckles. The motion picks out the waves that grow; one of
+/// their own length winds a string with a stable sinusoidal state into a helix.
+constexpr double helixSize = 0.05, helixPitch = 25.0;
 /// Elements a half wave of a helix needs.
 constexpr double elementsPerHalfWave = 3.0;
 
@@ -87,27 +89,13 @@ std::optional<StiffString::Rest> StiffString::near(const Part& part, const Vecto
   return Rest{std::move(*state), pivots};
 }
 
-/// Its phase advances by sqrt(F/(2 E I)) per length under the compression F, as waves of a string
-/// that buckles do (Dawson and Paslay 1984; a helix: Lubinski, Althouse and Logan 1962).
-Vector StiffString::withHelix(const equilibrium::StaticProblem& problem,
-                              const Vector& displacement) const {
-  std::vector<double> wave(at(scene_.string.nodeCount()), 0.0), angle(wave);  // [1/m, rad]
-  for (int e = 0; e < scene_.string.elementCount(); ++e) {
-    const auto& element = scene_.string.elements[at(e)];
-    const auto& section = element.section();
-    const double compression = std::max(0.0, -problem.elements().axialForce(e, displacement));
-    const double here =
-        std::sqrt(0.5 * compression / (section.youngModulus() * section.inertiaX()));
-    wave[at(e)] = std::max(wave[at(e)], here);
-    wave[at(e + 1)] = here;
-    angle[at(e + 1)] = angle[at(e)] + here * element.length();
-  }
+Vector StiffString::withHelix(const Vector& displacement) const {
   Vector x = displacement;
   for (std::size_t p = 0; p < points_.node.size(); ++p) {
     const int node = points_.node[p] - 1;
-    if (wave[at(node)] == 0.0) continue;
-    x(perNode * node + u) += helixSize * points_.clearance[p] * std::cos(angle[at(node)]);
-    x(perNode * node + v) += helixSize * points_.clearance[p] * std::sin(angle[at(node)]);
+    const double angle = constants::twoPi * scene_.string.nodes[at(node)].s / helixPitch;
+    x(perNode * node + u) += helixSize * points_.clearance[p] * std::cos(angle);
+    x(perNode * node + v) += helixSize * points_.clearance[p] * std::sin(angle);
   }
   return x;
 }
@@ -138,8 +126,7 @@ std::optional<StiffString::Rest> StiffString::slide(const softstring::Operation&
       why.locksUp = compressed(problem, full);
       return why.locksUp || interruptRequested();
     };
-    auto slid =
-        equilibrium::slideStatic(loaded.input, scene_.statics, request, withHelix(problem, x));
+    auto slid = equilibrium::slideStatic(loaded.input, scene_.statics, request, withHelix(x));
     if (interruptRequested()) throw InterruptedError("Interrupted.");
     if (!slid) {
       why.unsettled = tooLong(

@@ -84,7 +84,7 @@ class StiffString {
   std::optional<Rest> slide(const softstring::Operation& operation, StiffLoads& why) const;
   std::string tooLong(const Vector& axialForce) const;
   bool compressed(const equilibrium::StaticProblem& problem, const Vector& x) const;
-  Vector withHelix(const equilibrium::StaticProblem& problem, const Vector& displacement) const;
+  Vector withHelix(const Vector& displacement) const;
 
   Scene scene_;
   path::PathState path_;
