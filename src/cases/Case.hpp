@@ -122,6 +122,8 @@ class RestingCase {
       const std::vector<model::Substructure>& parts) const = 0;
 };
 
+using Overrides = std::vector<std::string>;
+
 /// Cases made by with() from one another share the states at rest that they have in common. All
 /// calls are collective.
 class Case {
@@ -140,6 +142,10 @@ class Case {
   }
   /// Lists that the full model does without.
   virtual std::vector<std::string> reductionLists() const = 0;
+  /// Choices that the deck leaves to the predicted cost of a step: for each, alternatives in the
+  /// order in which they are tried, overrides of this deck; the first choice always, others where
+  /// the reduced model is hardly faster than the full one. None where the deck chooses itself.
+  virtual std::vector<std::vector<Overrides>> openChoices() const { return {}; }
   /// True when a run reduces the parts although the deck has no Transient list.
   virtual bool reducesWithoutMotion() const = 0;
   virtual const io::OutputSettings& output() const = 0;

@@ -11,6 +11,7 @@
 #include "cases/CaseLists.hpp"
 #include "cases/ReducedCase.hpp"
 #include "cases/recording/RecordedNodes.hpp"
+#include "cases/run/Report.hpp"
 #include "cases/run/Run.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
@@ -114,6 +115,7 @@ void listCost(const Case& one) {
   const auto text = rest->describe();
   if (!text.empty()) log::info(text);
   const auto reduced = reduce(one, *rest);
+  if (!reduced.tried.empty()) log::info(describeCuts(reduced));
   log::info(predictCost(one, rest->full().model, reduced.model()));
 }
 

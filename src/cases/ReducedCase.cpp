@@ -11,6 +11,7 @@
 #include "common/Index.hpp"
 #include "reduction/selection/ModeSelection.hpp"
 #include "reduction/vectors/FixedInterfaceModes.hpp"
+#include "transient/CostModel.hpp"
 
 namespace tooljoint::cases {
 
@@ -19,6 +20,9 @@ namespace {
 /// A motion that is faster than its samples is sampled up to so many times as often; more often
 /// than its steps it cannot be sampled.
 constexpr double mostSamples = 1024;
+
+/// Of the cost of the best cut so far, below which that of another one is worth trying further.
+constexpr double worthTrying = 0.98;
 
 /// Of a part without modes: both planes of bending, torsion and tension of a beam among them.
 constexpr int watchedModes = 4;
@@ -51,6 +55,59 @@ estimate::MotionOptions motionOptions(const RestingCase& rest) {
   return options;
 }
 
+/// As the deck cuts them.
+ReducedCase reduceAsGiven(const Case& one, const RestingCase& rest, bool progress) {
+  ReducedCase out;
+  out.unreduced = rest.parts();
+  const auto& parts = out.unreduced.parts;
+  double& sampling = out.sampling;
+  const auto probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
+    auto options = transient::readOptions(one.transient());
+    options.progress = options.progress && progress;
+    const double finest = std::max(options.step, options.sampling / mostSamples);
+    if (sampling > 0) options.sampling = sampling;
+    for (;; options.sampling *= 0.5) {
+      sampling = options.sampling;
+      estimate::MotionEstimator estimator(parts, synthesis, rest.rest(), motionOptions(rest));
+      const auto found = estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
+      if (found.reached < 1.0 || !found.isTooFast() || sampling <= finest) return found;
+      if (found.roughness > estimate::MotionEstimate::roughest) options.sampling *= 0.5;
+    }
+  };
+  out.outcome = estimate::synthesise(parts, one.reduction(), probe, out.unreduced.options);
+  return out;
+}
+
+Overrides joined(Overrides all, const Overrides& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// Each choice in turn, with what was best of those before; alternatives are tried while they are
+/// cheaper. What follows the first choice is for models that are hardly faster than the full one.
+ReducedCase reduceCheapest(const Case& one, const RestingCase& rest, bool progress) {
+  const auto options = transient::readOptions(one.transient());
+  const double full = transient::costModel(rest.full().model, options).total();
+  ReducedCase best;
+  best.cut.cost = std::numeric_limits<double>::infinity();
+  std::vector<TriedCut> tried;
+  for (const auto& choice : one.openChoices()) {
+    if (best.cut.cost < transient::worthReducing) break;
+    const Overrides before = best.cut.overrides;
+    for (const auto& alternative : choice) {
+      const Overrides own = joined(before, alternative);
+      const auto other = one.with(joined(one.deck().overrides(), own));
+      auto found = reduceAsGiven(*other, *other->solveStatic(), progress);
+      found.cut = {own, transient::costModel(found.model(), options).total() / full};
+      tried.push_back(found.cut);
+      if (!(found.cut.cost < worthTrying * best.cut.cost)) break;
+      best = std::move(found);
+    }
+  }
+  best.tried = std::move(tried);
+  return best;
+}
+
 }  // namespace
 
 std::vector<double> ReducedCase::cutOffs() const {
@@ -72,25 +129,8 @@ double ReducedCase::watchInterval(const Case& one) const {
 }
 
 ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress) {
-  ReducedCase out;
-  out.unreduced = rest.parts();
-  const auto& parts = out.unreduced.parts;
-  double& sampling = out.sampling;
-  const auto probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
-    auto options = transient::readOptions(one.transient());
-    options.progress = options.progress && progress;
-    const double finest = std::max(options.step, options.sampling / mostSamples);
-    if (sampling > 0) options.sampling = sampling;
-    for (;; options.sampling *= 0.5) {
-      sampling = options.sampling;
-      estimate::MotionEstimator estimator(parts, synthesis, rest.rest(), motionOptions(rest));
-      const auto found = estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
-      if (found.reached < 1.0 || !found.isTooFast() || sampling <= finest) return found;
-      if (found.roughness > estimate::MotionEstimate::roughest) options.sampling *= 0.5;
-    }
-  };
-  out.outcome = estimate::synthesise(parts, one.reduction(), probe, out.unreduced.options);
-  return out;
+  return one.openChoices().empty() ? reduceAsGiven(one, rest, progress)
+                                   : reduceCheapest(one, rest, progress);
 }
 
 std::vector<transient::MissingMode> missingModes(const Case& one, const ReducedCase& reduced) {

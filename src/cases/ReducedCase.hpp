@@ -11,7 +11,16 @@
 
 namespace tooljoint::cases {
 
+/// A cut that was tried: what it overrides, and the predicted work of a step over that of the full
+/// model.
+struct TriedCut {
+  Overrides overrides;
+  double cost = 0.0;
+};
+
 struct ReducedCase {
+  std::vector<TriedCut> tried;           ///< where the deck leaves the cut to the cost of a step
+  TriedCut cut;                          ///< the one of them that is taken
   coupling::ResolvedCoupling unreduced;  ///< the parts before the reduction, and what joins them
   estimate::Outcome outcome;
   double sampling = 0.0;  ///< of the motion that chose the modes [s]; 0: none did
@@ -29,8 +38,10 @@ struct ReducedCase {
   double watchInterval(const Case& one) const;
 };
 
-/// Reduces the parts of a case that has the list Reduction. A motion tolerance moves candidates;
-/// \param progress shows a progress bar then. Throws what estimate::synthesise throws. Collective.
+/// Reduces the parts of a case that has the list Reduction; where the deck leaves open how they are
+/// cut, so that a step of the reduced model is predicted to cost least. A motion tolerance moves
+/// candidates; \param progress shows a progress bar then. Throws what estimate::synthesise throws.
+/// Collective.
 ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress = true);
 
 /// The first fixed-interface modes of each part that has none in its basis, for the start of the

@@ -27,7 +27,9 @@ using constants::twoPi;
 
 namespace {
 
-/// A frequency below this fraction of the largest diagonal one is a rigid body's.
+/// A mode is a rigid body's where its frequency is below this part of that of its dofs, each by
+/// itself: sum K_ii D_i^2 over D' M D. Masses of single dofs, which may be zero but for rounding,
+/// do not count.
 constexpr double rigid = 1e-7;
 /// Modes with whole interfaces beyond those of the reduced ones, among which a shape is sought.
 constexpr int more = 6;
@@ -35,12 +37,13 @@ constexpr int more = 6;
 /// Contribution of one part to the estimate of one mode.
 struct Share {
   ResidualFlexibility::Step step;
-  double work = 0;  ///< D' r
-  double mass = 0;  ///< D' M D
+  double work = 0;      ///< D' r
+  double mass = 0;      ///< D' M D
+  double diagonal = 0;  ///< sum K_ii D_i^2
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(step.residual, step.inertia, step.stiffness, step.mass, work, mass);
+    archive(step.residual, step.inertia, step.stiffness, step.mass, work, mass, diagonal);
   }
 };
 
@@ -60,6 +63,7 @@ std::vector<Share> shares(const model::Substructure& part, const reduction::Basi
     share.step = steps[static_cast<std::size_t>(j)];
     share.work = shapes.col(j).dot(residual.col(j));
     share.mass = shapes.col(j).dot(inertia.col(j));
+    share.diagonal = K.diagonal().dot(shapes.col(j).cwiseAbs2());
   }
   return result;
 }
@@ -97,13 +101,14 @@ double signedRatio(double lambda, double full) {
   return (lambda - full) / (2.0 * std::abs(lambda));
 }
 
-/// Below this eigenvalue a mode is a rigid body's, and has no relative error.
-double smallestEigenvalue(const model::SecondOrderModel& coupled) {
-  const Sparse K = coupling::undampedStiffness(coupled), M = reduction::symmetricPart(coupled.mass);
-  double scale = 0;
-  for (int i = 0; i < K.rows(); ++i)
-    if (M.coeff(i, i) > 0) scale = std::max(scale, K.coeff(i, i) / M.coeff(i, i));
-  return rigid * rigid * scale;
+/// Whether the j-th mode is a rigid body's, which has no relative error.
+bool isRigid(double eigenvalue, Eigen::Index j, const std::vector<std::vector<Share>>& all) {
+  double mass = 0, diagonal = 0;
+  for (const auto& part : all) {
+    mass += part[at(j)].mass;
+    diagonal += part[at(j)].diagonal;
+  }
+  return std::abs(eigenvalue) * mass <= rigid * rigid * diagonal;
 }
 
 /// z' K z per mode of the point laws that join parts, which no part has in its own stiffness.
@@ -246,7 +251,7 @@ std::vector<FrequencyEstimate> assessAll(const std::vector<model::Substructure>&
         return shares(parts[p], *synthesis.parts[p].basis, shapes, pairs.values, ranks);
       });
 
-  const double smallest = smallestEigenvalue(coupled);
+  double smallest = 0;  // eigenvalues of rigid bodies are no larger
   const Vector connectors = workOfConnectors(parts, coupled, pairs.vectors);
   std::vector<FrequencyEstimate> estimates(at(pairs.values.size()));
   std::vector<double> full;
@@ -254,7 +259,11 @@ std::vector<FrequencyEstimate> assessAll(const std::vector<model::Substructure>&
     FrequencyEstimate& e = estimates[at(j)];
     e.eigenvalue = e.full = pairs.values[j];
     e.byPart = Vector::Zero(sizeOf(parts));
-    if (std::abs(e.eigenvalue) > smallest) e.full = assess(e, j, all, connectors[j]);
+    e.isRigid = isRigid(e.eigenvalue, j, all);
+    if (e.isRigid)
+      smallest = std::max(smallest, std::abs(e.eigenvalue));
+    else
+      e.full = assess(e, j, all, connectors[j]);
     full.push_back(e.full);
   }
   if (estimates.empty()) return estimates;
@@ -276,7 +285,6 @@ std::vector<FrequencyEstimate> assessReduced(const std::vector<model::Substructu
   const auto matches = matchModes(reduction::symmetricPart(model.mass),
                                   before.values.cast<Complex>(), before.vectors.cast<Complex>(),
                                   pairs.values.cast<Complex>(), shapes.cast<Complex>());
-  const double smallest = smallestEigenvalue(model);
   std::vector<FrequencyEstimate> found(at(pairs.values.size()));
   bool noneMissing = true;
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -286,7 +294,7 @@ std::vector<FrequencyEstimate> assessReduced(const std::vector<model::Substructu
     FrequencyEstimate& e = found[at(j)] = estimates[i];
     e.eigenvalue = pairs.values[j];
     e.definite = e.definite && noneMissing;
-    if (std::abs(e.eigenvalue) <= smallest) continue;
+    if (e.isRigid) continue;
     e.error = signedRatio(e.eigenvalue, e.full);
     e.interfaces = signedRatio(e.eigenvalue, before.values[static_cast<Eigen::Index>(i)]);
   }

@@ -20,6 +20,7 @@ struct FrequencyEstimate {
   double full = 0;   ///< estimate of omega^2 of the full model [rad^2/s^2]
   double interfaces = 0;     ///< contribution of an interface reduction to `error`
   Vector byPart;             ///< contribution of the truncated modes of each part to `error`, parts
+  bool isRigid = false;      ///< motion of a rigid body, zero but for rounding
   bool definite = true;      ///< false: modes are missing below this frequency, and `error`, that
                              ///< of the nearest one, is less than the error of this number
   double frequency() const;  ///< sign(omega^2) sqrt(|omega^2|) / 2 pi [Hz]

@@ -14,7 +14,9 @@ namespace {
 /// Entropy of the bytes of a plane below which deflating it pays [bit of 8].
 constexpr double structuredEntropy = 6.5;
 /// Share of bytes that are those of the row before from which it pays, too.
-constexpr double repeatedShare = 0.5;
+constexpr double repeatedShare = 0.75;
+/// The strategy of zlib for values spread at random: the same size in three quarters of the time.
+constexpr int bytesOfNumbers = Z_FILTERED;
 
 /// Entropy of single bytes [bit].
 double entropy(const unsigned char* plane, std::size_t count) {
@@ -68,7 +70,7 @@ const std::vector<unsigned char>& ChunkCompressor::compress(const std::vector<do
     unsigned char* const from = planes_.data() + plane * count;
     stream.avail_in = 0;
     require(deflateParams(&stream, structured(from, count, rowSize) ? level_ : Z_NO_COMPRESSION,
-                          Z_DEFAULT_STRATEGY) == Z_OK);
+                          bytesOfNumbers) == Z_OK);
     stream.next_in = from;
     stream.avail_in = static_cast<uInt>(count);
     const bool last = plane + 1 == width;

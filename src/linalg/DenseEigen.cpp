@@ -18,7 +18,7 @@ EigenPairs symmetricModes(const Matrix& K, const Matrix& M, const DofNamer& name
                m = symmetricPart(M.sparseView(0.0, 0.0), "mass", name);
   if (k.rows() != m.rows())
     throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
-  requirePositiveDefinite(m, name);
+  definitePivots(m, name);
   EigenPairs modes;
   modes.method = "dense symmetric pencil (Cholesky, tridiagonal QR)";
   if (k.rows() == 0) {

@@ -397,7 +397,7 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   const int wanted = model.size() <= std::max(fewDofs, beyond)
                          ? model.size()
                          : std::min(std::max(mostModes, beyond), found.negativePivots + beyond);
-  const auto share = parallel::size() > 1 && !linalg::hasMasslessDofs(tangent.mass)
+  const auto share = parallel::size() > 1 && !linalg::hasMasslessMotion(tangent.mass)
                          ? shareOf(model, symmetric, tangent.mass)
                          : nullptr;
   const auto modes =

@@ -22,9 +22,9 @@ struct Checkpoint {
                         ///< caller says nothing
   std::string program;  ///< version and commit of the program that wrote it
   std::string integrator;       ///< its name in the deck
-  std::string model;            ///< modelIdentity() of the model and the options
+  std::string model;            ///< digest of the model and the options (ModelIdentity)
   int ranks = 1;                ///< of the run that wrote it
-  std::vector<double> figures;  ///< modelFigures(): the model that other ranks find
+  std::vector<double> figures;  ///< of the model, as other ranks find it
   State state;                  ///< in dofs of the model
   Counters counters;
   long contactEvaluations = 0;

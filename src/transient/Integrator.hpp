@@ -130,7 +130,7 @@ class Integrator {
   virtual void startAgain(const double* /*history*/, State& /*from*/) {}
 
   /// Called before prepare() on an object whose motion that of a run is compared with: no numerical
-  /// damping, iterations that end later.
+  /// damping, iterations that end later, impacts in steps of half the length.
   virtual void sharpen() {}
 
   /// Append / take back everything beyond State that the next steps depend on, so that a run goes

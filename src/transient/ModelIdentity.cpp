@@ -7,6 +7,7 @@
 #include <sstream>
 #include <vector>
 
+#include "common/Index.hpp"
 #include "common/Sha256.hpp"
 #include "model/laws/StatefulPointLaw.hpp"
 #include "transient/Integrator.hpp"
@@ -20,9 +21,9 @@ constexpr int lawIntervals = 32;
 /// [m], [m/s].
 constexpr double probeDepth = 1e-3, probeSpeed = 0.1;
 
-/// Collects bytes; the length stands before each array, so that different data never make the same
-/// bytes.
-class Bytes {
+/// Takes the digest of what is added, and its figures. The length stands before each array, so that
+/// different data never make the same bytes.
+class Summary {
  public:
   void add(double x) {
     append(&x, 1);
@@ -31,28 +32,28 @@ class Bytes {
   void add(std::int64_t x) { append(&x, 1); }
   void add(const std::string& text) {
     add(static_cast<std::int64_t>(text.size()));
-    bytes_ += text;
+    append(text.data(), text.size());
   }
   void add(const Vector& x) {
     add(static_cast<std::int64_t>(x.size()));
-    append(x.data(), static_cast<std::size_t>(x.size()));
-    note(x.data(), static_cast<std::size_t>(x.size()));
+    append(x.data(), at(x.size()));
+    note(x.data(), at(x.size()));
   }
   void add(const Sparse& matrix) {
-    add(static_cast<std::int64_t>(matrix.rows()));
+    if (!matrix.isCompressed()) {
+      Sparse compressed = matrix;
+      compressed.makeCompressed();
+      return add(compressed);
+    }
+    const auto entries = at(matrix.nonZeros());
     add(static_cast<std::int64_t>(matrix.cols()));
-    std::vector<double> values;
-    for (int i = 0; i < matrix.outerSize(); ++i)
-      for (Sparse::InnerIterator it(matrix, i); it; ++it) {
-        add(static_cast<std::int64_t>(it.row()));
-        add(static_cast<std::int64_t>(it.col()));
-        append(&it.value(), 1);
-        values.push_back(it.value());
-      }
-    note(values.data(), values.size());
+    add(static_cast<std::int64_t>(matrix.rows()));
+    append(matrix.outerIndexPtr(), at(matrix.outerSize()) + 1);
+    append(matrix.innerIndexPtr(), entries);
+    append(matrix.valuePtr(), entries);
+    note(matrix.valuePtr(), entries);
   }
-  std::string digest() const { return sha256(bytes_); }
-  const std::vector<double>& figures() const { return figures_; }
+  ModelIdentity identity() { return {sha256_.digest(), figures_}; }
 
  private:
   /// sum |x_i| and sum w_i x_i with weights between -1/2 and 1/2 that no two entries share; what is
@@ -71,22 +72,23 @@ class Bytes {
 
   template <class Value>
   void append(const Value* values, std::size_t count) {
-    bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(Value));
+    sha256_.add(values, count * sizeof(Value));
   }
-  std::string bytes_;
+  Sha256 sha256_;
   std::vector<double> figures_;
 };
 
-void addDofs(const model::SecondOrderModel& model, Bytes& bytes) {
-  for (const auto& name : model.componentNames) bytes.add(name);
-  for (const auto& dof : model.dofs) bytes.add(model::describe(dof, model.componentNames));
+void addDofs(const model::SecondOrderModel& model, Summary& summary) {
+  for (const auto& name : model.componentNames) summary.add(name);
+  for (const auto& dof : model.dofs) summary.add(model::describe(dof, model.componentNames));
 }
 
-void addLaws(const model::SecondOrderModel& model, const TransientOptions& options, Bytes& bytes) {
+void addLaws(const model::SecondOrderModel& model, const TransientOptions& options,
+             Summary& summary) {
   for (const auto& law : model.laws) {
-    bytes.add(law.name);
+    summary.add(law.name);
     for (int i = 0; i <= lawIntervals; ++i)
-      bytes.add(law.value(options.start + (options.end - options.start) * i / lawIntervals));
+      summary.add(law.value(options.start + (options.end - options.start) * i / lawIntervals));
   }
 }
 
@@ -103,16 +105,16 @@ class ForcesAtStart {
   }
   const std::vector<int>& points() const { return all_; }
 
-  void add(const Vector& d, const Vector& v, Bytes& bytes) {
+  void add(const Vector& d, const Vector& v, Summary& summary) {
     Vector force = Vector::Zero(d.size());
     if (stateful_ == nullptr) {
       law_.evaluate(t_, all_, d.data(), v.data(), force.data());
     } else {
       stateful_->forces(t_, all_, d.data(), v.data(), x_.data(), force.data(), g_.data());
-      bytes.add(x_);
-      bytes.add(g_);
+      summary.add(x_);
+      summary.add(g_);
     }
-    bytes.add(force);
+    summary.add(force);
   }
 
  private:
@@ -126,20 +128,20 @@ class ForcesAtStart {
 /// Forces at the start, and with every point moved just beyond its clearance, each way along each
 /// coordinate that decides about it.
 void addPoints(const model::PointSet& set, const model::SecondOrderModel& model, double t,
-               Bytes& bytes) {
+               Summary& summary) {
   const auto& law = *set.law;
   const int width = law.width();
-  bytes.add(set.name);
-  for (auto entity : set.entities) bytes.add(entity);
-  bytes.add(set.rows);
-  bytes.add(set.offset);
+  summary.add(set.name);
+  for (auto entity : set.entities) summary.add(entity);
+  summary.add(set.rows);
+  summary.add(set.offset);
   const Vector start = set.offset + set.rows * model.initialDisplacement;
   const Vector velocity = set.rows * model.initialVelocity;
   Vector clearance = Vector::Zero(law.size());
   ForcesAtStart forces(law, t, start, velocity);
-  forces.add(start, velocity, bytes);
+  forces.add(start, velocity, summary);
   law.clearanceLeft(forces.points(), start.data(), clearance.data());
-  bytes.add(clearance);
+  summary.add(clearance);
   for (int c = 0; c < width; ++c)
     for (const double way : {1.0, -1.0}) {
       Vector d = start, v = Vector::Zero(start.size());
@@ -148,12 +150,12 @@ void addPoints(const model::PointSet& set, const model::SecondOrderModel& model,
         d[p * width + c] += way * (gap + probeDepth);
         for (int k = 0; k < width; ++k) v[p * width + k] = way * probeSpeed * (k + 1);
       }
-      forces.add(d, v, bytes);
+      forces.add(d, v, summary);
     }
 }
 
 /// In the order of the names.
-void addList(const Teuchos::ParameterList& list, Bytes& bytes) {
+void addList(const Teuchos::ParameterList& list, Summary& summary) {
   std::map<std::string, std::string> values;
   for (auto it = list.begin(); it != list.end(); ++it) {
     std::ostringstream text;
@@ -162,43 +164,19 @@ void addList(const Teuchos::ParameterList& list, Bytes& bytes) {
     values[list.name(it)] = text.str();
   }
   for (const auto& [name, value] : values) {
-    bytes.add(name);
-    bytes.add(value);
+    summary.add(name);
+    summary.add(value);
   }
 }
 
-void addOptions(const TransientOptions& options, Bytes& bytes) {
-  bytes.add(options.integrator);
-  for (double x : {options.start, options.end, options.step, options.sampling}) bytes.add(x);
-  bytes.add(static_cast<std::int64_t>(options.ledger));
+void addOptions(const TransientOptions& options, Summary& summary) {
+  summary.add(options.integrator);
+  for (double x : {options.start, options.end, options.step, options.sampling}) summary.add(x);
+  summary.add(static_cast<std::int64_t>(options.ledger));
   const auto& registry = IntegratorRegistry::instance();
   const bool anywhere = registry.make(options.integrator, options.own)->goesOnFromAnywhere();
-  bytes.add(anywhere ? 0.0 : options.checkpointInterval);
-  addList(withDefaults(options.own, registry.find(options.integrator).parameters), bytes);
-}
-
-/// All a motion depends on.
-Bytes bytesOf(const model::SecondOrderModel& model, const TransientOptions& options) {
-  Bytes bytes;
-  addDofs(model, bytes);
-  addLaws(model, options, bytes);
-  bytes.add(model.mass.sparse());
-  for (const auto* terms : {&model.damping, &model.stiffness}) {
-    bytes.add(static_cast<std::int64_t>(terms->size()));
-    for (const auto& term : *terms) {
-      bytes.add(static_cast<std::int64_t>(term.law));
-      bytes.add(term.matrix.sparse());
-    }
-  }
-  for (const auto& term : model.loads) {
-    bytes.add(static_cast<std::int64_t>(term.law));
-    bytes.add(term.vector);
-  }
-  for (const auto& set : model.points) addPoints(set, model, options.start, bytes);
-  bytes.add(model.initialDisplacement);
-  bytes.add(model.initialVelocity);
-  addOptions(options, bytes);
-  return bytes;
+  summary.add(anywhere ? 0.0 : options.checkpointInterval);
+  addList(withDefaults(options.own, registry.find(options.integrator).parameters), summary);
 }
 
 /// Part of the size of an array that rounding may change.
@@ -206,13 +184,27 @@ constexpr double rounding = 1e-7;
 
 }  // namespace
 
-std::string modelIdentity(const model::SecondOrderModel& model, const TransientOptions& options) {
-  return bytesOf(model, options).digest();
-}
-
-std::vector<double> modelFigures(const model::SecondOrderModel& model,
-                                 const TransientOptions& options) {
-  return bytesOf(model, options).figures();
+ModelIdentity identityOf(const model::SecondOrderModel& model, const TransientOptions& options) {
+  Summary summary;
+  addDofs(model, summary);
+  addLaws(model, options, summary);
+  summary.add(model.mass.sparse());
+  for (const auto* terms : {&model.damping, &model.stiffness}) {
+    summary.add(static_cast<std::int64_t>(terms->size()));
+    for (const auto& term : *terms) {
+      summary.add(static_cast<std::int64_t>(term.law));
+      summary.add(term.matrix.sparse());
+    }
+  }
+  for (const auto& term : model.loads) {
+    summary.add(static_cast<std::int64_t>(term.law));
+    summary.add(term.vector);
+  }
+  for (const auto& set : model.points) addPoints(set, model, options.start, summary);
+  summary.add(model.initialDisplacement);
+  summary.add(model.initialVelocity);
+  addOptions(options, summary);
+  return summary.identity();
 }
 
 bool agree(const std::vector<double>& figures, const std::vector<double>& others) {

@@ -203,8 +203,8 @@ class Run {
   /// Bit by bit; of other ranks but for rounding, since they find the static state in sums of other
   /// order.
   bool isOfThisModel(const Checkpoint& point) {
-    return point.model == identity() || (point.ranks != parallel::size() &&
-                                         agree(point.figures, modelFigures(whole_, options_)));
+    return point.model == identity().digest ||
+           (point.ranks != parallel::size() && agree(point.figures, identity().figures));
   }
 
   /// Ranks with a memory of their own.
@@ -282,9 +282,9 @@ class Run {
     return dofs;
   }
 
-  const std::string& identity() {
-    if (identity_.empty()) identity_ = modelIdentity(whole_, options_);
-    return identity_;
+  const ModelIdentity& identity() {
+    if (!identity_) identity_ = identityOf(whole_, options_);
+    return *identity_;
   }
 
   /// Hand a checkpoint to whoever keeps it.
@@ -318,9 +318,9 @@ class Run {
     Checkpoint point;
     point.program = programVersion() + " " + gitHash();
     point.integrator = options_.integrator;
-    point.model = identity();
+    point.model = identity().digest;
     point.ranks = parallel::size();
-    point.figures = modelFigures(whole_, options_);
+    point.figures = identity().figures;
     point.state = stateInDofs();
     point.counters = integrator_->counters();
     point.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
@@ -452,8 +452,8 @@ class Run {
   std::optional<double> judged_;  ///< what it comes to at the end
   State state_, next_;
   long evaluationsBefore_ = 0;
-  std::string identity_;
-  std::exception_ptr failure_;  ///< of a checkpoint on this rank
+  std::optional<ModelIdentity> identity_;  ///< found when it is needed
+  std::exception_ptr failure_;             ///< of a checkpoint on this rank
 };
 
 /// A force that joins parts, with -flexibility for stiffness and a mass: an eigenvalue omega^2 < 0.

@@ -98,6 +98,17 @@ class EccentricInMotion final : public model::PointLaw,
     auto smooth = model::withoutFriction(concentric_);
     return smooth == concentric_ ? nullptr : eccentric(std::move(smooth), offsets_);
   }
+  double drive(double t, const std::vector<int>& points, const double* friction) const override {
+    thread_local std::vector<double> concentric;
+    const int w = width();
+    concentric.assign(friction, friction + w * size());
+    for (const int p : points) {
+      const Eigen::Vector2d& o = offsets_[at(p)];
+      const double* f = friction + w * p;
+      concentric[at(w * p + w - 1)] -= o.x() * f[1] - o.y() * f[0];
+    }
+    return dynamic_cast<const model::Frictional&>(*concentric_).drive(t, points, concentric.data());
+  }
   std::shared_ptr<const model::PointLaw> atSpeed(double speed) const override {
     return eccentric(model::atSpeed(concentric_, speed), offsets_);
   }

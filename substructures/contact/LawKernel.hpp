@@ -184,6 +184,15 @@ class BoreholeContactOf final : public BoreholeContact,
     return std::make_shared<BoreholeContactOf>(std::move(smooth), original_, speed_, feed_);
   }
 
+  double drive(double t, const std::vector<int>& points, const double* friction) const override {
+    double torque = 0.0, along = 0.0;
+    for (const int p : points) {
+      torque += friction[W * p + Z];
+      if constexpr (Axial) along += friction[W * p + 2];
+    }
+    return -(torque * speed_(t) + along * feed_);
+  }
+
   std::shared_ptr<const model::PointLaw> atSpeed(double speed) const override {
     return std::make_shared<BoreholeContactOf>(
         points_, original_, [speed](double /*t*/) { return speed; }, feed_);

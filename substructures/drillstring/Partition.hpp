@@ -61,7 +61,12 @@ deck::ListSpec partitionParameters();
 /// rotations would cut).
 PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIntegrator);
 
-/// The parts from top to bottom; they cover every element once. Throws DeckError for cut nodes that
+/// Lengths [m] that the rule "By cost" tries: about one component, two, four, ... up to half of the
+/// string.
+std::vector<double> lengthsOfParts(const DrillString& string);
+
+/// The parts from top to bottom; they cover every element once; with "By cost", whose parts are not
+/// known before the static state, the components. Throws DeckError for cut nodes that
 /// do not exist.
 std::vector<PartRange> cutParts(const DrillString& string, const PartitionRules& rules);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/printf.h>
 
+#include "common/Text.hpp"
 #include "common/report/Detail.hpp"
 #include "common/report/Percent.hpp"
 
@@ -40,6 +41,15 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
   for (const auto& part : parts) modes += part.modes;
   return fmt::sprintf("reduction   %zu parts, %d modes: %d dofs instead of %d, in %.2f s",
                       parts.size(), modes, reducedDofs, fullDofs, wall);
+}
+
+std::string describeCuts(const ReducedCase& reduced) {
+  std::string text = "cut by cost predicted work of a step, of that of the full model:";
+  for (const auto& one : reduced.tried)
+    text += fmt::sprintf("\n            %.2f%s  ", one.cost,
+                         one.overrides == reduced.cut.overrides ? " taken" : "      ") +
+            join(one.overrides, ", ");
+  return text;
 }
 
 std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced,

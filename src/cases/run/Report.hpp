@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cases/MotionRecord.hpp"
+#include "cases/ReducedCase.hpp"
 #include "coupling/assembly/Assembler.hpp"
 #include "estimate/MotionEstimate.hpp"
 #include "reduction/ReducedSubstructure.hpp"
@@ -18,6 +19,8 @@ namespace tooljoint::cases {
 
 std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts,
                               int fullDofs, int reducedDofs, double wall);
+/// What Substructures/Rule = "By cost" has chosen, and what it has tried.
+std::string describeCuts(const ReducedCase& reduced);
 /// Predicted work of a step of both models, and which is faster; `switches` of the command make the
 /// full model.
 std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced,

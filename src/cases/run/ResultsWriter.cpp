@@ -98,6 +98,7 @@ void summariseEstimate(const estimate::Outcome& outcome,
 
 void summarise(const ReducedCase& reduced, const std::string& basis, double wall,
                io::Summary& summary) {
+  if (!reduced.tried.empty()) summary.set("reduction.cut_by_cost", reduced.cut.overrides);
   summary.set("reduction.start_misfit", coupling::startMisfit(reduced.outcome.synthesis));
   summariseParts(reduced.parts(), basis, reduced.model().size(), wall, summary);
   summariseCoupling(reduced.coupled(), summary);

@@ -75,6 +75,7 @@ class Run {
     const auto& parts = reduced_.unreduced.parts;
     const int dofs = reduced_.model().size();
     if (!outcome.rounds.empty()) log::info(estimate::roundTable(outcome.rounds));
+    if (!reduced_.tried.empty()) log::info(describeCuts(reduced_));
     log::info(describeReduction(reduced_.parts(), case_.freeDofs(), dofs, wall));
     log::info(describeCoupling(reduced_.coupled()));
     for (const auto& remark : reduced_.coupled().remarks) log::warn(remark);

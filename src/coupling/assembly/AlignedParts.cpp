@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -135,16 +136,23 @@ void alignComponents(std::vector<AlignedPart>& alignedParts) {
 
 namespace {
 
+/// Without entries that are rounding, as cos(pi/2) is: they would give a massless dof beside one
+/// with mass a mass of 1e-33 of it, at which a scale takes it for a dof with one.
+Matrix3 withoutRounding(const Matrix3& axes) {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  return (axes.array().abs() > rounding).select(axes, 0.0);
+}
+
 /// The frames of one part by node.
 class PartFrames {
  public:
   void set(const Frame& frame) {
     if (frame.node == 0) {
       nodes_.clear();
-      everywhere_ = frame.axes;
+      everywhere_ = withoutRounding(frame.axes);
       any_ = true;
     } else {
-      nodes_[frame.node] = frame.axes;
+      nodes_[frame.node] = withoutRounding(frame.axes);
     }
   }
   bool empty() const { return !any_ && nodes_.empty(); }

@@ -67,6 +67,7 @@ const std::vector<std::string>& documentedKeys() {
       "reduction.start_misfit",
       "reduction.wall_s",
       "reduction.cost_ratio",
+      "reduction.cut_by_cost",
       "reduction.coupling.assembly",
       "reduction.coupling.joined_dofs",
       "reduction.coupling.multipliers",

@@ -157,10 +157,10 @@ std::shared_ptr<const Sparse> sharedSymmetricPart(const Sparse& A, const std::st
   return std::make_shared<const Sparse>(symmetricPart(A, what, name));
 }
 
-void requirePositiveDefinite(const Sparse& M, const DofNamer& name) {
+Vector definitePivots(const Sparse& M, const DofNamer& name) {
   constexpr double none = 4.0 * epsilon;  // of the diagonal: a pivot that is rounding
   const Vector diagonal = M.diagonal();
-  if (suitsMumps(M) && diagonal.minCoeff() > 0.0 && isDefinite(M, none)) return;
+  if (suitsMumps(M) && diagonal.minCoeff() > 0.0 && isDefinite(M, none)) return diagonal;
   Ldlt ldlt;
   ldlt.compute(ColumnSparse(M));
   const auto refuse = [&](int dof) {
@@ -173,10 +173,13 @@ void requirePositiveDefinite(const Sparse& M, const DofNamer& name) {
   if (ldlt.info() != Eigen::Success) refuse(static_cast<int>(largestEntry(-diagonal)));
   // Pivot i belongs to row p_i of M.
   const Vector d = ldlt.vectorD();
+  Vector pivots(M.rows());
   for (int i = 0; i < M.rows(); ++i) {
     const int dof = ldlt.permutationPinv().indices()[i];
     if (!(d[i] > none * diagonal[dof])) refuse(dof);
+    pivots[dof] = d[i];
   }
+  return pivots;
 }
 
 double eigenvalueScale(const Sparse& K, const Sparse& M) {

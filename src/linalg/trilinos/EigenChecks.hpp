@@ -20,8 +20,9 @@ Sparse symmetricPart(const Sparse& A, const std::string& what, const DofNamer& n
 std::shared_ptr<const Sparse> sharedSymmetricPart(const Sparse& A, const std::string& what,
                                                   const DofNamer& name);
 
-/// ModelError naming the dof when the symmetric M is not positive definite.
-void requirePositiveDefinite(const Sparse& M, const DofNamer& name);
+/// The pivot of each dof in LDL' factors of the symmetric M; of a large one its diagonal entry.
+/// ModelError naming the dof when M is not positive definite.
+Vector definitePivots(const Sparse& M, const DofNamer& name);
 
 /// 1 / sqrt(M_ii), which makes translations, rotations and modal coordinates comparable; dofs
 /// without mass take part by their stiffness.

@@ -16,6 +16,7 @@
 #include "common/Interrupt.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/StageTimes.hpp"
+#include "linalg/DenseDecompositions.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/SparseProducts.hpp"
@@ -23,6 +24,7 @@
 #include "linalg/trilinos/DividedModes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/FunctionOperator.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "linalg/trilinos/TpetraConversion.hpp"
 
 namespace tooljoint::linalg {
@@ -37,25 +39,40 @@ constexpr double iterationShare = 1e-4;
 /// An eigenvalue below this part of the largest is too near zero for a shift of zero.
 constexpr double wellAboveZero = 1e-10;
 
+/// K_ii over the pivot of its mass, over the median of these, above which a dof is light: rounding
+/// of the largest eigenvalues, which it makes, reaches the lowest ones.
+constexpr double lightDof = 1e6;
+
+double median(Vector values) {
+  if (values.size() == 0) return 0.0;
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// A checked symmetric pencil and what is derived from it once; k and m outlive it.
 struct Pencil {
   std::shared_ptr<const Sparse> symmetricK, symmetricM;
   const Sparse &K, &M;
-  double scale;                             ///< lower bound of the largest eigenvalue
+  double middle = 0;      ///< median of K_ii over the pivots of M
+  double scale = 0;       ///< lower bound of the largest eigenvalue, but for those of light dofs
+  bool hasLight = false;  ///< some dofs are light
   std::shared_ptr<const ChainShare> share;  ///< of this rank in products and solves; null: none
 
   Pencil(const Sparse& k, const Sparse& m, const DofNamer& name)
       : symmetricK(sharedSymmetricPart(k, "stiffness", name)),
         symmetricM(sharedSymmetricPart(m, "mass", name)),
         K(*symmetricK),
-        M(*symmetricM),
-        scale(0.0) {
+        M(*symmetricM) {
     if (K.rows() != M.rows())
       throw ModelError("The stiffness and mass matrices of an eigenproblem have " +
                        std::to_string(K.rows()) + " and " + std::to_string(M.rows()) +
                        " rows: they must agree.");
-    requirePositiveDefinite(M, name);
+    const Vector ratios = K.diagonal().cwiseAbs().cwiseQuotient(definitePivots(M, name));
+    middle = median(ratios);
     scale = eigenvalueScale(K, M);
+    hasLight = middle > 0.0 && ratios.maxCoeff() > lightDof * middle;
+    if (hasLight) scale = std::min(scale, lightDof * middle);
   }
   int size() const { return static_cast<int>(K.rows()); }
   int below(double bound) const { return eigenvaluesBelow(K, M, bound); }
@@ -310,8 +327,33 @@ std::optional<std::pair<int, double>> lastGap(const Vector& values, int from, do
   return std::nullopt;
 }
 
+/// At least the `count` lowest modes of a pencil with light dofs: those below these dofs from the
+/// inverse about the middle of the spectrum, in which they are no larger than rounding, and others
+/// beside them.
+EigenPairs modesBesideLight(const Pencil& pencil, int count, EigenOptions options) {
+  const int below = pencil.below(pencil.scale);
+  options.shift = -pencil.middle;
+  EigenPairs modes = semidefiniteModes(pencil.K, pencil.M, below, options);
+  if (modes.count() != below)
+    throw ConvergenceError(std::to_string(modes.count()) + " of the " + std::to_string(below) +
+                           " modes below " + scientific(pencil.scale) + " were found (" +
+                           modes.method + ").");
+  const int above = pencil.size() - below;
+  if (count <= below || above == 0) return modes;
+  const auto all = symmetricPairs(Matrix(pencil.K), Matrix(pencil.M));
+  Matrix others = all.vectors.rightCols(above);
+  others -= modes.vectors * (modes.vectors.transpose() * product(pencil.M, others));
+  modes.values.conservativeResize(pencil.size());
+  modes.values.tail(above) = all.values.tail(above);
+  modes.vectors.conservativeResize(Eigen::NoChange, pencil.size());
+  modes.vectors.rightCols(above) = others;
+  return modes;
+}
+
 EigenPairs denseModes(const Pencil& pencil, int count, const EigenOptions& options) {
-  EigenPairs modes = symmetricModes(Matrix(pencil.K), Matrix(pencil.M), options.name);
+  EigenPairs modes = pencil.hasLight
+                         ? modesBesideLight(pencil, count, options)
+                         : symmetricModes(Matrix(pencil.K), Matrix(pencil.M), options.name);
   const double floor = 1e-14 * modes.values.cwiseAbs().maxCoeff();
   truncate(modes, options.keepPairs
                       ? keepWholePairs(modes.values, count, options.pairTolerance, floor)

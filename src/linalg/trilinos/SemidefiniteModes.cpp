@@ -179,12 +179,14 @@ bool hasSingularMass(const Sparse& M) {
          (M.rows() > 0 && factor.vectorD().minCoeff() <= massless);
 }
 
-bool hasMasslessDofs(const Sparse& M) { return (M.diagonal().array() == 0.0).any(); }
+bool hasMasslessMotion(const Sparse& M) {
+  return (M.diagonal().array() == 0.0).any() || (!suitsMumps(M) && hasSingularMass(M));
+}
 
 EigenPairs lowestFiniteModes(const Sparse& K, const Sparse& M, int count,
                              const EigenOptions& options) {
-  return hasMasslessDofs(M) ? semidefiniteModes(K, M, count, options)
-                            : lowestModes(K, M, count, options);
+  return hasMasslessMotion(M) ? semidefiniteModes(K, M, count, options)
+                              : lowestModes(K, M, count, options);
 }
 
 }  // namespace tooljoint::linalg

@@ -37,11 +37,11 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count,
 /// residual flexibility without mass.
 bool hasSingularMass(const Sparse& M);
 
-/// Some dof has no mass: its diagonal entry is 0.
-bool hasMasslessDofs(const Sparse& M);
+/// Some dof has no mass, or, of a matrix that is not large, some motion across the axes of dofs.
+bool hasMasslessMotion(const Sparse& M);
 
-/// lowestModes, or semidefiniteModes where some dof has no mass: at most `count`, all finite ones
-/// when there are fewer.
+/// lowestModes, or semidefiniteModes where some motion has no mass: at most `count`, all finite
+/// ones when there are fewer.
 EigenPairs lowestFiniteModes(const Sparse& K, const Sparse& M, int count,
                              const EigenOptions& options = {});
 

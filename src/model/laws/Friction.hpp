@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "model/laws/PointLaw.hpp"
 
@@ -17,6 +18,9 @@ class Frictional {
   virtual ~Frictional() = default;
   /// The same law with its normal forces alone; null when no point has friction.
   virtual std::shared_ptr<const PointLaw> withoutFriction() const = 0;
+  /// Power [W] that the prescribed motion behind the points feeds in against their friction:
+  /// `friction`, where forces of all points stand as in evaluate(). 0 for walls at rest.
+  virtual double drive(double t, const std::vector<int>& points, const double* friction) const = 0;
 };
 
 /// The law itself where it has no friction.

@@ -92,6 +92,8 @@ class Stops final : public PerPoint<StopParameters, Stops>, public Frictional {
     return sum;
   }
 
+  double drive(double, const std::vector<int>&, const double*) const override { return 0; }
+
   std::vector<Channel> channels() const override {
     std::vector<Channel> list{
         {"stop_force", "N", "Force of the stop, positive when it pushes its sides apart"},

@@ -70,7 +70,7 @@ int countZeroEnergy(const Sparse& K, const Sparse& Phi, const Matrix& q,
 /// u' |K| u / u' M u summed over the dofs.
 int zeroEnergyOfWhole(const PartView& part) {
   const Sparse &K = part.symmetricStiffness(), &M = part.mass();
-  if (!linalg::suitsMumps(K) || linalg::hasMasslessDofs(M)) {
+  if (!linalg::suitsMumps(K) || linalg::hasMasslessMotion(M)) {
     linalg::EigenOptions options;
     options.name = model::namer(part.model());
     const linalg::EigenPairs lowest = linalg::lowestFiniteModes(

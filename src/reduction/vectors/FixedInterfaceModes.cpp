@@ -37,7 +37,7 @@ linalg::EigenPairs solve(const PartView& part, int number, const ModeRequest& re
   options.stiffness = part.sharedFactors(number);
   const Sparse &K = block.symmetricStiffness, &M = block.mass;
   const bool below = request.kind == ModeRequest::Kind::Below;
-  if (linalg::hasMasslessDofs(M)) {
+  if (linalg::hasMasslessMotion(M)) {
     const int asked = below ? progress.available : std::min(count, progress.available);
     auto pairs = linalg::semidefiniteModes(K, M, asked, options);
     if (pairs.count() < asked) progress.available = pairs.count();

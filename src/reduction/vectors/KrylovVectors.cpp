@@ -105,7 +105,7 @@ class DrivenBlock {
     const auto seed = static_cast<std::uint64_t>(97 + set_->size());
     Matrix z = linalg::scatteredNumbers(
         M_.rows(), std::min<Eigen::Index>(count, M_.rows() - set_->size()), seed);
-    if (linalg::hasMasslessDofs(M_)) z = solve(M_ * z);
+    if (linalg::hasMasslessMotion(M_)) z = solve(M_ * z);
     findDirections(z);
     exhausted_ = directions_.cols() == 0;
     last_.resize(states_->basis().rows(), 0);

@@ -16,8 +16,8 @@ void FrictionWork::allocate(const CompiledModel& model) {
   std::size_t most = 0, widest = 0;
   for (const auto& batch : model.points()) {
     Set set;
-    if (const auto* law = dynamic_cast<const model::Frictional*>(&batch.law()))
-      set.smooth = law->withoutFriction();
+    set.law = dynamic_cast<const model::Frictional*>(&batch.law());
+    if (set.law != nullptr) set.smooth = set.law->withoutFriction();
     const auto rows = at(batch.points()) * at(batch.width());
     if (set.smooth != nullptr) {
       set.force.assign(rows, 0.0);
@@ -96,12 +96,12 @@ double FrictionWork::work(PointBatch& batch, Set& set, const State& to) {
       done += 0.5 * set.force[at(i)] * step_[at(i)];
     }
   for (const int p : impacts_)
-    for (int i = p * w; i < (p + 1) * w; ++i)
-      done += (with_[at(i)] - without_[at(i)]) * step_[at(i)];
-  const double power = batch.law().power(to.t, steady_, batch.d(), batch.v()).drive;
-  drive_ += 0.5 * h_ * (set.power + power);
-  if (!impacts_.empty())
-    drive_ += h_ * batch.law().power(to.t, impacts_, batch.d(), batch.v()).drive;
+    for (int i = p * w; i < (p + 1) * w; ++i) {
+      with_[at(i)] -= without_[at(i)];
+      done += with_[at(i)] * step_[at(i)];
+    }
+  const double power = set.law->drive(to.t, steady_, set.force.data());
+  drive_ += 0.5 * h_ * (set.power + power) + h_ * set.law->drive(to.t, impacts_, with_.data());
   set.power = power;
   set.points.assign(steady_.begin(), steady_.end());
   return done;

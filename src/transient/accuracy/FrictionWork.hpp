@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/laws/Friction.hpp"
 #include "transient/compiled/CompiledModel.hpp"
 
 namespace tooljoint::transient {
@@ -38,6 +39,7 @@ class FrictionWork {
 
  private:
   struct Set {
+    const model::Frictional* law = nullptr;
     std::shared_ptr<const model::PointLaw> smooth;  ///< the law without friction
     std::vector<double> force;                      ///< friction f_n, rows; 0 where none acts
     std::vector<int> points;                        ///< where it is not 0
@@ -48,7 +50,7 @@ class FrictionWork {
 
   std::vector<Set> sets_;
   std::vector<int> looked_, steady_, impacts_, left_;
-  std::vector<double> with_, without_, step_;
+  std::vector<double> with_, without_, step_;  ///< forces, of impacts friction alone; dq
   Vector q_, dq_;
   double time_ = 0, friction_ = 0, drive_ = 0;
   double h_ = 0;

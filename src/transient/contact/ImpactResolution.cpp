@@ -111,6 +111,7 @@ bool ImpactResolution::matters(double change) const {
 
 /// Whether the wall turns the point within few steps, so that an impact in them is none.
 bool ImpactResolution::isFast(const MetWall& wall, double change, double h) const {
+  h *= counted_;
   return (wall.frequency() * h > Tuned::resolved ||
           wall.damping(0.5 * change * h) * h > Tuned::mostLost) &&
          matters(change * change);
@@ -118,6 +119,7 @@ bool ImpactResolution::isFast(const MetWall& wall, double change, double h) cons
 
 bool ImpactResolution::losesMuch(const MetWall& wall, double change, double h) const {
   if (!isFast(wall, change, h)) return false;
+  h *= counted_;
   const double square = change * change, wh = wall.frequency() * h;
   if (matters(reboundLoss(wh, radius_) * square)) return true;
   if (!alone_) return false;
@@ -130,6 +132,7 @@ bool ImpactResolution::losesMuch(const MetWall& wall, double change, double h) c
 /// 0.15 always meet that.
 double ImpactResolution::misplaced(const MetWall& wall, double change, double h) const {
   if (!isFast(wall, change, h)) return 0;
+  h *= counted_;
   const double mass = 1.0 / wall.mobility();
   const Scatter part(wall.frequency() * h, wall.damping(0.5 * change * h) * h);
   return (part.spring * std::max(mass, share_) + part.damper * mass) * change * change;
@@ -253,7 +256,7 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
         fastest = std::max(fastest, std::abs(batch.rowTimesVector(k, to.v.data())));
       met_.face(batch, p, mobility(b, p), to.t);
       met_.measure(fastest, h);
-      if (met_.frequency() * h <= Tuned::resolved) continue;
+      if (met_.frequency() * counted_ * h <= Tuned::resolved) continue;
       const double reversal = 2 * std::abs(met_.along(to.v));
       measureBy(b, impactSpeed(0.5 * reversal));
       needed = std::max(

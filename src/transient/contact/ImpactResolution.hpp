@@ -43,6 +43,8 @@ class ImpactResolution {
  public:
   /// For the scheme of spectral radius r and a mass that is inverted.
   void bind(CompiledModel& model, const MassFactor& mass, double radius);
+  /// Impacts are resolved by steps of half the length that do so else.
+  void halve() { counted_ = 2; }
 
   /// Halvings of the step from `from` to `to` of length h, just taken, that resolve its impacts; 0
   /// where it does so itself.
@@ -97,6 +99,7 @@ class ImpactResolution {
 
   CompiledModel* model_ = nullptr;
   double radius_ = 1;
+  double counted_ = 1;  ///< length that counts over that of a step
   std::vector<Set> sets_;
   MassNorm norm_;
   double share_ = 0;               ///< mass of a coordinate on average [kg]

@@ -178,6 +178,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   void sharpen() override {
     parameters_.equations.tolerance *= strictness;
     parameters_.radius = 1.0;
+    impacts_.halve();
   }
   void carry(CarriedMemory& memory) const override;
   void takeUp(const CarriedMemory& memory) override;

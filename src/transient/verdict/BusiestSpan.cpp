@@ -28,7 +28,11 @@ BusiestSpan::BusiestSpan(const CompiledModel& model, const Window& window, doubl
       part_(std::min(longestSpan, largestPart * (window.end - window.begin)) /
             static_cast<double>(parts)),
       known_(known),
+      inertia_(model.size()),
       difference_(like.q) {
+  model.diagonal(1.0, 0.0, 0.0, inertia_.data());
+  for (int i = 0; i < model.size(); ++i)
+    if (!model.cut().owns(i)) inertia_[i] = 0;
   for (auto& part : last_) part.from = like;
   best_.from = like;
 }
@@ -41,8 +45,8 @@ void BusiestSpan::look(const State& from, const State& to) {
     empty_ = false;
   }
   difference_ = (to.t - from.t) * (to.a - from.a);
-  part.sums.jumps += model_->ownMassForm(difference_.data());
-  part.sums.speeds += model_->ownMassForm(to.v.data());
+  part.sums.jumps += square(difference_);
+  part.sums.speeds += square(to.v);
   if (to.t - begin_ > (static_cast<double>(closed_ + 1) - untimely) * part_) close();
 }
 

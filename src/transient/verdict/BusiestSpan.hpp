@@ -5,9 +5,9 @@
 ///
 ///     J^2 = sum |h (a_k - a_k-1)|^2 / sum |v_k|^2
 ///
-/// over the steps of a span of a second, or a tenth of the run, |.| the norm of the mass. The
-/// busiest span is the one with the largest numerator. Spans begin a sixth of their length apart,
-/// and the state there is kept.
+/// over the steps of a span of a second, or a tenth of the run, |.| the norm of the diagonal of the
+/// mass, which costs no product. The busiest span is the one with the largest numerator. Spans
+/// begin a sixth of their length apart, and the state there is kept.
 #pragma once
 
 #include <array>
@@ -46,6 +46,7 @@ class BusiestSpan {
     Sums sums;
   };
   void close();
+  double square(const Vector& v) const { return (v.array().square() * inertia_).sum(); }
 
   const CompiledModel* model_;
   double begin_, part_, known_;  ///< of the run, length of a part, what is known from the start [s]
@@ -54,6 +55,7 @@ class BusiestSpan {
   bool empty_ = true;             ///< the part under way has no step
   double knownJumps_ = 0;         ///< most of a span that is known
   Part best_;                     ///< the busiest span so far
+  Eigen::ArrayXd inertia_;        ///< diagonal of the mass; 0 for what another rank counts
   Vector difference_;
 };
 

@@ -9,12 +9,12 @@
 ///
 /// |.| is the norm over the translations of the nodes, and that of the mass (MotionNorm.hpp); q'
 /// and v' are displacement and velocity of the other motion. The other steps are halves without
-/// numerical damping, or shorter where halves do not resolve contact that rests on a wall
-/// (NumericalDamping.hpp). Beside halves D is the vibration error less that of the halves: half of
-/// it where the steps are of first order, most of it else. Of the other steps beside themselves
-/// with a velocity that is disturbed by a thousandth, D is the sensitivity: where it is of the size
-/// of the first, the motion parts from any neighbour and only means like r say whether the steps
-/// are right.
+/// numerical damping, also of the steps that impacts need, or shorter where halves do not resolve
+/// contact that rests on a wall (NumericalDamping.hpp). Beside halves D is the vibration error less
+/// that of the halves: half of it where the steps are of first order, most of it else. Of the other
+/// steps beside themselves with a velocity that is disturbed by a thousandth, D is the sensitivity:
+/// where it is of the size of the first, the motion parts from any neighbour and only means like r
+/// say whether the steps are right.
 ///
 /// Objects, points and states are its own; the model is left as it was.
 #pragma once

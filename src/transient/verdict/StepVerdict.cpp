@@ -95,6 +95,10 @@ struct Findings {
   }
   bool isTooLarge() const { return stepError() > limit; }
   bool isWide() const { return stepError() > warning || isUnknown(); }
+  /// D is right where S is not: halves may miss what the steps miss.
+  bool isDoubtful() const {
+    return !late && shorterStep > 0 && error > limit && shorter && shorter->size <= warning;
+  }
   bool isRight() const { return shorter && !isWide() && speedError() <= warning; }
   /// What the summary holds: 0 where a step error within the warning is not known to be all.
   double reported() const { return isUnknown() && !(stepError() > warning) ? 0.0 : stepError(); }
@@ -129,12 +133,16 @@ std::string describe(const Findings& found) {
 
 /// Beside steps short enough for contact that rests on walls.
 void compare(StepComparison motions, Findings& found) {
+  bool confirm = false, confirmed = false;
   do {
     found.shorterStep = motions.shorterStep();
     found.shorter = motions.withShorter();
     found.neighbour.reset();
     if (found.isInDoubt()) found.neighbour = motions.withDisturbed();
-  } while (found.shorter && found.shorter->unresolved && !found.isTooLarge() && motions.shorten());
+    confirm = !confirmed && found.isDoubtful();
+    confirmed = confirmed || confirm;
+  } while (found.shorter && (confirm || found.shorter->unresolved) && !found.isTooLarge() &&
+           motions.shorten());
   if (!found.shorter || !found.shorter->still || found.shorter->unresolved) return;
   found.shorter.reset();  // nothing moves that could be compared
   found.rests = false;

@@ -17,7 +17,9 @@ using Comparison = std::function<StepComparison(const State& from, double span)>
 
 /// Where S is above half of `Step Error Limit`, or the scheme damps more than a fifth of `Step
 /// Error Warning`, or contact rests on walls too stiff for the step, the motion is compared
-/// (StepComparison.hpp). The step error is then the largest of
+/// (StepComparison.hpp), and where S is above the limit and D within the warning once more, with
+/// steps a quarter as long: halves may miss what the steps miss. The step error is then the largest
+/// of
 ///
 ///     D                       at most the limit where neighbours part as far: chaotic motion
 ///     (max(r, 1/r) - 1)/2.5   at most 1, where V is above 0.8 and D above 0.4 times the warning

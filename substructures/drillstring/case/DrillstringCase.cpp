@@ -124,6 +124,21 @@ std::unique_ptr<cases::Case> DrillstringCase::with(
   return other;
 }
 
+std::vector<std::vector<cases::Overrides>> DrillstringCase::openChoices() const {
+  if (!scene_->reduces() || scene_->partition.rule != "By cost") return {};
+  const auto open = [this](const std::string& name) {
+    return !deck().gives("Substructures/" + name);
+  };
+  std::vector<std::vector<cases::Overrides>> choices(1);
+  for (const double length : lengthsOfParts(scene_->string))
+    choices[0].push_back(
+        {"Substructures/Rule=By length", "Substructures/Length=" + deck::printed(length, "m")});
+  if (open("Retained Nodes") && open("Retained Gap"))
+    choices.push_back({{"Substructures/Retained Nodes=All"}});
+  if (open("Minimum Reduced Run")) choices.push_back({{"Substructures/Minimum Reduced Run=8"}});
+  return choices;
+}
+
 std::unique_ptr<cases::Case> DrillstringCase::turningAt(double speed) const {
   if (!scene_->rotary.present()) return nullptr;
   return std::make_unique<DrillstringCase>(drillstring::turningAt(*scene_, speed));

@@ -26,6 +26,8 @@ class DrillstringCase : public cases::Case, public cases::NodeChoice {
   std::vector<std::string> reductionLists() const override {
     return {"Substructures", "Reduction"};
   }
+  /// Of `Substructures/Rule` "By cost".
+  std::vector<std::vector<cases::Overrides>> openChoices() const override;
   bool reducesWithoutMotion() const override { return false; }
   const io::OutputSettings& output() const override { return scene_->output; }
   /// Nearest to `Output/Depths`.

@@ -133,10 +133,14 @@ cases::CaseOutline outlineOf(const Scene& scene) {
   cases::CaseOutline out;
   out.modelled = physics(scene);
   out.rest = {true, "path and static state", std::to_string(scene.freeDofs()) + " dofs"};
-  if (scene.reduces())
-    out.reduction = std::to_string(cutParts(scene.string, scene.partition).size()) + " parts (" +
-                    scene.partition.rule + "), retained nodes: " + scene.partition.retainedNodes +
-                    ", chosen when the static state is known";
+  if (scene.reduces()) {
+    const auto& rules = scene.partition;
+    out.reduction =
+        (rules.rule == "By cost" ? "parts of the length with which a step costs least"
+                                 : std::to_string(cutParts(scene.string, rules).size()) +
+                                       " parts (" + rules.rule + ")") +
+        ", retained nodes: " + rules.retainedNodes + ", chosen when the static state is known";
+  }
   out.coupling = {scene.coupling.has_value(), "coupling",
                   scene.coupling ? coupling::describe(*scene.coupling)
                                  : "no Coupling list: equal node numbers join the parts"};

@@ -121,6 +121,13 @@ TEST(Eccentric, PartsAndVariantsKeepTheirOffsets) {
   EXPECT_NE(force(*model::atSpeed(contact, -12.0), 0.5, d, v), force(*contact, 0.5, d, v));
 }
 
+TEST(Eccentric, TheDriveIsThatOfTheTractionAtTheSection) {
+  const auto contact = eccentric(moving(0.2), offsets);
+  const double drive = contact->power(0.5, {0, 1}, d.data(), v.data()).drive;
+  EXPECT_GT(std::abs(drive), 1.0);
+  EXPECT_NEAR(driveOf(*contact, 0.5, d, v), drive, 1e-9 * std::abs(drive));
+}
+
 TEST(Eccentric, RecordsTheGapOfTheCentreOfContact) {
   const auto contact = eccentric(moving(0.2), offsets);
   std::vector<double> recorded(4 * 2), there(4 * 2), gap(2);

@@ -48,6 +48,7 @@ TEST_P(Energy, PowersBalance) {
                            std::abs(power.drive) + 1.0;
       EXPECT_NEAR(found.losses(), -found.work, 1e-6 * scale)
           << GetParam() << " " << G << " " << angle;
+      EXPECT_NEAR(driveOf(*contact, 0.0, state.d, state.v), power.drive, 1e-9 * scale);
       if (std::string(GetParam()) != "Nguyen") {
         EXPECT_GE(power.stored, 0.0);
         EXPECT_GE(power.damping, 0.0);
@@ -66,6 +67,8 @@ TEST_P(Energy, PowersOfFrictionAlongTheHoleBalance) {
   const State state = State(0.0285 + 1.5e-3, 0.3).with(0.1, -0.15);
   const Balance found(*contact, {0}, state);
   EXPECT_NEAR(found.losses(), -found.work, 1e-6 * std::abs(found.work));
+  EXPECT_NEAR(driveOf(*contact, 0.0, state.d, state.v), found.power.drive,
+              1e-9 * found.power.drive);
   EXPECT_GT(std::abs(found.force[2] * 0.4), 1e-3 * found.power.drive) << "the block takes part";
 }
 

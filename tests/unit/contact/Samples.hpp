@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "model/laws/Friction.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 
 namespace tooljoint::contact::testing {
@@ -68,6 +69,16 @@ inline std::vector<double> force(const model::PointLaw& law, double t, const std
   std::vector<double> f(d.size());
   law.evaluate(t, all(law), d.data(), v.data(), f.data());
   return f;
+}
+
+/// Power that the motion behind all points feeds in, of the forces of friction there.
+inline double driveOf(const model::PointLaw& law, double t, const std::vector<double>& d,
+                      const std::vector<double>& v) {
+  const auto& frictional = dynamic_cast<const model::Frictional&>(law);
+  auto friction = force(law, t, d, v);
+  const auto normal = force(*frictional.withoutFriction(), t, d, v);
+  for (std::size_t i = 0; i < friction.size(); ++i) friction[i] -= normal[i];
+  return frictional.drive(t, all(law), friction.data());
 }
 
 /// A state at the radius `r`, seen from `angle`, with a general velocity.

@@ -75,6 +75,26 @@ TEST(FrequencyEstimate, IsWithinAFactorOfThreeForBarsAndFrames) {
   EXPECT_GT(counted, 60);
 }
 
+/// A retained dof between retained ones, with hardly any mass: it makes rigid bodies of no modes.
+TEST(FrequencyEstimate, IsThereBesideALightDof) {
+  auto parts = bars();
+  samples::classify(parts[1], {21, 41}, {29, 30, 31});
+  Triplets mass;
+  const int light = samples::find(parts[1].model, model::DofLabel::physical(30, 0));
+  const Sparse whole = parts[1].model.mass;
+  for (int i = 0; i < whole.outerSize(); ++i)
+    for (Sparse::InnerIterator it(whole, i); it; ++it)
+      if (i != light && it.col() != light) mass.emplace_back(i, it.col(), it.value());
+  mass.emplace_back(light, light, 1e-17);
+  parts[1].model.mass = samples::square(parts[1].model.size(), mass);
+  const auto ratios = effectivities(parts, 1, 4);
+  EXPECT_EQ(ratios.size(), 4u);
+  for (double ratio : ratios) {
+    EXPECT_GT(ratio, 1.0 / 3.0);
+    EXPECT_LT(ratio, 3.0);
+  }
+}
+
 /// Parts of one or two interior dofs without modes: the two Krylov vectors of a part are all that
 /// its basis lacks, and the one coupled mode with them is the whole model, so that the estimate is
 /// the true error.

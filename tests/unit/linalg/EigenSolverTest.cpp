@@ -11,6 +11,7 @@
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "linalg/Deterministic.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "tests/support/ErrorText.hpp"
 
 namespace tooljoint::linalg {
@@ -345,6 +346,40 @@ TEST(EigenSolver, RefusesWhatIsNotASymmetricPencil) {
   chain.K.coeffRef(2, 2) = std::nan("");
   EXPECT_NE(errorText([&] { lowestModes(chain.K, chain.M, 3, options); }).find("<2>"),
             std::string::npos);
+}
+
+/// Light masses, or none, on springs at a chain change none of its modes, whatever the axes they
+/// are given in.
+TEST(EigenSolver, LightDofsLeaveOtherModesTheirDigits) {
+  constexpr int n = 60, lights = 3, all = n + lights;
+  for (const double light : {1e-6, 1e-10, 1e-14, 0.0})
+    for (const double angle : {0.0, 0.6}) {
+      const Pencil chain = springChain(n, k, m);
+      Matrix K = Matrix::Zero(all, all), M = Matrix::Zero(all, all),
+             turn = Matrix::Identity(all, all);
+      K.topLeftCorner(n, n) = chain.K;
+      M.topLeftCorner(n, n) = chain.M;
+      for (int i = 0; i < lights; ++i) {
+        const int at = 7 * i + 3, own = n + i;
+        K(at, at) += k, K(own, own) = k, K(at, own) = K(own, at) = -k, M(own, own) = light;
+        turn(at, at) = turn(own, own) = std::cos(angle);
+        turn(own, at) = std::sin(angle), turn(at, own) = -std::sin(angle);
+      }
+      const Sparse turnedK = Matrix(turn.transpose() * K * turn).sparseView(),
+                   turnedM = Matrix(turn.transpose() * M * turn).sparseView();
+      const bool rounded =
+          light == 0.0 || (angle != 0.0 && light < 1e-7 * m);  // few digits of these masses
+      for (const int count : {8, rounded ? n : all}) {
+        const EigenPairs modes = light > 0.0 ? lowestModes(turnedK, turnedM, count)
+                                             : lowestFiniteModes(turnedK, turnedM, count);
+        ASSERT_EQ(modes.count(), count);
+        for (int j = 0; j < std::min(count, n); ++j)
+          EXPECT_NEAR(modes.values[j] / heldChain(n, j), 1.0, 1e-9 + 3 * light)
+              << light << " " << angle << " " << count << " " << j;
+        for (int j = n; j < count; ++j)
+          EXPECT_NEAR(modes.values[j] * light / k, 1.0, 1e-5) << light;
+      }
+    }
 }
 
 TEST(EigenSolver, AFreeCoordinateBesideStiffOnesIsAccepted) {
