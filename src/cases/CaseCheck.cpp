@@ -94,11 +94,12 @@ void listWork(const Case& one, const CaseOutline& outline) {
 std::vector<OutlineItem> analysesOf(const Case& one) {
   std::vector<OutlineItem> found;
   for (const auto& analysis : AnalysisLists::instance().lists()) {
-    if (!one.list().isSublist(analysis.name)) continue;
+    const bool given = one.list().isSublist(analysis.name);
+    if (!given && analysis.without.empty()) continue;
     std::string name = analysis.name;
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    found.push_back({true, name, analysis.describe(one)});
+    found.push_back({given, name, given ? analysis.describe(one) : analysis.without});
   }
   return found;
 }

@@ -25,6 +25,8 @@ struct AnalysisList {
   std::function<deck::ListSpec()> parameters;               ///< its description
   std::function<void(const Teuchos::ParameterList&)> read;  ///< DeckError: it makes no sense
   std::function<std::string(const Case&)> describe;         ///< for `check`; DeckError
+  /// What a deck without the list lacks for it, for `check`; empty: nothing is said.
+  std::string without = {};
 };
 
 class AnalysisLists {

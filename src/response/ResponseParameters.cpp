@@ -156,7 +156,9 @@ std::string describe(const cases::Case& one) {
 
 const bool responseParametersRegistered = cases::AnalysisLists::instance().add(
     {"Response", responseParameters, [](const ParameterList& list) { readResponse(list); },
-     describe});
+     describe,
+     "no Response list: give its Highest Speed or Highest Frequency, and Outputs (tooljoint "
+     "response)"});
 
 }  // namespace
 

@@ -96,13 +96,6 @@ class Stages {
     request.what = "the static equilibrium (" + name + ")";
     request.tolerance = std::max(options_.tolerance, tolerance);
     request.maxIterations = options_.maxIterations;
-    if (options_.mostIterations > 0) {
-      const int left = options_.mostIterations - report_.iterations;
-      if (left <= 0)
-        throw ConvergenceError(complaint(request.tolerance) + "That takes more than " +
-                               std::to_string(options_.mostIterations) + " iterations together.");
-      request.maxIterations = std::min(request.maxIterations, left);
-    }
     request.search = search;
     const model::SolveOutcome outcome = solve_(problem_, x, request);
     add({name, outcome.iterations, outcome.residual});
@@ -379,29 +372,8 @@ StaticState leaveUnstable(const StaticInput& input, const StaticOptions& options
   return state;
 }
 
-StaticState solveStaticFrom(const StaticInput& input, const StaticOptions& options,
-                            const model::NonlinearSolver& solve, const Vector& near) {
-  StaticProblem problem(input);
-  auto switches = switchesOf(input, options);
-  Stages stages(problem, options, solve);
-  Vector x = problem.restrict(near);
-  if (input.contact == nullptr || input.contact->size() == 0) {
-    stages.run("no contact", switches, 0.0, inTheOpen, x);
-  } else {
-    switches.lateralStepLimit = options.lateralStepLimit;
-    switches.slideAlongWall = true;
-    switches.frictionScale = switches.pull = 0.0;
-    stages.run("new loads", switches, hasFriction(input) ? kStageTolerance : 0.0, minimising, x);
-    addFriction(input, options, stages, switches, x);
-  }
-  StaticState state = describe(input, problem, problem.expand(x));
-  state.report = stages.report();
-  return state;
-}
-
 std::optional<StaticState> slideStatic(const StaticInput& input, const StaticOptions& options,
-                                       const SlideRequest& asked,
-                                       const model::NonlinearSolver& solve, const Vector& start) {
+                                       const SlideRequest& asked, const Vector& start) {
   StaticProblem problem(input);
   auto switches = switchesOf(input, options);
   switches.lateralStepLimit = options.lateralStepLimit;
@@ -410,7 +382,7 @@ std::optional<StaticState> slideStatic(const StaticInput& input, const StaticOpt
   switches.frictionScale = asked.frictionScale;
   problem.set(switches);
   Vector x = problem.restrict(start);
-  const Slide slide = slideToRest(problem, asked, solve, x);
+  const Slide slide = slideToRest(input, problem, asked, x);
   if (!slide.rests) return std::nullopt;
   StaticState state = describe(input, problem, problem.expand(x));
   state.report.stages.push_back({"sliding to rest", slide.iterations, slide.residual});

@@ -54,7 +54,6 @@ struct StaticOptions {
   bool geometricStiffness = true;
   double tolerance = 1e-9;         ///< on the largest scaled residual
   int maxIterations = 200;         ///< per stage
-  int mostIterations = 0;          ///< of all stages together; 0: no limit. Not in the deck
   double lateralStepLimit = 0.05;  ///< [m], `Continuation`
   int frictionSteps = 4;           ///< `Continuation`
   UnstableRule unstable = UnstableRule::Warn;
@@ -71,12 +70,6 @@ StaticOptions optionsFrom(const Teuchos::ParameterList& list);
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
                         const model::NonlinearSolver& solve);
 
-/// The static state of `input` from the displacement `near` of a state of rest without friction and
-/// under other loads: the new loads at once, then friction and pull as in solveStatic().
-/// ConvergenceError.
-StaticState solveStaticFrom(const StaticInput& input, const StaticOptions& options,
-                            const model::NonlinearSolver& solve, const Vector& near);
-
 /// The state of rest the string finds when it leaves the unstable state `from` along the mode: see
 /// settle(); then friction and pull as in solveStatic(). ConvergenceError: there is none within
 /// reach.
@@ -87,8 +80,7 @@ StaticState leaveUnstable(const StaticInput& input, const StaticOptions& options
 /// The state of rest that the string slides to from the displacement `start`: see slideToRest();
 /// walls only push. None: it does not come to rest.
 std::optional<StaticState> slideStatic(const StaticInput& input, const StaticOptions& options,
-                                       const SlideRequest& asked,
-                                       const model::NonlinearSolver& solve, const Vector& start);
+                                       const SlideRequest& asked, const Vector& start);
 
 /// The complete state from its displacement (6 per node).
 StaticState describe(const StaticInput& input, const StaticProblem& problem,

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
 
 namespace tooljoint::equilibrium {
 namespace {
@@ -28,14 +30,13 @@ constexpr int mostSteps = 2000, mostFinalSteps = 50, mostIterations = 60;
 /// Accuracy of the steps that only lead to the next one.
 constexpr double stepTolerance = 1e-6;
 
-/// alpha at the start of slideToRest [1/s2]: the square of twice the growth rate, 1 to 5 1/s, with
-/// which drill pipe buckles.
-constexpr double slidingStart = 100.0;
-/// A step that takes no more iterations than this may be followed by one of half the alpha; one
-/// that takes more than the second number is repeated with four times the alpha.
-constexpr int easyIterations = 4, slidingIterations = 12;
-/// Residual of a step of slideToRest over that of its start.
-constexpr double slidingAccuracy = 0.1;
+/// Largest lateral step of slideToRest, as a part of the clearance: alpha grows beyond it. It is
+/// halved, at most to the second number, when the string hardly moves and does not rest.
+constexpr double slidingReach = 0.25, leastReach = 0.06;
+/// alpha of a string that hardly moves [1/s2], far below the square of the rates, 1 to 5 1/s, with
+/// which drill pipe buckles, and the steps with it after which it begins anew.
+constexpr double hardlyMoving = 0.1;
+constexpr int patience = 15;
 
 /// r(x) + alpha W (x - x_n).
 class ProximalProblem : public model::InUnknownsOf<model::ChainProblem> {
@@ -74,6 +75,20 @@ class ProximalProblem : public model::InUnknownsOf<model::ChainProblem> {
   Vector weights_, from_;
   double alpha_ = 0.0;
 };
+
+/// The residual alternates between few values: the same contacts open and close in turn.
+bool alternates(const std::vector<double>& residuals) {
+  constexpr std::size_t period = 8;
+  constexpr double same = 0.01, other = 0.05;
+  const auto differs = [&](std::size_t back, double share) {
+    const double now = residuals.back(), then = residuals[residuals.size() - 1 - back];
+    return std::abs(now - then) >= share * now;
+  };
+  if (residuals.size() < 3 || !differs(1, other)) return false;
+  for (std::size_t back = 2; back <= period && back < residuals.size(); ++back)
+    if (!differs(back, same)) return true;
+  return false;
+}
 
 /// Largest lateral displacement of a contact point over its clearance; the clearance of points that
 /// are held on the axis does not count.
@@ -148,30 +163,45 @@ SettlingReport settle(const StaticInput& input, StaticProblem& problem, const Un
       " is allowed. Reduce the loads, or set Static/Unstable State to \"Warn\".");
 }
 
-Slide slideToRest(const StaticProblem& problem, const SlideRequest& asked,
-                  const model::NonlinearSolver& solve, Vector& x) {
-  ProximalProblem proximal(problem, problem.restrict(asked.mass));
-  model::SolveRequest request;
-  request.what = "the static equilibrium of a string that slides to rest";
-  request.search = model::LineSearch::None;
+Slide slideToRest(const StaticInput& input, const StaticProblem& problem, const SlideRequest& asked,
+                  Vector& x) {
+  const Vector mass = problem.restrict(asked.mass), scale = problem.residualScale();
+  std::unique_ptr<linalg::DirectSolver> factors;
+  std::vector<double> residuals;
+  double alpha = asked.alpha, allowed = slidingReach;
+  double lastMove = std::numeric_limits<double>::infinity();
+  int quiet = 0;
   Slide slide;
-  slide.residual = scaledResidual(problem, x);
-  for (double alpha = slidingStart; slide.iterations < asked.mostIterations;) {
-    proximal.set(alpha, x);
-    request.tolerance = std::max(0.5 * asked.tolerance, slidingAccuracy * slide.residual);
-    request.maxIterations = std::min(slidingIterations, asked.mostIterations - slide.iterations);
-    Vector next = x;
-    const auto outcome = solve(proximal, next, request);
-    slide.iterations += outcome.iterations;
-    if (!outcome.converged || !next.allFinite()) {
-      alpha *= convexity;
-      continue;
-    }
-    x = next;
-    slide.residual = scaledResidual(problem, x);
+  Vector r;
+  Sparse tangent;
+  while (problem.linearise(x, r, tangent), r.allFinite()) {
+    slide.residual = scale.cwiseProduct(r).cwiseAbs().maxCoeff();
     slide.rests = slide.residual <= asked.tolerance;
-    if (slide.rests || asked.stop(problem.expand(x))) break;
-    if (outcome.iterations <= easyIterations) alpha = std::max(0.5 * alpha, finalShare);
+    if (slide.rests || slide.iterations >= asked.mostIterations || asked.stop(problem.expand(x)))
+      break;
+    residuals.push_back(slide.residual);
+    for (int i = 0; i < problem.size(); ++i) tangent.coeffRef(i, i) += alpha * mass[i];
+    if (factors)
+      factors->refactorUnchecked(tangent);
+    else
+      factors = std::make_unique<linalg::DirectSolver>(
+          tangent, [&problem](int i) { return problem.unknownName(i); });
+    const Vector step = -factors->apply(r);
+    const double length = alternates(residuals) ? 0.5 : 1.0;
+    const Vector next = problem.moved(x, step, length * problem.stepLimit(x, step));
+    const double move = reach(input, problem.expand(next - x));
+    x = next;
+    ++slide.iterations;
+    if (move > allowed)
+      alpha *= std::min(2.0, move / allowed);
+    else if (move < lastMove)
+      alpha = std::max(finalShare, 0.5 * alpha);
+    lastMove = move;
+    if (alpha < hardlyMoving && ++quiet > patience) {
+      alpha = slidingAlpha;
+      allowed = std::max(leastReach, 0.5 * allowed);
+      quiet = 0;
+    }
   }
   return slide;
 }

@@ -36,12 +36,17 @@ struct SettlingReport {
 SettlingReport settle(const StaticInput& input, StaticProblem& problem, const UnstableMode& mode,
                       double tolerance, const model::NonlinearSolver& solve, Vector& x);
 
+/// alpha with which a string that may buckle begins to slide [1/s2]: the square of twice the growth
+/// rate, 1 to 5 1/s, of drill pipe.
+constexpr double slidingAlpha = 100.0;
+
 /// How a string slides to rest.
 struct SlideRequest {
   Vector mass;  ///< diagonal of the mass matrix, 6 entries per node [kg, kg m2]
   double frictionScale = 1.0;
   double tolerance = 0.0;
-  int mostIterations = 0;  ///< of Newton's method in all steps together
+  double alpha = slidingAlpha;  ///< of the first step; 0: Newton's method while it converges
+  int mostIterations = 0;
   /// True for a displacement (6 entries per node) past which nothing is looked for.
   std::function<bool(const Vector& full)> stop;
 };
@@ -54,14 +59,16 @@ struct Slide {
 };
 
 /// Moves x (free dofs) to a state of rest under all forces that the switches of `problem` name,
-/// friction included, by the overdamped motion
+/// friction included, by the overdamped motion alpha diag(M) x' + r(x) = 0 in steps of one Newton
+/// iteration each,
 ///
-///     alpha diag(M) (x_n+1 - x_n) + r(x_n+1) = 0
+///     (alpha diag(M) + J(x_n)) (x_n+1 - x_n) = -r(x_n)
 ///
-/// with less alpha where Newton's method converges at once, more where it does not
 /// (pseudo-transient continuation; C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal. 35 (1998)
-/// 508-523). Friction has no energy that falls, so nothing guarantees that the motion ends.
-Slide slideToRest(const StaticProblem& problem, const SlideRequest& asked,
-                  const model::NonlinearSolver& solve, Vector& x);
+/// 508-523). alpha grows where a step is long beside the clearance and shrinks while steps become
+/// shorter: a wave that grows keeps it above the square of its growth rate. Friction has no energy
+/// that falls, so nothing guarantees that the motion ends.
+Slide slideToRest(const StaticInput& input, const StaticProblem& problem, const SlideRequest& asked,
+                  Vector& x);
 
 }  // namespace tooljoint::equilibrium

@@ -63,4 +63,18 @@ beam::Matrix12 StaticElements::geometricTangent(int element, const Vector& full)
          unit.torsionalStiffness * (unit.torque * d) * unit.twist.transpose();
 }
 
+void StaticElements::addGeometric(int element, const beam::Vector12& d, bool exact,
+                                  beam::Matrix12& k, beam::Vector12& force) const {
+  const Unit& unit = units_[at(element)];
+  const double axial =
+      input_.elements[at(element)].pretension + unit.axialStiffness * unit.stretch.dot(d);
+  const double torque = unit.torsionalStiffness * unit.twist.dot(d);
+  const beam::Vector12 byAxial = unit.axial * d, byTorque = unit.torque * d;
+  k += axial * unit.axial + torque * unit.torque;
+  force += axial * byAxial + torque * byTorque;
+  if (!exact) return;
+  k += (unit.axialStiffness * byAxial) * unit.stretch.transpose() +
+       (unit.torsionalStiffness * byTorque) * unit.twist.transpose();
+}
+
 }  // namespace tooljoint::equilibrium

@@ -31,6 +31,9 @@ class StaticElements {
   beam::Matrix12 geometricStiffness(int element, const Vector& full) const;
   /// dK_gpo/dD D: F_apo and T_apo change with D.
   beam::Matrix12 geometricTangent(int element, const Vector& full) const;
+  /// Adds K_gpo and, if `exact`, dK_gpo/dD D to k, and K_gpo d to the force, at the motion d.
+  void addGeometric(int element, const beam::Vector12& d, bool exact, beam::Matrix12& k,
+                    beam::Vector12& force) const;
 
  private:
   struct Unit {

@@ -145,24 +145,37 @@ Vector StaticProblem::unbalanced(const Vector& full) const {
   return unbalancedAt(allNodes(), full);
 }
 
+Vector StaticProblem::constantForces() const {
+  Vector r = -input_.load - pretension_;
+  if (switches_.pathReaction && input_.pathReaction.size() > 0) r -= input_.pathReaction;
+  return r;
+}
+
+void StaticProblem::addForces(int point, const Vector& forces, Vector& r) const {
+  const double* force = forces.data() + contact::StaticContact::kForces * point;
+  for (const int component : kContactDofs)
+    r(kDofs * (input_.contact->points().node[at(point)] - 1) + component) -= *force++;
+}
+
+void StaticProblem::addTangent(int point, const Vector& tangents, Sparse& jacobian) const {
+  constexpr int n = contact::StaticContact::kForces;
+  Eigen::Matrix<double, n, n> k = Eigen::Matrix<double, n, n>::Zero();
+  k.leftCols<2>() = -Eigen::Map<const Eigen::Matrix<double, n, 2, Eigen::RowMajor>>(
+      tangents.data() + 2 * n * point);
+  assembler_.add(elements_.size() + point, k, jacobian);
+}
+
 Vector StaticProblem::unbalancedAt(Nodes nodes, const Vector& full) const {
-  Vector external = input_.load;
-  if (switches_.pathReaction && input_.pathReaction.size() > 0) external += input_.pathReaction;
-  Vector r = -external - pretension_;
+  Vector r = constantForces();
   for (int e = firstElement(nodes); e < endElement(nodes); ++e) {
     r.segment<12>(kDofs * e) += (input_.elements[at(e)].stiffness + geometricStiffness(e, full)) *
                                 elements_.motion(e, full);
   }
   if (!touches()) return r;
   const auto options = contactOptions(nodes);
-  const std::vector<int>& touching = input_.contact->points().node;
   Vector forces(contact::StaticContact::kForces * input_.contact->size());
   input_.contact->evaluate(options, lateral(full).data(), forces.data());
-  for (int p = options.first; p < options.end(sizeOf(touching)); ++p) {
-    const double* force = forces.data() + contact::StaticContact::kForces * p;
-    for (const int component : kContactDofs)
-      r(kDofs * (touching[at(p)] - 1) + component) -= *force++;
-  }
+  for (int p = options.first; p < options.end(input_.contact->size()); ++p) addForces(p, forces, r);
   return r;
 }
 
@@ -190,12 +203,35 @@ void StaticProblem::jacobianAt(Nodes nodes, const Vector& x, Sparse& jacobian) c
   Vector forces(n * points);
   Vector tangents(2 * n * points);
   input_.contact->evaluate(options, lateral(full).data(), forces.data(), tangents.data());
-  for (int p = options.first; p < options.end(points); ++p) {
-    Eigen::Matrix<double, n, n> k = Eigen::Matrix<double, n, n>::Zero();
-    k.leftCols<2>() = -Eigen::Map<const Eigen::Matrix<double, n, 2, Eigen::RowMajor>>(
-        tangents.data() + 2 * n * p);
-    assembler_.add(elements_.size() + p, k, jacobian);
+  for (int p = options.first; p < options.end(points); ++p) addTangent(p, tangents, jacobian);
+}
+
+void StaticProblem::linearise(const Vector& x, Vector& r, Sparse& jacobian) const {
+  const Vector full = expand(x);
+  Vector unbalance = constantForces();
+  assembler_.clear(jacobian);
+  for (int e = 0; e < elements_.size(); ++e) {
+    const beam::Vector12 d = elements_.motion(e, full);
+    beam::Matrix12 k = input_.elements[at(e)].stiffness;
+    beam::Vector12 force = k * d;
+    if (switches_.geometricStiffness)
+      elements_.addGeometric(e, d, switches_.exactJacobian, k, force);
+    unbalance.segment<12>(kDofs * e) += force;
+    assembler_.add(e, k, jacobian);
   }
+  if (touches()) {
+    const int points = input_.contact->size();
+    constexpr int n = contact::StaticContact::kForces;
+    Vector forces(n * points);
+    Vector tangents(2 * n * points);
+    input_.contact->evaluate(contactOptions(allNodes()), lateral(full).data(), forces.data(),
+                             tangents.data());
+    for (int p = 0; p < points; ++p) {
+      addForces(p, forces, unbalance);
+      addTangent(p, tangents, jacobian);
+    }
+  }
+  r = restrict(unbalance);
 }
 
 Vector StaticProblem::residualScale() const {

@@ -42,6 +42,8 @@ class StaticProblem : public model::ChainProblem {
   int size() const override { return free_.size(); }
   void residual(const Vector& x, Vector& r) const override;
   void jacobian(const Vector& x, Sparse& jacobian) const override;
+  /// Both at once, for half the work.
+  void linearise(const Vector& x, Vector& r, Sparse& jacobian) const;
   std::vector<int> firstOfNodes() const override { return free_.firstOfNodes(); }
   void residualRows(const Vector& x, RowRange rows, Vector& r) const override;
   void jacobianRows(const Vector& x, RowRange rows, Sparse& jacobian) const override;
@@ -83,6 +85,11 @@ class StaticProblem : public model::ChainProblem {
   /// What unbalanced() and jacobian() have at some nodes.
   Vector unbalancedAt(Nodes nodes, const Vector& full) const;
   void jacobianAt(Nodes nodes, const Vector& x, Sparse& jacobian) const;
+  /// A point's forces (at every dof) and tangent.
+  void addForces(int point, const Vector& forces, Vector& r) const;
+  void addTangent(int point, const Vector& tangents, Sparse& jacobian) const;
+  /// -F_s - R_ipa and the pretension, at every dof.
+  Vector constantForces() const;
   /// With the points at some nodes.
   contact::StaticContact::Options contactOptions(Nodes nodes) const;
   Vector lateral(const Vector& full) const;  ///< u, v of the contact points

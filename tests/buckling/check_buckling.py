@@ -244,9 +244,9 @@ def refusals():
             "--set", "Buckling/At A Limit=Follow")
     expect("what was found is in the tables", len(rows("out_short")) > 1 and summary("out_short")["end"] == "steps")
     done = tooljoint("check", good)
-    expect("check says what would be done", done.returncode == 0 and "grow to 100 kN" in " ".join(done.stdout.split()), done.stdout + done.stderr)
+    expect("check says what would be done", done.returncode == 0 and "buckling: up to 100 kN on the bit" in " ".join(done.stdout.split()), done.stdout + done.stderr)
     done = tooljoint("check", good, "--set", "Buckling/Unload To=20 kN")
-    expect("and how far the weight falls", "grow to 100 kN and fall to 20 kN" in " ".join(done.stdout.split()), done.stdout + done.stderr)
+    expect("and how far the weight falls", "up to 100 kN on the bit, back to 20 kN" in " ".join(done.stdout.split()), done.stdout + done.stderr)
     done = tooljoint("check", good, "--set", "Buckling/First Step=1")
     expect("and refuses what buckling would", done.returncode == 2 and "has to lie between" in done.stderr, done.stderr)
 

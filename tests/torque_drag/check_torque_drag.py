@@ -8,6 +8,7 @@ import csv
 import json
 import math
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -283,12 +284,14 @@ def weight_on_bit():
 
 def buckled():
     """Where its weight on bit buckles it, the stiff string slides to a stable state on the wall."""
-    for weight, buckles in (("60 kN", False), ("200 kN", True)):
+    for weight, buckles, most in (("60 kN", False, 150), ("200 kN", True, 900)):
         done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output", "buckled", "--without", "Torque and Drag", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Operations={Drill sliding}",
                          "--set", f"Loads/Weight On Bit={weight}")
         said = " ".join((done.stdout + done.stderr).split())
         expect(f"{weight}: the state of the stiff string is {'' if buckles else 'not '}buckled", ("1 of 1 states of the stiff string are buckled" in said) == buckles, said[-800:])
         expect(f"{weight}: and stable", "of the stiff string are unstable" not in said, said[-800:])
+        iterations = int(re.search(r": [0-9.e+-]+ s, ([0-9]+) iterations", said).group(1))
+        expect(f"{weight}: from the largest share at which it does not buckle, in {iterations} iterations", iterations <= most, said[-800:])
         expect(f"{weight}: the table has it", float(rows("buckled")[0]["stiff_buckled"]) == buckles, rows("buckled")[0])
 
 
@@ -349,7 +352,10 @@ def announced():
     done = tooljoint("check", DECK, "--set", "Torque and Drag/Depths={400, 800}", "--set", "Torque and Drag/Operations={Trip in}", "--set", "Torque and Drag/Stiff String=All Depths")
     plain = " ".join(tooljoint("check", DECK).stdout.split())
     for text in ("torque and drag by default: 20 depths, 7 operations, the stiff string at the deepest (tooljoint torque-drag)",
-                 "bottom-hole assembly by default: 1 hole, 1 weight on bit, 1 tool face (tooljoint bha)"):
+                 "bottom-hole assembly by default: 1 hole, 1 weight on bit, 1 tool face (tooljoint bha)",
+                 "buckling by default: up to 50 kN on the bit, crookedness 0.02 of the clearance, jumps where states become unstable (tooljoint buckling)",
+                 "no campbell no Campbell list: give its Highest Speed", "no response no Response list: give its Highest Speed or Highest Frequency, and Outputs",
+                 "no map no Map list: give its Grid and Values"):
         expect(f"check of a deck without their lists: {text}", text in plain, plain[-800:])
     expect("check: depths, operations and the stiff string", "2 depths, 1 operation, the stiff string at all of them" in " ".join(done.stdout.split()), done.stdout[-600:] + done.stderr)
 

@@ -142,7 +142,7 @@ std::string describe(const cases::Case& one) {
 
 const bool campbellParametersRegistered = cases::AnalysisLists::instance().add(
     {"Campbell", campbellParameters, [](const Teuchos::ParameterList& list) { readCampbell(list); },
-     describe});
+     describe, "no Campbell list: give its Highest Speed (tooljoint campbell)"});
 
 }  // namespace
 }  // namespace tooljoint::response

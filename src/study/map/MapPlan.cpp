@@ -30,7 +30,8 @@ void requireMotion(const cases::Case& scene, const MapSettings& settings, RunDec
 
 const bool mapPlanRegistered = cases::AnalysisLists::instance().add(
     {"Map", mapParameters, [](const Teuchos::ParameterList& list) { readMap(list); },
-     [](const cases::Case& scene) { return describe(planMap(scene)); }});
+     [](const cases::Case& scene) { return describe(planMap(scene)); },
+     "no Map list: give its Grid and Values (tooljoint map)"});
 
 }  // namespace
 

@@ -15,7 +15,7 @@ namespace {
 
 using Row = std::vector<StiffLoads>;
 
-constexpr int storeFormat = 3;  ///< raised when the meaning of a kept depth changes
+constexpr int storeFormat = 4;  ///< raised when the meaning of a kept depth changes
 
 /// Without an equilibrium there is nothing to slide from: the first operation has that failure, the
 /// others refer to it.
@@ -65,8 +65,11 @@ std::vector<Row> stiffRows(const Scene& scene, const std::vector<double>& depths
     const Stopwatch watch;
     auto row = rowAt(scene, depths[i], operations);
     const deck::PrintedUnit length("m");
-    log::info(fmt::format("stiff string, bit at {:.0f} {} ({} of {} depths): {:.2g} s",
-                          length(depths[i]), length.name(), i + 1, depths.size(), watch.wall()));
+    int iterations = 0;
+    for (const auto& one : row) iterations += one.iterations;
+    log::info(fmt::format(
+        "stiff string, bit at {:.0f} {} ({} of {} depths): {:.2g} s, {} iterations",
+        length(depths[i]), length.name(), i + 1, depths.size(), watch.wall(), iterations));
     return row;
   });
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -24,12 +25,17 @@ namespace {
 /// Equal parts in which weight on bit and friction come, so that the string finds the state next to
 /// the one before: all at once, a string with a stable sinusoidal state winds into a helix.
 constexpr int slidingSteps = 8;
+/// Iterations in which Newton's method finds the state of a string that does not buckle.
+constexpr int nearIterations = 60;
+/// Times that a string is disturbed again because it rests in an unstable state.
+constexpr int mostDisturbances = 3;
 /// Residual where a part of them is on.
 constexpr double slidingTolerance = 1e-5;
 /// Iterations of a string that slides to rest, over Static/Max Iterations.
-constexpr int slidingEffort = 20;
+constexpr int slidingEffort = 6;
 /// Helix that disturbs the string before each part: of the clearance, and its pitch [m], two to
-/// four half waves of drill pipe that buckles. The motion picks out the waves that grow.
+/// four half waves of drill pipe that buckles. The motion picks out the waves that grow; one of
+/// their own length winds a string with a stable sinusoidal state into a helix.
 constexpr double helixSize = 0.05, helixPitch = 25.0;
 /// Elements a half wave of a helix needs.
 constexpr double elementsPerHalfWave = 3.0;
@@ -44,9 +50,9 @@ StiffString::StiffString(const Scene& scene, double bit)
       points_(scene_.contactPoints.slidingFast()) {
   frictionless_ =
       equilibrium::solveStatic(input({}), scene_.statics, staticSolver(scene_)).displacement;
-  // all stages together take no more than one may: a string that buckles has no state near this
-  // one, and thousands of iterations do not find one
-  scene_.statics.mostIterations = scene_.statics.maxIterations;
+  mass_ = Vector::Zero(frictionless_.size());
+  for (int e = 0; e < equations_.model.elements(); ++e)
+    mass_.segment<2 * perNode>(perNode * e) += equations_.model.mass[at(e)].diagonal();
 }
 
 equilibrium::StaticInput StiffString::input(const softstring::Operation& operation) const {
@@ -58,14 +64,29 @@ equilibrium::StaticInput StiffString::input(const softstring::Operation& operati
   return input;
 }
 
-/// From the string without friction; where that is too far away, by the whole way from the axis.
-equilibrium::StaticState StiffString::solve(const equilibrium::StaticInput& input) const {
-  const auto solver = staticSolver(scene_);
-  try {
-    return equilibrium::solveStaticFrom(input, scene_.statics, solver, frictionless_);
-  } catch (const ConvergenceError&) {
-    return equilibrium::solveStatic(input, scene_.statics, solver);
-  }
+StiffString::Part StiffString::part(const softstring::Operation& operation, double share) const {
+  auto reduced = operation;
+  reduced.weightOnBit *= share, reduced.torqueOnBit *= share;
+  return {input(reduced), share};
+}
+
+/// The state of rest next to `start`, and the negative pivots of its tangent: by Newton's method,
+/// or against the viscous forces of alpha. None within few iterations, as of a string that buckles.
+std::optional<StiffString::Rest> StiffString::near(const Part& part, const Vector& start,
+                                                   double tolerance, double alpha,
+                                                   int& iterations) const {
+  equilibrium::SlideRequest request;
+  request.mass = mass_;
+  request.frictionScale = part.share;
+  request.tolerance = tolerance;
+  request.alpha = alpha;
+  request.mostIterations = nearIterations;
+  request.stop = [](const Vector&) { return interruptRequested(); };
+  auto state = equilibrium::slideStatic(part.input, scene_.statics, request, start);
+  iterations += state ? state->report.iterations : nearIterations;
+  if (!state) return std::nullopt;
+  const int pivots = equilibrium::negativePivots(part.input, state->displacement).value_or(0);
+  return Rest{std::move(*state), pivots};
 }
 
 Vector StiffString::withHelix(const Vector& displacement) const {
@@ -79,45 +100,59 @@ Vector StiffString::withHelix(const Vector& displacement) const {
   return x;
 }
 
-/// With weight on bit and friction in equal steps. None where it does not come to rest: `why`.
-std::optional<equilibrium::StaticState> StiffString::slide(const softstring::Operation& operation,
-                                                           StiffLoads& why) const {
-  equilibrium::SlideRequest request;
-  request.mostIterations = slidingEffort * scene_.statics.maxIterations;
-  request.mass = Vector::Zero(frictionless_.size());
-  for (int e = 0; e < equations_.model.elements(); ++e)
-    request.mass.segment<2 * perNode>(perNode * e) += equations_.model.mass[at(e)].diagonal();
+/// With weight on bit and friction in equal parts, from the largest number of them at which the
+/// string does not buckle. None where it does not come to rest: `why`.
+std::optional<StiffString::Rest> StiffString::slide(const softstring::Operation& operation,
+                                                    StiffLoads& why) const {
   Vector x = frictionless_;
-  for (int step = 1; step <= slidingSteps; ++step) {
-    const double share = static_cast<double>(step) / slidingSteps;
-    auto part = operation;
-    part.weightOnBit *= share, part.torqueOnBit *= share;
-    const auto loaded = input(part);
-    const equilibrium::StaticProblem problem(loaded);
-    request.frictionScale = share;
+  int stable = 0;
+  for (int parts = slidingSteps / 2; parts > 0; parts /= 2)
+    if (const auto rest = near(part(operation, double(stable + parts) / slidingSteps), x,
+                               slidingTolerance, 0.0, why.iterations);
+        rest && rest->negativePivots == 0) {
+      stable += parts;
+      x = rest->state.displacement;
+    }
+  equilibrium::SlideRequest request;
+  request.mass = mass_;
+  request.mostIterations = slidingEffort * scene_.statics.maxIterations;
+  int again = mostDisturbances;
+  for (int step = stable + 1;;) {
+    const Part loaded = part(operation, double(step) / slidingSteps);
+    const equilibrium::StaticProblem problem(loaded.input);
+    request.frictionScale = loaded.share;
     request.tolerance = step < slidingSteps ? slidingTolerance : scene_.statics.tolerance;
     request.stop = [&](const Vector& full) {
       why.locksUp = compressed(problem, full);
       return why.locksUp || interruptRequested();
     };
-    const auto slid = equilibrium::slideStatic(loaded, scene_.statics, request,
-                                               staticSolver(scene_), withHelix(x));
+    auto slid = equilibrium::slideStatic(loaded.input, scene_.statics, request, withHelix(x));
     if (interruptRequested()) throw InterruptedError("Interrupted.");
     if (!slid) {
-      why.unsettled = why.locksUp
-                          ? "It locks up."
-                          : "It buckles and does not come to rest within " +
-                                std::to_string(slidingEffort * scene_.statics.maxIterations) +
-                                " iterations. Raise Static/Max Iterations.";
+      why.unsettled = tooLong(
+          Vector::Constant(scene_.string.elementCount(), -operation.weightOnBit * loaded.share));
+      if (!why.unsettled.empty())
+        why.locksUp = false;
+      else if (why.locksUp)
+        why.unsettled = "It locks up.";
+      else
+        why.unsettled = "It buckles and does not come to rest within " +
+                        std::to_string(slidingEffort * scene_.statics.maxIterations) +
+                        " iterations. Raise Static/Max Iterations.";
       return std::nullopt;
     }
     why.unsettled = tooLong(slid->axialForce);
     if (!why.unsettled.empty()) return std::nullopt;
-    if (step == slidingSteps) return slid;
-    request.mostIterations -= slid->report.iterations;
     x = slid->displacement;
+    request.mostIterations -= slid->report.iterations;
+    why.iterations += slid->report.iterations;
+    if (step < slidingSteps) {
+      ++step;
+      continue;
+    }
+    const int pivots = equilibrium::negativePivots(loaded.input, x).value_or(0);
+    if (pivots == 0 || again-- == 0) return Rest{std::move(*slid), pivots};
   }
-  return std::nullopt;
 }
 
 /// A sentence where elements do not resolve half waves pi sqrt(2 E I/F) of a helix under their
@@ -150,35 +185,27 @@ bool StiffString::compressed(const equilibrium::StaticProblem& problem, const Ve
 
 StiffLoads StiffString::under(const softstring::Operation& operation) const {
   StiffLoads loads;
-  const auto problemInput = input(operation);
-  const auto unstable = [&](const equilibrium::StaticState& found) {
-    return equilibrium::negativePivots(problemInput, found.displacement).value_or(0);
-  };
-  std::optional<equilibrium::StaticState> near;
-  try {
-    near = solve(problemInput);
-    loads.negativePivots = unstable(*near);
-  } catch (const ConvergenceError& error) {
-    loads.failure = error.what();
-  }
-  if (!near || loads.negativePivots > 0) {
-    const auto slid = slide(operation, loads);
-    if (!near || loads.locksUp) loads.failure = loads.unsettled;
-    if (slid) {
-      loads.buckled = true;
-      loads.negativePivots = unstable(*slid);
-      near = slid;
-    }
+  const Part whole = part(operation, 1.0);
+  const double tolerance = scene_.statics.tolerance;
+  auto rest = near(whole, frictionless_, tolerance, 0.0, loads.iterations);
+  if (!rest)
+    rest = near(whole, frictionless_, tolerance, equilibrium::slidingAlpha, loads.iterations);
+  if (!rest || rest->negativePivots > 0) {
+    auto slid = slide(operation, loads);
+    loads.buckled = slid.has_value();
+    if (!rest || loads.locksUp) loads.failure = loads.unsettled;
+    if (slid) rest = std::move(slid);
   }
   if (!loads.found()) return loads;
-  const equilibrium::StaticState& state = *near;
+  loads.negativePivots = rest->negativePivots;
+  const auto& problemInput = whole.input;
+  const equilibrium::StaticState& state = rest->state;
   // the hook and the rotary table hold the first node
   const Vector reaction = equilibrium::StaticProblem(problemInput).unbalanced(state.displacement);
   loads.hookLoad = -reaction(w);
   loads.surfaceTorque = reaction(thetaZ);
   loads.twist = -state.displacement(perNode * (problemInput.nodes - 1) + thetaZ);
   loads.torqueDefect = state.relativeTorqueDefect();
-  loads.iterations = state.report.iterations;
   loads.depth = scene_.string.depths();
   loads.contactForce.assign(state.normalForce.data(),
                             state.normalForce.data() + state.normalForce.size());

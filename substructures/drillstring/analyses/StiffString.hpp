@@ -32,7 +32,7 @@ struct StiffLoads {
   double twist = 0.0;                           ///< of the surface ahead of the bit [rad]
   double stretch = 0.0;                         ///< by effective tension [m]
   double torqueDefect = 0.0;                    ///< StaticState::relativeTorqueDefect()
-  int iterations = 0;                           ///< of Newton's method
+  int iterations = 0;                           ///< of Newton's method, all together
   bool buckled = false;                         ///< it slid to rest from an unstable state
   int negativePivots = 0;                       ///< of the tangent; 0: stable but for friction
   std::vector<double> depth;                    ///< of the nodes, from the surface [m]
@@ -68,10 +68,20 @@ class StiffString {
   StiffLoads under(const softstring::Operation& operation) const;
 
  private:
+  /// A share of the friction and of the loads at the bit.
+  struct Part {
+    equilibrium::StaticInput input;
+    double share;
+  };
+  struct Rest {
+    equilibrium::StaticState state;
+    int negativePivots;  ///< of the tangent
+  };
   equilibrium::StaticInput input(const softstring::Operation& operation) const;
-  equilibrium::StaticState solve(const equilibrium::StaticInput& input) const;
-  std::optional<equilibrium::StaticState> slide(const softstring::Operation& operation,
-                                                StiffLoads& why) const;
+  Part part(const softstring::Operation& operation, double share) const;
+  std::optional<Rest> near(const Part& part, const Vector& start, double tolerance, double alpha,
+                           int& iterations) const;
+  std::optional<Rest> slide(const softstring::Operation& operation, StiffLoads& why) const;
   std::string tooLong(const Vector& axialForce) const;
   bool compressed(const equilibrium::StaticProblem& problem, const Vector& x) const;
   Vector withHelix(const Vector& displacement) const;
@@ -81,6 +91,7 @@ class StiffString {
   PathEquations equations_;
   std::vector<BendingElement> bending_;
   contact::ContactPoints points_;
+  Vector mass_;          ///< diagonal of the mass matrix, 6 entries per node
   Vector frictionless_;  ///< displacement of the string that hangs without friction
 };
 

@@ -8,7 +8,9 @@
 #include "common/Constants.hpp"
 #include "common/Text.hpp"
 #include "deck/Defaults.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "substructures/drillstring/scene/BottomHoleParameters.hpp"
+#include "substructures/drillstring/scene/BucklingParameters.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
 
@@ -75,7 +77,7 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
   return items;
 }
 
-/// What `tooljoint torque-drag` and `tooljoint bha` would do, by their lists or, where the deck
+/// What `tooljoint torque-drag`, `bha` and `buckling` would do, by their lists or, where the deck
 /// could go without, by default.
 std::vector<std::string> analyses(const Scene& scene) {
   const auto counted = [](std::size_t count, const std::string& what) {
@@ -111,6 +113,17 @@ std::vector<std::string> analyses(const Scene& scene) {
            counted(atLeastOne(own.weights.size()), "weight") + " on bit, " +
            counted(atLeastOne(own.toolFaces.size()), "tool face") + " (tooljoint bha)";
   });
+  read(bucklingParameters(), pressed && scene.weightOnBit() > 0.0,
+       [&](const auto& list, const std::string& how) {
+         const auto own = readBuckling(list);
+         const double last = own.lastWeight.value_or(scene.weightOnBit());
+         return "  buckling" + how + ": up to " + deck::printed(last, "kN", 6) + " on the bit" +
+                (own.unloadTo ? ", back to " + deck::printed(*own.unloadTo, "kN", 6) : "") +
+                ", crookedness " + formatNumber(own.crookedness) + " of the clearance, " +
+                (own.atLimit == LimitRule::Jump ? "jumps where states become unstable"
+                                                : "through unstable states") +
+                " (tooljoint buckling)";
+       });
   return found;
 }
 

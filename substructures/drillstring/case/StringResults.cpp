@@ -14,7 +14,6 @@
 #include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
-#include "substructures/drillstring/scene/BucklingParameters.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
 
 namespace tooljoint::drillstring {
@@ -319,21 +318,6 @@ std::string describeString(const Scene& scene) {
   return text;
 }
 
-/// What `tooljoint buckling` would do, where the deck has its list.
-std::string describeBuckling(const Scene& scene) {
-  if (!scene.list().isSublist("Buckling")) return "";
-  const auto settings = readBuckling(scene.list().sublist("Buckling"));
-  const double last = settings.lastWeight.value_or(scene.weightOnBit());
-  return fmt::sprintf(
-      "\nbuckling    `tooljoint buckling` lets the weight on bit grow to %s%s: crookedness %.3g "
-      "of the clearance, %s",
-      deck::printed(last, "kN", 4),
-      settings.unloadTo ? " and fall to " + deck::printed(*settings.unloadTo, "kN", 4) : "",
-      settings.crookedness,
-      settings.atLimit == LimitRule::Jump ? "jumps where states become unstable"
-                                          : "through unstable states too");
-}
-
 }  // namespace
 
 std::string describeScene(const Scene& scene) {
@@ -347,7 +331,7 @@ std::string describeScene(const Scene& scene) {
   if (scene.contact && scene.contact->law->atRest(scene.contactPoints)->largestPull() > 0.0)
     text += "\ncontact     the law " + inQuotes(scene.contact->lawName) +
             " attracts points to the wall, on rebound and when open; Clamped never does";
-  return text + describeBuckling(scene);
+  return text;
 }
 
 std::string describeStatic(const StaticStage& stage) {

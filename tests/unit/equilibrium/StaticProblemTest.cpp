@@ -73,6 +73,24 @@ double stretch(const Case& scene, int element, int component) {
          l;
 }
 
+TEST(StaticProblem, LinearisesInOnePassAsInTwo) {
+  for (const bool exact : {true, false}) {
+    const Case scene;
+    StaticProblem problem(scene.input);
+    auto switches = problem.switches();
+    switches.exactJacobian = exact;
+    problem.set(switches);
+    const Vector x = problem.restrict(scene.displacement);
+    Vector r, alone;
+    Sparse tangent, tangentAlone;
+    problem.linearise(x, r, tangent);
+    problem.residual(x, alone);
+    problem.jacobian(x, tangentAlone);
+    EXPECT_LE((r - alone).norm(), 1e-14 * alone.norm());
+    EXPECT_LE((tangent - tangentAlone).norm(), 1e-14 * tangentAlone.norm());
+  }
+}
+
 TEST(StaticProblem, AxialForceAndTorqueFollowTheStretchAndTheTwist) {
   const Case scene;
   const StaticProblem problem(scene.input);

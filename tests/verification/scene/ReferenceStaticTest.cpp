@@ -80,23 +80,6 @@ TEST(ReferenceStatic, BothRecipesFindTheSameState) {
   EXPECT_LE((state("Source") - expected).norm(), 1e-11 * expected.norm());
 }
 
-TEST(ReferenceStatic, EndsAfterTheIterationsThatAllStagesMayTakeTogether) {
-  auto scene = reference();
-  const int needed = sourcePrestress().state.report.iterations;
-  scene.statics.mostIterations = needed;
-  EXPECT_EQ(drillstring::solveStatic(scene).state.report.iterations, needed);
-  scene.statics.mostIterations = needed / 2;
-  try {
-    drillstring::solveStatic(scene);
-    FAIL();
-  } catch (const ConvergenceError& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("more than " + std::to_string(needed / 2) + " iterations together"),
-              std::string::npos)
-        << error.what();
-  }
-}
-
 TEST(ReferenceStatic, TheFullTangentBalancesTheTorque) {
   const auto full = drillstring::solveStatic(reference({"Path/Pre-stress=Full tangent"})).state;
   EXPECT_EQ(full.contactNodes, 82);
