@@ -25,7 +25,8 @@ deck::ListSpec partitionParameters() {
       "Where the string is cut: at every component boundary, at the component boundaries that "
       "leave parts of at least "
       "Length, so that a step of the reduced model is predicted to cost least, at Cut Nodes, or "
-      "not at all (the single substructure of Nguyen et al. 2020). \"By cost\" tries lengths from one "
+      "not at all (the single substructure of Nguyen et al. 2020). \"By cost\" tries lengths from "
+      "one "
       "component on and, where that gains less than 15 %, to retain all nodes that can touch and a "
       "Minimum Reduced Run of 8, as far as the deck leaves these open.");
   list.real("Length", "m", deck::Optional{}, Range::positive(),
