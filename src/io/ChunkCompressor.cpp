@@ -14,7 +14,7 @@ namespace {
 /// Entropy of the bytes of a plane below which deflating it pays [bit of 8].
 constexpr double structuredEntropy = 6.5;
 /// Share of bytes that are those of the row before from which it pays, too.
-constexpr double repeatedShare = 0.75;
+constexpr double repeatedShare = 0.6;
 /// The strategy of zlib for values spread at random: the same size in three quarters of the time.
 constexpr int bytesOfNumbers = Z_FILTERED;
 

@@ -282,6 +282,18 @@ def weight_on_bit():
     near("weight on bit of first_run", float(off["hook_load"]) - float(on["hook_load"]), 40e3, 0.01)
 
 
+def level():
+    """Nothing but bending resists a string on the axis of a long level hole, where the stages of the static state begin."""
+    survey = pathlib.Path("level.csv").resolve()
+    stations = "".join(f"{depth}, {min(90.0, max(0.0, (depth - 900) / 12)):.2f}, 45\n" for depth in range(0, 4501, 30))
+    survey.write_text("MD [m], Inc [deg], Azi [deg]\n" + stations, encoding="utf-8")
+    string = "28*5 in HWDP stand, 120*5 in stand, 2*5 in HWDP stand, 2*6.5 in collar, 8.5 in PDC bit"
+    row = run("level", f"Well/Survey/File={survey}", f"Drillstring/Assembly={{{string}}}", "Loads/Unbalance/collar/Node=100", "Torque and Drag/Count=1",
+              "Torque and Drag/Operations={Rotate off bottom}", deck=str(SOURCES / "xml/extended_reach_5000m.xml"))[0]
+    near("hook load in a level hole, stiff against soft", float(row["stiff_hook_load"]), float(row["hook_load"]), 0.01)
+    near("torque in a level hole, stiff against soft", float(row["stiff_surface_torque"]), float(row["surface_torque"]), 0.05)
+
+
 def buckled():
     """Where its weight on bit buckles it, the stiff string slides to a stable state on the wall."""
     for weight, buckles, most in (("60 kN", False, 150), ("200 kN", True, 900)):
@@ -448,6 +460,7 @@ straight()
 forms()
 limits()
 as_it_is = backward()
+level()
 buckled()
 pulled()
 pressure()

@@ -48,11 +48,30 @@ StiffString::StiffString(const Scene& scene, double bit)
       equations_(equationsOnPath(scene_, path_)),
       bending_(bendingElements(scene_.string, path_)),
       points_(scene_.contactPoints.slidingFast()) {
-  frictionless_ =
-      equilibrium::solveStatic(input({}), scene_.statics, staticSolver(scene_)).displacement;
-  mass_ = Vector::Zero(frictionless_.size());
+  mass_ = Vector::Zero(perNode * scene_.string.nodeCount());
   for (int e = 0; e < equations_.model.elements(); ++e)
     mass_.segment<2 * perNode>(perNode * e) += equations_.model.mass[at(e)].diagonal();
+  frictionless_ = hangingFree();
+}
+
+/// The displacement without friction. A string on the axis of a long level hole has next to nothing
+/// that resists sideways: where the stages of the static state fail, it slides down from there
+/// against viscous forces.
+Vector StiffString::hangingFree() const {
+  const auto free = input({});
+  try {
+    return equilibrium::solveStatic(free, scene_.statics, staticSolver(scene_)).displacement;
+  } catch (const ConvergenceError&) {
+    equilibrium::SlideRequest request;
+    request.mass = mass_;
+    request.tolerance = scene_.statics.tolerance;
+    request.mostIterations = slidingEffort * scene_.statics.maxIterations;
+    request.stop = [](const Vector&) { return interruptRequested(); };
+    const auto slid =
+        equilibrium::slideStatic(free, scene_.statics, request, Vector::Zero(mass_.size()));
+    if (!slid) throw;
+    return slid->displacement;
+  }
 }
 
 equilibrium::StaticInput StiffString::input(const softstring::Operation& operation) const {

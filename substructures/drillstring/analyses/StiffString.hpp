@@ -77,6 +77,7 @@ class StiffString {
     equilibrium::StaticState state;
     int negativePivots;  ///< of the tangent
   };
+  Vector hangingFree() const;
   equilibrium::StaticInput input(const softstring::Operation& operation) const;
   Part part(const softstring::Operation& operation, double share) const;
   std::optional<Rest> near(const Part& part, const Vector& start, double tolerance, double alpha,
