@@ -298,7 +298,7 @@ def buckled():
     """Where its weight on bit buckles it, the stiff string slides to a stable state on the wall."""
     for weight, buckles, most in (("60 kN", False, 150), ("200 kN", True, 900)):
         done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output", "buckled", "--without", "Torque and Drag", "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Operations={Drill sliding}",
-                         "--set", f"Loads/Weight On Bit={weight}")
+                         "--set", f"Loads/Weight On Bit={weight}", "--fresh")
         said = " ".join((done.stdout + done.stderr).split())
         expect(f"{weight}: the state of the stiff string is {'' if buckles else 'not '}buckled", ("1 of 1 states of the stiff string are buckled" in said) == buckles, said[-800:])
         expect(f"{weight}: and stable", "of the stiff string are unstable" not in said, said[-800:])
