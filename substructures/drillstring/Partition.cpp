@@ -4,7 +4,6 @@
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 
@@ -23,12 +22,11 @@ deck::ListSpec partitionParameters() {
       "Rule", std::string("By component"),
       {"By component", "By length", "By cost", "By nodes", "Single"},
       "Where the string is cut: at every component boundary, at the component boundaries that "
-      "leave parts of at least "
-      "Length, so that a step of the reduced model is predicted to cost least, at Cut Nodes, or "
-      "not at all (the single substructure of Nguyen et al. 2020). \"By cost\" tries lengths from "
-      "one "
-      "component on and, where that gains less than 15 %, to retain all nodes that can touch and a "
-      "Minimum Reduced Run of 8, as far as the deck leaves these open.");
+      "leave parts of at least Length, so that a step of the reduced model is predicted to cost "
+      "least, at Cut Nodes, or not at all (the single substructure of Nguyen et al. 2020). \"By "
+      "cost\" needs modes by a cut-off or a tolerance. It tries lengths from one component on and, "
+      "where that gains less than 15 %, to retain all nodes that can touch and a Minimum Reduced "
+      "Run of 8, as far as the deck leaves these open.");
   list.real("Length", "m", deck::Optional{}, Range::positive(),
             "Shortest part of the rule \"By length\"; required there.");
   list.integerArray("Cut Nodes", deck::Optional{}, Range::atLeast(2),
@@ -115,21 +113,6 @@ PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIn
   if (rules.retainedNodes == "List") rules.nodeList = integers(list, "Node List", "List");
   rules.contactAtRetainedOnly = list.get<std::string>("Contact Nodes") == "Retained";
   return rules;
-}
-
-std::vector<double> lengthsOfParts(const DrillString& string) {
-  std::vector<double> lengths;
-  for (const auto& instance : string.instances) {
-    lengths.push_back(0.0);
-    for (int e = instance.firstElement; e <= instance.lastElement; ++e)
-      lengths.back() += string.elements[static_cast<std::size_t>(e)].length();
-  }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  constexpr double rounded = 1e-3;  // down, so that a component of that length is long enough
-  std::vector<double> tried{rounded * std::floor(*middle / rounded)};
-  while (2.0 * tried.back() <= 0.5 * string.length()) tried.push_back(2.0 * tried.back());
-  return tried;
 }
 
 std::vector<PartRange> cutParts(const DrillString& string, const PartitionRules& rules) {

@@ -61,10 +61,6 @@ deck::ListSpec partitionParameters();
 /// rotations would cut).
 PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIntegrator);
 
-/// Lengths [m] that the rule "By cost" tries: about one component, two, four, ... up to half of the
-/// string.
-std::vector<double> lengthsOfParts(const DrillString& string);
-
 /// The parts from top to bottom; they cover every element once; with "By cost", whose parts are not
 /// known before the static state, the components. Throws DeckError for cut nodes that
 /// do not exist.

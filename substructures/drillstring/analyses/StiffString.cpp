@@ -69,6 +69,7 @@ Vector StiffString::hangingFree() const {
     request.stop = [](const Vector&) { return interruptRequested(); };
     const auto slid =
         equilibrium::slideStatic(free, scene_.statics, request, Vector::Zero(mass_.size()));
+    if (interruptRequested()) throw InterruptedError("Interrupted.");
     if (!slid) throw;
     return slid->displacement;
   }

@@ -21,6 +21,7 @@
 #include "substructures/drillstring/case/StringRecord.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
+#include "substructures/drillstring/scene/CutByCost.hpp"
 #include "substructures/drillstring/scene/Remarks.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
 #include "substructures/drillstring/scene/UsualRanges.hpp"
@@ -125,18 +126,7 @@ std::unique_ptr<cases::Case> DrillstringCase::with(
 }
 
 std::vector<std::vector<cases::Overrides>> DrillstringCase::openChoices() const {
-  if (!scene_->reduces() || scene_->partition.rule != "By cost") return {};
-  const auto open = [this](const std::string& name) {
-    return !deck().gives("Substructures/" + name);
-  };
-  std::vector<std::vector<cases::Overrides>> choices(1);
-  for (const double length : lengthsOfParts(scene_->string))
-    choices[0].push_back(
-        {"Substructures/Rule=By length", "Substructures/Length=" + deck::printed(length, "m")});
-  if (open("Retained Nodes") && open("Retained Gap"))
-    choices.push_back({{"Substructures/Retained Nodes=All"}});
-  if (open("Minimum Reduced Run")) choices.push_back({{"Substructures/Minimum Reduced Run=8"}});
-  return choices;
+  return cutsByCost(*scene_);
 }
 
 std::unique_ptr<cases::Case> DrillstringCase::turningAt(double speed) const {

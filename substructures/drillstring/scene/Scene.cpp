@@ -21,6 +21,7 @@
 #include "substructures/drillstring/assembly/DrillstringReader.hpp"
 #include "substructures/drillstring/scene/BottomHoleParameters.hpp"
 #include "substructures/drillstring/scene/BucklingParameters.hpp"
+#include "substructures/drillstring/scene/CutByCost.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
 #include "transient/Integrator.hpp"
 
@@ -303,9 +304,7 @@ void crossCheck(const Scene& scene, Faults& faults) {
     faults.add("Reduction",
                "has neither a Transient list to serve nor Substructures to cut. Add Transient, or "
                "leave Reduction out.");
-  if (scene.reduces() && !scene.moves() && scene.partition.rule == "By cost")
-    faults.add("Substructures/Rule",
-               "\"By cost\" needs a motion. Add a Transient list, or cut by component.");
+  checkCutByCost(scene, faults);
   std::vector<std::string> parts;
   if (scene.reduces() && faults.none())
     for (const auto& part : cutParts(scene.string, scene.partition)) parts.push_back(part.name);

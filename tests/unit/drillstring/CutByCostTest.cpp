@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Parts cut so that a step of the reduced model costs least.
+#include "substructures/drillstring/scene/CutByCost.hpp"
+
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
 #include "cases/ReducedCase.hpp"
+#include "common/Error.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 #include "tests/support/SourceFolder.hpp"
 #include "transient/CostModel.hpp"
@@ -51,6 +54,30 @@ TEST(CutByCost, LeavesWhatTheDeckGives) {
   ASSERT_EQ(choices.size(), 1u) << "lengths alone: the deck has Retained Gap, too";
   EXPECT_EQ(choices[0][0][0], "Substructures/Rule=By length");
   EXPECT_TRUE(caseWith({"Substructures/Rule=By component"}).openChoices().empty());
+}
+
+std::string refusal(const std::string& deck, const cases::Overrides& overrides) {
+  try {
+    drillstring::readScene(testing_::sourceFolder() + deck, overrides);
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CutByCost, RefusesWhatMakesLongPartsLessAccurateOrNamesParts) {
+  const std::string rule = "Substructures/Rule=By cost", modes = "Reduction/Mode Selection/";
+  EXPECT_NE(
+      refusal("/xml/helical_170m.xml", {rule, "!" + modes + "Cut-off Frequency", modes + "Modes=4"})
+          .find("less accurate"),
+      std::string::npos);
+  EXPECT_EQ(refusal("/xml/helical_170m.xml",
+                    {rule, "!" + modes + "Cut-off Frequency", modes + "Frequency Tolerance=1e-3"}),
+            "");
+  EXPECT_NE(refusal("/tests/effects/coupling.xml", {rule}).find("Coupling speaks of"),
+            std::string::npos);
+  EXPECT_NE(refusal("/xml/helical_170m.xml", {rule, "!Transient"}).find("needs a motion"),
+            std::string::npos);
 }
 
 TEST(CutByCost, LengthsDoubleFromOneComponentToHalfTheString) {
