@@ -38,18 +38,18 @@ void checkCutByCost(const Scene& scene, cases::Faults& faults) {
         "Motion Tolerance, or cut by component.");
 }
 
-std::vector<double> lengthsOfParts(const DrillString& string) {
+std::vector<double> lengthsOfParts(const DrillString& drillString) {
   std::vector<double> lengths;
-  for (const auto& instance : string.instances) {
+  for (const auto& instance : drillString.instances) {
     lengths.push_back(0.0);
     for (int e = instance.firstElement; e <= instance.lastElement; ++e)
-      lengths.back() += string.elements[at(e)].length();
+      lengths.back() += drillString.elements[at(e)].length();
   }
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
   constexpr double rounded = 1e-3;  // down, so that a component of that length is long enough
   std::vector<double> tried{rounded * std::floor(*middle / rounded)};
-  while (2.0 * tried.back() <= 0.5 * string.length()) tried.push_back(2.0 * tried.back());
+  while (2.0 * tried.back() <= 0.5 * drillString.length()) tried.push_back(2.0 * tried.back());
   return tried;
 }
 

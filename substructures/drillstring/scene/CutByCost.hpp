@@ -17,7 +17,7 @@ namespace tooljoint::drillstring {
 void checkCutByCost(const Scene& scene, cases::Faults& faults);
 
 /// Lengths [m] that are tried: about one component, two, four, ... up to half of the string.
-std::vector<double> lengthsOfParts(const DrillString& string);
+std::vector<double> lengthsOfParts(const DrillString& drillString);
 
 /// The choices of Case::openChoices(); none with other rules.
 std::vector<std::vector<cases::Overrides>> cutsByCost(const Scene& scene);
