@@ -85,7 +85,8 @@ void ofTorqueDrag(const screen::Json& summary) {
     extremeLine(name, margin, brief(margin.value, 3), at(margin));
   }
   if (const auto stuck = number(summary, "/torque_drag/locked_up"); stuck && *stuck > 0.0)
-    line("locked up", fixed(*stuck, 0) + " rows", "the string cannot be moved so");
+    line("locked up", fixed(*stuck, 0) + (*stuck == 1.0 ? " row" : " rows"),
+         "the string cannot be moved so");
 }
 
 void ofBottomHole(const screen::Json& summary) {
