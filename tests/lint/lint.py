@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds the rules of the source tree that a compiler does not: who may include whom, names that stay out, licence lines, sizes.
+"""Holds the rules of the source tree that a compiler does not: who may include whom, names that stay out, licence lines, sizes, code that stands twice.
 
     lint.py PROJECT         prints file:line: what is wrong, exit code 1 if anything is
     lint.py --self-test     shows that each rule catches what it is for
@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 
+import repeats
 import rooms
 import sizes
 
@@ -122,13 +123,19 @@ def strangers(root):
         yield f"{firsts[room]}:1: stands in no room of the project: results of runs stay out of git (git rm -r --cached {room})"
 
 
+def standing_twice(root, files):
+    """Complaints about code that stands twice in product code, the Python package or tools."""
+    known = [path for path in [*files, *sorted((root / "tools").rglob("*.py"))] if path.suffix in (".cpp", ".hpp", ".py")]
+    return repeats.of_texts({path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace") for path in known})
+
+
 def lint(root):
     """All complaints about a tree as texts, and the number of files read."""
     files = [root / name for name in TOP if (root / name).is_file()]
     for room in ROOMS:
         files += sorted(path for path in files_of(root, room) if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
     complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)]
-    complaints += [*modes(root), *house(root), *size_table(root), *strangers(root), *sizes.of_folders(path.relative_to(root).as_posix() for path in files)]
+    complaints += [*modes(root), *house(root), *size_table(root), *strangers(root), *standing_twice(root, files), *sizes.of_folders(path.relative_to(root).as_posix() for path in files)]
     return complaints, len(files)
 
 
@@ -181,7 +188,12 @@ def self_test():
         "src/crowd": (None, "more than"),
         "src/io/W.hpp": (spdx + "class Full {\n" + "".join(f"  std::map<int, double> m{i}_{{1, 2}};\n  int f{i}(int a) const {{ return a; }}\n" for i in range(sizes.MEMBERS)) + "};\n", None),
         "src/io/X.hpp": (spdx + "class Wide : public Base {\n int a_, b_ = 2;\n struct S {\n  int c;\n } s_;\n" + " std::function<void(int)> f_;\n" * (sizes.MEMBERS - 2) + "};\n", "Wide has 26 data members"),
-        "src/transient/compiled/Y.hpp": (spdx + "struct Kernel {\n" + "  int a;\n" * 30 + "};\n", None),
+        "src/transient/compiled/Y.hpp": (spdx + "struct Kernel {\n" + "".join(f"  int a{i};\n" for i in range(30)) + "};\n", None),
+        "src/transient/Z1.cpp": (spdx + "int f() {\n" + "".join(f"  a += {i};  // one\n" for i in range(repeats.LEAST)) + "}\n", None),
+        "src/transient/Z2.cpp": (spdx + "\n".join(f"    a += {i};\n// other" for i in range(repeats.LEAST)) + "\n", "6 lines or more of code stand in src/transient/Z1.cpp:3, too"),
+        "src/transient/Z3.cpp": (spdx + "".join(f"  a += {i};\n" for i in range(repeats.LEAST - 1)), None),
+        "substructures/mud/Z4.cpp": (spdx + "".join(f"  int f{i}() override;\n" for i in range(9)), None),
+        "substructures/mud/Z5.cpp": (spdx + "".join(f"  int f{i}() override;\n" for i in range(9)), None),
         "tools/M.py": ("#!/usr/bin/env python3\n# SPDX-License-Identifier: BSD-3-Clause\n", "is not executable"),
         "run2/summary.json": ("{}\n", "stay out of git"),
         "quickstart": ("#!/usr/bin/env bash\n# SPDX-License-Identifier: BSD-3-Clause\n", None),
