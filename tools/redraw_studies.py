@@ -78,7 +78,7 @@ def study(name, rows, attributes):
 def speed(name):
     """Of docs/tables/speed_NAME.csv, and what the page says of its reference."""
     page = (PROJECT / "docs/speed-against-error.md").read_text(encoding="utf-8")
-    said = re.search(rf"xml/{SPEED[name]}\.xml`\. .*?vibration error of (\S+) over (\S+) to (\S+) s", page)
+    said = re.search(rf"xml/{SPEED[name]}\.xml`\. .*?vibration error of (\S+) over (\S+) to (\S+) s", " ".join(page.split()))
     with open(PROJECT / f"docs/tables/speed_{name}.csv", newline="", encoding="utf-8") as file:
         table = list(csv.DictReader(file))
     most = max(int(row["dofs"]) for row in table)
