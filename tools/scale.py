@@ -45,7 +45,7 @@ CUT_PARTS, CUT_BLOCKS = 16, ((24, 6, 3), (56, 14, 7), (100, 25, 12), (170, 43, 2
 CUT_RANKS = 1, 2  # the largest block on two alone
 CUT_WHOLE = 200000  # dofs of the largest block that is solved as a whole, too
 REDUCED_DECK = PROJECT / "xml/vertical_5000m.xml"
-REDUCED_ERROR = 0.02  # vibration error that is asked for
+REDUCED_ERROR = 0.02  # vibration error that is required
 REDUCED_METHODS = "cut-off", "long parts"  # lists of the study, whose real time factor is measured on two ranks too
 STATICS = "stress_170m", "inclined_1000m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m"
 # Stages of --verbose: the equilibrium, and what a static state takes beside it.

@@ -28,6 +28,7 @@ FORBIDDEN = [re.compile(word) for word in [r"\bTO" r"DO\b", r"\bFIX" r"ME\b", r"
                                            r"(?<![\w.])/wo" r"rk/"]]
 FOREIGN = re.compile(r"(?i)drill[\s_-]?(string|pipe)")
 BY_NAME = re.compile(r'\b(?:name|law) [!=]= "1"')
+PERSONS = re.compile(r"(?i)\b(looked at|unasked|(?:is|are|was|were) (?:asked|told))\b")  # in product code and pages: what people do
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
@@ -52,12 +53,15 @@ def lint_file(root, path):
     yield from sizes.of_source(relative.as_posix(), "\n".join(lines))
     if relative.as_posix() == "docs/architecture.md":
         yield from sizes.of_recipes("\n".join(lines))
+    spoken = parts[0] in ("src", "substructures", "python", "docs", "examples") or relative.as_posix() in ("README.md", "CONTRIBUTING.md")
     toolkit = parts[0] == "src" and parts[1] != "app"
     bad_deck = parts[:2] == ("tests", "decks") and path.suffix == ".xml"
     for number, line in enumerate(lines, 1):
         for word in [] if bad_deck else FORBIDDEN:
             if match := word.search(line):
                 yield number, f"says \"{match.group(0)}\""
+        if spoken and (match := PERSONS.search(line)):
+            yield number, f"says \"{match.group(0)}\" of a computation: name what it does (evaluated, compared, printed)"
         if toolkit and (match := FOREIGN.search(line)):
             yield number, f"says \"{match.group(0)}\": the toolkit has never heard of it"
         if parts[0] in ("src", "substructures") and BY_NAME.search(line):
@@ -181,6 +185,9 @@ def self_test():
         "docs/architecture.md": ("| app | 9,000 | all |\n\n## Recipes\n\n**A long one.**\n" + "a line\n" * sizes.RECIPE + "\n**A short one.**\n", ("lint.py --rooms", "a recipe of 21 lines", "says that app have 9,000 lines; they have 3")),
         "tests/unit/a/H.cpp": ("int x;\n", "no SPDX"),
         "cmake/I.cmake": ("# SPDX-License-Identifier: BSD-3-Clause\n# TO" + "DO later\n", "says"),
+        "docs/I1.md": ("The residual is " + "looked" + " at in each step.\n", "of a computation"),
+        "src/io/I2.cpp": (spdx + "// nodes that are as" + "ked\n", "of a computation"),
+        "tests/unit/a/I3.cpp": (spdx + "// nodes that are as" + "ked\n", None),
         "docs/J.md": ("see /wo" + "rk/main\n", "says"),
         "docs/K.md": ("this is not " + "implemented\n", "says"),
         "src/io/L.cpp": (spdx + "\n" * LONGEST, "more than"),
