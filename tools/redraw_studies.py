@@ -102,7 +102,7 @@ def variants(name):
         label, error = row["run"], row["vibration_error"]
         rows.append({"line": line_of(label), "label": label, "kind": "method", "model": "full" if line_of(label) == "Full" else "reduced", "status": "done" if error else "failed", "vibration_error": error,
                      "cpu_per_simulated_s": row["cpu_per_simulated_s [s]"], "reduced_dofs": row["dofs"], "frequency_error": row["frequency_error"], "setup_cpu": row["setup_cpu [s]"]})
-    own = re.search(r"vibration error of (\S+) against RK4", section)
+    own = re.search(r"vibration error of (\S+) against RK4", " ".join(section.split()))
     _, lists = scene(VARIANTS[name])
     window = float(next(filter(None, (deck.value(lists, path) for path in ("Study/Window", "Study/End Time", "Transient/End Time")))))
     return plot_study.draw_bases(study(VARIANTS[name], rows, {"machine": re.search(r"^Machine: (.*?), \d+ cores", section, re.M).group(1), "self_error": float(own.group(1)), "frequencies": 20,
