@@ -351,6 +351,8 @@ def locked():
         fine = ["--set", "Drillstring/Assembly={pipe}", "--set", "Contact/Friction/Static=0.5", "--set", "Contact/Friction/Dynamic=0.5"] if deck != DECK else []
         done = tooljoint(words[0], deck, *words[2:], *fine, "--output", "locked " + weight, "--set", f"Loads/Weight On Bit={weight}")
         expect(f"{weight}: why the stiff string has no result", done.returncode == 0 and reason in " ".join(done.stderr.split()), done.stderr)
+        if weight == "600 kN":
+            expect("its last screen counts one row that is locked up", "\nlocked up           1 row  " in done.stdout, done.stdout[-600:])
     expect("the table says that it locks up", float(rows("locked 1200 kN")[0]["stiff_locked_up"]) == 1 and float(rows("locked 600 kN")[0]["stiff_locked_up"]) == 0)
     row = rows("locked 600 kN", "torque_drag.csv")[0]
     expect("it locks up", row["lock_up_depth"] != "" and 0 < float(row["lock_up_depth"]) < 1425, row)
