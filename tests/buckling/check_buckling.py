@@ -7,6 +7,7 @@
 import json
 import math
 import pathlib
+import shutil
 import sys
 
 import h5py
@@ -251,6 +252,36 @@ def refusals():
     expect("and refuses what buckling would", done.returncode == 2 and "has to lie between" in done.stderr, done.stderr)
 
 
+def buckled_runs():
+    """A horizontal pipe that turns, pushed past its buckling load: the stages of its static state do not converge, and it slides to a state in
+    balance; harder still, friction drives it round the hole, and the run says so and what helps."""
+    survey = pathlib.Path("horizontal.csv").resolve()
+    survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 90, 0\n2000, 90, 0\n", encoding="utf-8")
+    pipe = '<ParameterList name="pipe"><Parameter name="Length" type="double" value="100"/><Parameter name="Elements" type="int" value="100"/>' \
+        '<Parameter name="Outer Radius" type="double" value="0.0635"/><Parameter name="Inner Radius" type="double" value="0.0543"/></ParameterList>'
+    text = (SOURCES / "xml/build_hold_1400m.xml").read_text(encoding="utf-8")
+    pathlib.Path("hundred.xml").write_text(text.replace('<ParameterList name="Components">', '<ParameterList name="Components">' + pipe), encoding="utf-8")
+    folder = pathlib.Path("buckled run")
+
+    def pushed(weight, *settings):
+        words = ["run", "hundred.xml", "--without", "Reduction", "--without", "Substructures", "--output", str(folder)]
+        for setting in ("Well/Trajectory=Survey", f"Well/Survey/File={survey}", "Drillstring/Assembly={pipe}", "Transient/End Time=0.002 s", "Output/Report=false",
+                        f"Loads/Weight On Bit={weight} kN", *settings):
+            words += ["--set", setting]
+        shutil.rmtree(folder, ignore_errors=True)
+        done = tooljoint(*words)
+        return done, json.loads((folder / "summary.json").read_text(encoding="utf-8"))["static"]
+
+    for weight, settings in ((220, ()), (350, ("Static/Friction=None",))):
+        done, static = pushed(weight, *settings)
+        expect(f"{weight} kN {settings}: a state of rest", done.returncode == 0 and static["residual"] < 1e-8, done.stderr)
+        near(f"{weight} kN {settings}: hook load", static["hook_load"], -1e3 * weight, 1e-6)
+        expect(f"{weight} kN {settings}: torques balance", abs(static["torque_balance_defect"]) < 1e-3 * static["torque_scale"], static)
+    done, _ = pushed(350)
+    said = " ".join(done.stderr.split())
+    expect("350 kN: friction drives it round", done.returncode == 4 and "friction drives it round the hole" in said and 'Set Static/Friction to "None"' in said, done.stderr)
+
+
 euler()
 helix()
 horizontal()
@@ -261,4 +292,5 @@ unloaded()
 followed()
 documented()
 refusals()
+buckled_runs()
 sys.exit(finish())

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "substructures/drillstring/EquationBuilder.hpp"
-#include "substructures/drillstring/SlidingRest.hpp"
 #include "substructures/drillstring/figures/BendingFigures.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/drillstring/scene/SlidingRest.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
 #include "substructures/path/PathState.hpp"
 #include "substructures/softstring/SoftString.hpp"

@@ -20,11 +20,11 @@
 #include "substructures/drillstring/case/StringOutline.hpp"
 #include "substructures/drillstring/case/StringRecord.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
+#include "substructures/drillstring/case/UsualRanges.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
 #include "substructures/drillstring/scene/CutByCost.hpp"
 #include "substructures/drillstring/scene/Remarks.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
-#include "substructures/drillstring/scene/UsualRanges.hpp"
 
 namespace tooljoint::drillstring {
 

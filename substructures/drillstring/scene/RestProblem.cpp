@@ -12,7 +12,7 @@
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/contact/Eccentric.hpp"
 #include "substructures/drillstring/SidedFeatures.hpp"
-#include "substructures/drillstring/SlidingRest.hpp"
+#include "substructures/drillstring/scene/SlidingRest.hpp"
 
 namespace tooljoint::drillstring {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values that are seldom meant, and what is said of them.
-#include "substructures/drillstring/scene/UsualRanges.hpp"
+#include "substructures/drillstring/case/UsualRanges.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/SlidingRest.hpp"
+#include "substructures/drillstring/scene/SlidingRest.hpp"
 
 #include <algorithm>
 #include <cmath>

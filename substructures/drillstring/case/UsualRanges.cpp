@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/scene/UsualRanges.hpp"
+#include "substructures/drillstring/case/UsualRanges.hpp"
 
 #include <algorithm>
 #include <cmath>
