@@ -280,6 +280,9 @@ def weight_on_bit():
     table = {row["operation"]: row for row in run("first_run", "Torque and Drag/Count=1", deck=str(SOURCES / "xml/first_run.xml"))}
     off, on = table["Rotate off bottom"], table["Drill rotating"]
     near("weight on bit of first_run", float(off["hook_load"]) - float(on["hook_load"]), 40e3, 0.01)
+    said = " ".join(json.loads(pathlib.Path("first_run/summary.json").read_text(encoding="utf-8"))["warnings"])
+    bare = 53 * 28.35 + 2 * 1.8 + 1.2 + 0.35  # pipe, stabilisers and bit have no grade, collars and heavy-weight pipe have
+    expect("what has no margin to yield is said", f"{bare:.0f} m of the string's 1593 m have no yield strength" in said, said)
 
 
 def level():
