@@ -336,6 +336,7 @@ def main():
         if not marked.search(text):
             sys.exit(f"{page} has no place for the section \"{name}\".")
         page.write_text(marked.sub(lambda match: match.group(1) + "\n" + section + "\n" + match.group(2), text), encoding="utf-8")
+    subprocess.run([sys.executable, str(PROJECT / "tests/lint/wrap.py"), "--update", str(page)], check=True)
     return 0
 
 

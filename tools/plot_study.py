@@ -9,6 +9,7 @@ import argparse
 import math
 import pathlib
 import sys
+import textwrap
 
 try:
     import numpy as np
@@ -456,7 +457,7 @@ def main():
     plots.use_style()
     with files.failing(), files.reading(options.folder / "study.csv"):
         made = draw_all(Study(options.folder), output, options.formats.split(","))
-    print(f"pictures    {output}: " + ", ".join(f"study_{name}" for name in made))
+    print(textwrap.fill(f"pictures    {output}: " + ", ".join(f"study_{name}" for name in made), 100, subsequent_indent=" " * 12, break_long_words=False, break_on_hyphens=False))
     return 0
 
 

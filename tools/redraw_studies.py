@@ -78,7 +78,7 @@ def study(name, rows, attributes):
 def speed(name):
     """Of docs/tables/speed_NAME.csv, and what the page says of its reference."""
     page = (PROJECT / "docs/speed-against-error.md").read_text(encoding="utf-8")
-    said = re.search(rf"xml/{SPEED[name]}\.xml`\. .*?vibration error of (\S+) over (\S+) to (\S+) s", page)
+    said = re.search(rf"xml/{SPEED[name]}\.xml`\. .*?vibration error of (\S+) over (\S+) to (\S+) s", " ".join(page.split()))
     with open(PROJECT / f"docs/tables/speed_{name}.csv", newline="", encoding="utf-8") as file:
         table = list(csv.DictReader(file))
     most = max(int(row["dofs"]) for row in table)
@@ -102,7 +102,7 @@ def variants(name):
         label, error = row["run"], row["vibration_error"]
         rows.append({"line": line_of(label), "label": label, "kind": "method", "model": "full" if line_of(label) == "Full" else "reduced", "status": "done" if error else "failed", "vibration_error": error,
                      "cpu_per_simulated_s": row["cpu_per_simulated_s [s]"], "reduced_dofs": row["dofs"], "frequency_error": row["frequency_error"], "setup_cpu": row["setup_cpu [s]"]})
-    own = re.search(r"vibration error of (\S+) against RK4", section)
+    own = re.search(r"vibration error of (\S+) against RK4", " ".join(section.split()))
     _, lists = scene(VARIANTS[name])
     window = float(next(filter(None, (deck.value(lists, path) for path in ("Study/Window", "Study/End Time", "Transient/End Time")))))
     return plot_study.draw_bases(study(VARIANTS[name], rows, {"machine": re.search(r"^Machine: (.*?), \d+ cores", section, re.M).group(1), "self_error": float(own.group(1)), "frequencies": 20,

@@ -230,10 +230,11 @@ def document(studies, work, results):
             f"Machine: {machine()}.\n"]
     if missing:
         text.append("Missing here (not run): " + ", ".join(missing) + ".\n")
+    text += [study_section(name, study, work / name) for name, study in studies.items()]
     text += ["## Against what was aimed at\n", "First figure: aim, in brackets: what would be excellent.\n", table(["what", "aim", "measured"], lines)]
     text.append(notes())
-    text += [study_section(name, study, work / name) for name, study in studies.items()]
     DOCUMENT.write_text("\n".join(text))
+    subprocess.run([sys.executable, str(PROJECT / "tests/lint/wrap.py"), "--update", str(DOCUMENT)], check=True)
 
 
 def notes():

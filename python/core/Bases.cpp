@@ -71,7 +71,7 @@ class PythonBasis final : public reduction::ReductionMethod {
   }
 
  private:
-  static constexpr int firstVectors = 16;  ///< asked for with a cut-off frequency, then doubled
+  static constexpr int firstVectors = 16;  ///< requested with a cut-off frequency, then doubled
 
   Basis make(const PartView& part, int count) const {
     const std::string who = "The basis \"" + name_ + "\"";

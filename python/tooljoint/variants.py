@@ -48,7 +48,7 @@ def _sentence(function):
 
 
 def _checked_force(name, force, states):
-    """The function of a point law, whose forces are looked at: ModelError for None and for a wrong number of them. Forces that are not finite
+    """The function of a point law, whose forces are checked: ModelError for None and for a wrong number of them. Forces that are not finite
     may come of a trial that the integrator takes back, so they are noted until finite ones follow or a solver gives up."""
     who = f'The point law "{name}"'
 

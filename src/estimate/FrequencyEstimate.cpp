@@ -304,6 +304,7 @@ std::vector<FrequencyEstimate> assessReduced(const std::vector<model::Substructu
 }  // namespace
 
 double FrequencyEstimate::frequency() const {
+  if (isRigid) return 0.0;
   return std::copysign(std::sqrt(std::abs(eigenvalue)) / twoPi, eigenvalue);
 }
 

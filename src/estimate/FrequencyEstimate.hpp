@@ -23,7 +23,7 @@ struct FrequencyEstimate {
   bool isRigid = false;      ///< motion of a rigid body, zero but for rounding
   bool definite = true;      ///< false: modes are missing below this frequency, and `error`, that
                              ///< of the nearest one, is less than the error of this number
-  double frequency() const;  ///< sign(omega^2) sqrt(|omega^2|) / 2 pi [Hz]
+  double frequency() const;  ///< sign(omega^2) sqrt(|omega^2|) / 2 pi [Hz], 0 of a rigid body
 };
 
 /// Which modes.

@@ -85,7 +85,8 @@ void ofTorqueDrag(const screen::Json& summary) {
     extremeLine(name, margin, brief(margin.value, 3), at(margin));
   }
   if (const auto stuck = number(summary, "/torque_drag/locked_up"); stuck && *stuck > 0.0)
-    line("locked up", fixed(*stuck, 0) + " rows", "the string cannot be moved so");
+    line("locked up", fixed(*stuck, 0) + (*stuck == 1.0 ? " row" : " rows"),
+         "the string cannot be moved so");
 }
 
 void ofBottomHole(const screen::Json& summary) {
@@ -231,15 +232,20 @@ struct Screen {
   void (*numbers)(const screen::Json&);
   const char* next;  ///< command that takes the same deck
   const char* switches;
+  const char* list;  ///< of the deck, which the next command does not read
 };
 
 /// What an analysis shows, and what to try next.
 const std::map<std::string, Screen>& screens() {
   static const std::map<std::string, Screen> known{
-      {"torque_drag", {ofTorqueDrag, "bha", ""}},    {"bha", {ofBottomHole, "torque-drag", ""}},
-      {"buckling", {ofBuckling, "torque-drag", ""}}, {"campbell", {ofCampbell, "run", ""}},
-      {"response", {ofResponse, "run", ""}},         {"modes", {ofModes, "run", ""}},
-      {"study", {ofStudy, "check", " --cost"}},      {"map", {ofMap, "run", ""}}};
+      {"torque_drag", {ofTorqueDrag, "bha", "", "Torque and Drag"}},
+      {"bha", {ofBottomHole, "torque-drag", "", "Bottom-Hole Assembly"}},
+      {"buckling", {ofBuckling, "torque-drag", "", "Buckling"}},
+      {"campbell", {ofCampbell, "run", "", "Campbell"}},
+      {"response", {ofResponse, "run", "", "Response"}},
+      {"modes", {ofModes, "run", "", ""}},
+      {"study", {ofStudy, "check", " --cost", ""}},
+      {"map", {ofMap, "run", "", "Map"}}};
   return known;
 }
 
@@ -259,7 +265,7 @@ void analysisScreen(const std::string& analysis, const std::string& folder,
     line("warnings", std::to_string(count), "above and in the report");
   screen::openAndNext(folder,
                       {std::string("tooljoint ") + shown.next + " " + inShellQuotes(deck.file()) +
-                       cases::overrideSwitches(deck) + shown.switches});
+                       cases::overrideSwitches(deck, shown.list) + shown.switches});
 }
 
 }  // namespace tooljoint::texts

@@ -74,7 +74,7 @@ CostModel costModel(const model::SecondOrderModel& source, const TransientOption
   const double mass = work(1, 0, 0), damping = work(0, 1, 0), stiffness = work(0, 0, 1);
 
   // At each evaluation rows of points near contact are gathered and scattered; clearances of all
-  // are looked at once.
+  // are read once.
   Vector q(model.size());
   model.toPositions(source.initialDisplacement, q);
   double near = 0, rows = 0, all = 0;

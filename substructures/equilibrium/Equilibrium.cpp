@@ -39,8 +39,9 @@ const Searches fullSteps{model::LineSearch::None};
 /// Runs the stages of a recipe on one problem and keeps the account.
 class Stages {
  public:
-  Stages(StaticProblem& problem, const StaticOptions& options, const model::NonlinearSolver& solve)
-      : problem_(problem), options_(options), solve_(solve) {}
+  Stages(StaticProblem& problem, const StaticOptions& options, const model::NonlinearSolver& solve,
+         int halvings = mostHalvings)
+      : problem_(problem), options_(options), solve_(solve), halvings_(halvings) {}
 
   /// One stage from x.
   void run(const std::string& name, const StaticSwitches& switches, double tolerance,
@@ -68,13 +69,8 @@ class Stages {
   /// Stages from where x is (`from`) to `to`; where one does not converge, by way of what lies
   /// between: at equal ratios or, from 0, at equal distances.
   void march(double from, double to, double tolerance, const StageAt& stage,
-             StaticSwitches switches, const Searches& searches, Vector& x, int cuts = 5) {
-    const std::string name = stage(to, switches);
-    if (cuts == 0) return run(name, switches, tolerance, searches, x);
-    if (tryRun(name, switches, tolerance, searches, x)) return;
-    const double between = from > 0.0 ? std::sqrt(from * to) : 0.5 * to;
-    march(from, between, tolerance, stage, switches, searches, x, cuts - 1);
-    march(between, to, tolerance, stage, switches, searches, x, cuts - 1);
+             StaticSwitches switches, const Searches& searches, Vector& x) {
+    march(from, to, tolerance, stage, switches, searches, x, halvings_);
   }
 
   /// A solve outside of the stages.
@@ -91,6 +87,16 @@ class Stages {
   }
 
  private:
+  void march(double from, double to, double tolerance, const StageAt& stage,
+             StaticSwitches switches, const Searches& searches, Vector& x, int halvings) {
+    const std::string name = stage(to, switches);
+    if (halvings == 0) return run(name, switches, tolerance, searches, x);
+    if (tryRun(name, switches, tolerance, searches, x)) return;
+    const double between = from > 0.0 ? std::sqrt(from * to) : 0.5 * to;
+    march(from, between, tolerance, stage, switches, searches, x, halvings - 1);
+    march(between, to, tolerance, stage, switches, searches, x, halvings - 1);
+  }
+
   bool attempt(const std::string& name, double tolerance, model::LineSearch search, Vector& x) {
     model::SolveRequest request;
     request.what = "the static equilibrium (" + name + ")";
@@ -119,6 +125,7 @@ class Stages {
   StaticProblem& problem_;
   const StaticOptions& options_;
   const model::NonlinearSolver& solve_;
+  int halvings_;
   StaticReport report_;
   std::string message_;
 };
@@ -378,7 +385,7 @@ std::optional<StaticState> slideStatic(const StaticInput& input, const StaticOpt
   auto switches = switchesOf(input, options);
   switches.lateralStepLimit = options.lateralStepLimit;
   switches.slideAlongWall = true;
-  switches.pull = 0.0;
+  switches.pull = asked.pull;
   switches.frictionScale = asked.frictionScale;
   problem.set(switches);
   Vector x = problem.restrict(start);
@@ -393,10 +400,10 @@ std::optional<StaticState> slideStatic(const StaticInput& input, const StaticOpt
 }
 
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
-                        const model::NonlinearSolver& solve) {
+                        const model::NonlinearSolver& solve, int halvings) {
   StaticProblem problem(input);
   const auto switches = switchesOf(input, options);
-  Stages stages(problem, options, solve);
+  Stages stages(problem, options, solve, halvings);
   Vector x = Vector::Zero(problem.size());
   if (options.recipe == Recipe::Source)
     asTheSource(problem, stages, switches, x);

@@ -65,10 +65,13 @@ deck::ListSpec parameters();
 /// Reads a validated `Static` list.
 StaticOptions optionsFrom(const Teuchos::ParameterList& list);
 
+/// Times that a stage which does not converge is split into two, one within the other.
+constexpr int mostHalvings = 5;
+
 /// The static state. Throws ConvergenceError naming the stage that failed and what to change;
 /// ModelError for input that does not fit together.
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
-                        const model::NonlinearSolver& solve);
+                        const model::NonlinearSolver& solve, int halvings = mostHalvings);
 
 /// The state of rest the string finds when it leaves the unstable state `from` along the mode: see
 /// settle(); then friction and pull as in solveStatic(). ConvergenceError: there is none within
@@ -77,8 +80,8 @@ StaticState leaveUnstable(const StaticInput& input, const StaticOptions& options
                           const model::NonlinearSolver& solve, const StaticState& from,
                           const UnstableMode& mode);
 
-/// The state of rest that the string slides to from the displacement `start`: see slideToRest();
-/// walls only push. None: it does not come to rest.
+/// The state of rest that the string slides to from the displacement `start`: see slideToRest().
+/// None: it does not come to rest.
 std::optional<StaticState> slideStatic(const StaticInput& input, const StaticOptions& options,
                                        const SlideRequest& asked, const Vector& start);
 

@@ -44,6 +44,7 @@ constexpr double slidingAlpha = 100.0;
 struct SlideRequest {
   Vector mass;  ///< diagonal of the mass matrix, 6 entries per node [kg, kg m2]
   double frictionScale = 1.0;
+  double pull = 0.0;  ///< share of the attraction of open points to the wall
   double tolerance = 0.0;
   double alpha = slidingAlpha;  ///< of the first step; 0: Newton's method while it converges
   int mostIterations = 0;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds the rules of the source tree that a compiler does not: who may include whom, names that stay out, licence lines, sizes.
+"""Holds the rules of the source tree that a compiler does not: who may include whom, names that stay out, licence lines, sizes, code that stands twice.
 
     lint.py PROJECT         prints file:line: what is wrong, exit code 1 if anything is
     lint.py --self-test     shows that each rule catches what it is for
@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 
+import repeats
 import rooms
 import sizes
 
@@ -27,6 +28,7 @@ FORBIDDEN = [re.compile(word) for word in [r"\bTO" r"DO\b", r"\bFIX" r"ME\b", r"
                                            r"(?<![\w.])/wo" r"rk/"]]
 FOREIGN = re.compile(r"(?i)drill[\s_-]?(string|pipe)")
 BY_NAME = re.compile(r'\b(?:name|law) [!=]= "1"')
+PERSONS = re.compile(r"(?i)\b(looked at|unasked|(?:is|are|was|were) (?:asked|told))\b")  # in product code and pages: what people do
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
@@ -51,12 +53,15 @@ def lint_file(root, path):
     yield from sizes.of_source(relative.as_posix(), "\n".join(lines))
     if relative.as_posix() == "docs/architecture.md":
         yield from sizes.of_recipes("\n".join(lines))
+    spoken = parts[0] in ("src", "substructures", "python", "docs", "examples") or relative.as_posix() in ("README.md", "CONTRIBUTING.md")
     toolkit = parts[0] == "src" and parts[1] != "app"
     bad_deck = parts[:2] == ("tests", "decks") and path.suffix == ".xml"
     for number, line in enumerate(lines, 1):
         for word in [] if bad_deck else FORBIDDEN:
             if match := word.search(line):
                 yield number, f"says \"{match.group(0)}\""
+        if spoken and (match := PERSONS.search(line)):
+            yield number, f"says \"{match.group(0)}\" of a computation: name what it does (evaluated, compared, printed)"
         if toolkit and (match := FOREIGN.search(line)):
             yield number, f"says \"{match.group(0)}\": the toolkit has never heard of it"
         if parts[0] in ("src", "substructures") and BY_NAME.search(line):
@@ -122,13 +127,19 @@ def strangers(root):
         yield f"{firsts[room]}:1: stands in no room of the project: results of runs stay out of git (git rm -r --cached {room})"
 
 
+def standing_twice(root, files):
+    """Complaints about code that stands twice in product code, the Python package or tools."""
+    known = [path for path in [*files, *sorted((root / "tools").rglob("*.py"))] if path.suffix in (".cpp", ".hpp", ".py")]
+    return repeats.of_texts({path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace") for path in known})
+
+
 def lint(root):
     """All complaints about a tree as texts, and the number of files read."""
     files = [root / name for name in TOP if (root / name).is_file()]
     for room in ROOMS:
         files += sorted(path for path in files_of(root, room) if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
     complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)]
-    complaints += [*modes(root), *house(root), *size_table(root), *strangers(root), *sizes.of_folders(path.relative_to(root).as_posix() for path in files)]
+    complaints += [*modes(root), *house(root), *size_table(root), *strangers(root), *standing_twice(root, files), *sizes.of_folders(path.relative_to(root).as_posix() for path in files)]
     return complaints, len(files)
 
 
@@ -174,6 +185,9 @@ def self_test():
         "docs/architecture.md": ("| app | 9,000 | all |\n\n## Recipes\n\n**A long one.**\n" + "a line\n" * sizes.RECIPE + "\n**A short one.**\n", ("lint.py --rooms", "a recipe of 21 lines", "says that app have 9,000 lines; they have 3")),
         "tests/unit/a/H.cpp": ("int x;\n", "no SPDX"),
         "cmake/I.cmake": ("# SPDX-License-Identifier: BSD-3-Clause\n# TO" + "DO later\n", "says"),
+        "docs/I1.md": ("The residual is " + "looked" + " at in each step.\n", "of a computation"),
+        "src/io/I2.cpp": (spdx + "// nodes that are as" + "ked\n", "of a computation"),
+        "tests/unit/a/I3.cpp": (spdx + "// nodes that are as" + "ked\n", None),
         "docs/J.md": ("see /wo" + "rk/main\n", "says"),
         "docs/K.md": ("this is not " + "implemented\n", "says"),
         "src/io/L.cpp": (spdx + "\n" * LONGEST, "more than"),
@@ -181,7 +195,12 @@ def self_test():
         "src/crowd": (None, "more than"),
         "src/io/W.hpp": (spdx + "class Full {\n" + "".join(f"  std::map<int, double> m{i}_{{1, 2}};\n  int f{i}(int a) const {{ return a; }}\n" for i in range(sizes.MEMBERS)) + "};\n", None),
         "src/io/X.hpp": (spdx + "class Wide : public Base {\n int a_, b_ = 2;\n struct S {\n  int c;\n } s_;\n" + " std::function<void(int)> f_;\n" * (sizes.MEMBERS - 2) + "};\n", "Wide has 26 data members"),
-        "src/transient/compiled/Y.hpp": (spdx + "struct Kernel {\n" + "  int a;\n" * 30 + "};\n", None),
+        "src/transient/compiled/Y.hpp": (spdx + "struct Kernel {\n" + "".join(f"  int a{i};\n" for i in range(30)) + "};\n", None),
+        "src/transient/Z1.cpp": (spdx + "int f() {\n" + "".join(f"  a += {i};  // one\n" for i in range(repeats.LEAST)) + "}\n", None),
+        "src/transient/Z2.cpp": (spdx + "\n".join(f"    a += {i};\n// other" for i in range(repeats.LEAST)) + "\n", "6 lines or more of code stand in src/transient/Z1.cpp:3, too"),
+        "src/transient/Z3.cpp": (spdx + "".join(f"  a += {i};\n" for i in range(repeats.LEAST - 1)), None),
+        "substructures/mud/Z4.cpp": (spdx + "".join(f"  int f{i}() override;\n" for i in range(9)), None),
+        "substructures/mud/Z5.cpp": (spdx + "".join(f"  int f{i}() override;\n" for i in range(9)), None),
         "tools/M.py": ("#!/usr/bin/env python3\n# SPDX-License-Identifier: BSD-3-Clause\n", "is not executable"),
         "run2/summary.json": ("{}\n", "stay out of git"),
         "quickstart": ("#!/usr/bin/env bash\n# SPDX-License-Identifier: BSD-3-Clause\n", None),

@@ -21,6 +21,9 @@ sys.path.insert(0, str(SOURCE / "tools"))
 import plot_results  # noqa: E402
 import plot_study  # noqa: E402
 import redraw_studies  # noqa: E402
+import scale  # noqa: E402
+import scale_figures  # noqa: E402
+import strategies_figure  # noqa: E402
 
 DECK = """<ParameterList name="well"><ParameterList name="Loads"><Parameter name="Weight On Bit" type="double" value="40000"/></ParameterList></ParameterList>"""
 # Machado, Oliveira and Fernandes (2009), severity 1, on linear RGB.
@@ -316,6 +319,23 @@ class Studies(Style):
         self.assertEqual([axes.get_ylabel() for axes in made.axes], 2 * ["vibration error of the motion"] + 2 * ["largest error of 20 frequencies"])
         shown = dict(zip([line.get_label() for line in made.axes[1].lines], [line.get_xydata()[0].tolist() for line in made.axes[1].lines]))
         self.assertEqual(shown["Guyan"], [30, 0.037])
+
+    def test_the_figure_of_strategies_has_the_runs_of_its_page(self):
+        page = "Machine: a machine.\n\n| left out | verdict |\n|---|---|\n| One |  |\n\n| case | step [us] | One | Two |\n|---|---|---|---|\n" \
+               "| a | 88 | 1.51 | - |\n| b | 90 | 0.50, differs by 5 % | refused |\n"
+        made = strategies_figure.draw(page)
+        self.check(made)
+        shown = {line.get_label(): line.get_xydata().tolist() for line in made.axes[0].lines}
+        self.assertEqual([shown[f"{what} (1)"] for what in ("same motion", "motion differs", "refused")], [[[1.51, 0]], [[0.5, 0]], [[1.51 * 1.25, 1]]])
+        self.assertIn("2 cases of docs/strategies.md; a machine", made.texts[1].get_text())
+
+    def test_the_page_of_scale_says_from_which_size_parts_are_faster(self):
+        page = (SOURCE / "docs/scale.md").read_text(encoding="utf-8")
+        cut = scale_figures.table_with(scale_figures.tables(page), "largest estimate")
+        lines = [(int(row["dofs"]), int(row["ranks"]), row["wall [s]"], "", "", "", row["whole: wall [s]"]) for row in cut]
+        self.assertIn(scale.faster_from(lines), " ".join(page.split()))
+        lines = [(10, 1, "1", "", "", "", "2"), (20, 1, "3", "", "", "", "2"), (30, 1, "1", "", "", "", "2"), (10, 2, "3", "", "", "", "2"), (40, 2, "1", "", "", "", "")]
+        self.assertEqual(scale.faster_from(lines), "The parts take less time than the whole on 1 rank from 30 dofs on, on 2 ranks at no size up to 10 dofs.")
 
     def test_profiles_of_the_static_state(self):
         made = plot_study.draw_static(self.study(2))

@@ -70,6 +70,8 @@ def page(title, folder, wanted, seconds=SECONDS):
     expect(f"{title}: a report takes less than {SECONDS:.0f} s", done.returncode == 0 and path.is_file() and took < seconds * TIME_FACTOR, f"({done.returncode}, {took:.1f} s) {done.stderr}")
     if not path.is_file():
         return path, ""
+    size = path.stat().st_size
+    expect(f"{title}: the command says how large it is", re.search(rf": {f'{size / 1e3:.0f} kB' if size < 1e6 else f'{size / 1e6:.1f} MB'}$", done.stdout, re.M), done.stdout)
     text = path.read_text(encoding="utf-8")
     print(f"       {title}: {took:.1f} s of CPU, {path.stat().st_size / 1e6:.2f} MB, {len(figures(text))} figures")
     expect(f"{title}: every figure is there", wanted <= figures(text), sorted(wanted - figures(text)))

@@ -30,8 +30,9 @@ ELSEWHERE = {"https://uscilab.github.io/cereal/"}  # links to other hosts, which
 THEME = {"https://github.com/pradyunsg/furo", "https://pradyunsg.me"}  # those that the theme writes into each page
 # Target or tool of each figure of record; all but the first are part of the target `records`.
 MAKERS = {"architecture.svg": "tests/lint/picture.py", "cms_variants_*.png": "cms-variants", "hard_*.svg": "hard-cases", "map_*.svg": "maps", "step_error.svg": "step_accuracy",
-          "scale_*.svg": "scale", "speed_*.svg": "speed_against_error", "modes_*.svg": "speed_against_error", "drilling_*.png": "docs-pictures", "python_*.png": "docs-pictures",
+          "scale_*.svg": "scale", "speed_*.svg": "speed_against_error", "strategies.svg": "strategies", "modes_*.svg": "speed_against_error", "drilling_*.png": "docs-pictures", "python_*.png": "docs-pictures",
           "report_*.png": "docs-pictures", "tutorial_*.png": "docs-pictures"}
+PLOTS_FIRST = ("cms-variants", "scale", "speed-against-error", "step-error", "strategies")  # pages of benchmarks
 LONGEST_TABLE = 90  # rows of a table in a page; longer ones are files of docs/tables
 
 
@@ -156,6 +157,8 @@ def main():
     unseen = [path.name for path in figures if f"figures/{path.name}" not in written]
     expect("every figure is on a page", not unseen, ", ".join(unseen))
     tabulated(project / "docs")
+    tables = [name for name in PLOTS_FIRST if not re.search(r"\A[^|]*^!\[", (project / f"docs/{name}.md").read_text(encoding="utf-8"), re.M)]
+    expect("pages of benchmarks have a figure before their first table", not tables, ", ".join(tables))
     if (build / "python/tooljoint/__init__.py").exists():
         documented(build / "python", pages, site / "docs/api")
     if browser.program():

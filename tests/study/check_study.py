@@ -20,7 +20,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "results"))
 import documented
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from checks import expect, finish, tooljoint  # noqa: E402
+from checks import COLUMNS, expect, finish, tooljoint, wide  # noqa: E402
 from screens import expect_screen  # noqa: E402
 from results import known, rows, summary, table
 
@@ -168,6 +168,8 @@ def pictures():
     said = "plots were not drawn" in done.stderr and "plot_study.py ranks" in done.stderr
     wanted = {"study_speed.png", "study_modes.png", "study_error_over_time.png", "study_bit_speed.png", "study_static.png", "study_reference.png"}
     expect("pictures are drawn, or a warning says how", done.returncode == 0 and (wanted <= set(drawn) or said), f"({', '.join(drawn) or 'warning'})")
+    expect(f"no line has more than {COLUMNS} columns", not wide(done.stdout), "\n".join(wide(done.stdout)))
+    expect("one repeat is told as one", ", each timed once; pointwise" in " ".join(done.stdout.split()), done.stdout[:300])
     if drawn:
         expect("each as SVG too", all(pathlib.Path("ranks", name).with_suffix(".svg").is_file() for name in drawn))
 

@@ -9,6 +9,9 @@ import shlex
 from checks import expect
 
 
+UNREAD = {"torque_drag": "Torque and Drag", "bha": "Bottom-Hole Assembly", "buckling": "Buckling", "campbell": "Campbell", "response": "Response", "map": "Map"}  # lists that the next command does not read
+
+
 def _extreme(rows, key, choose, factor=1.0):
     found = [row[key] for row in rows or [] if row[key] is not None]
     return choose(found) * factor if found else None
@@ -65,4 +68,7 @@ def expect_screen(done, folder, analysis):
     words = shlex.split(following[1].replace("\\\n", " ")) if following else []
     if not (words and pathlib.Path(words[1]).exists()):
         expect(f"{folder}: the last screen of {analysis} says what to try next", False, screen[-900:])
+    unread = [word for word in words if word.startswith(UNREAD.get(analysis, "none") + "/")]
+    if unread:
+        expect(f"{folder}: what to try next has no settings of {analysis}, which it does not read", False, unread)
     expect(f"{folder}: the last screen of {analysis} has the numbers of the summary, in 100 columns", all(len(line) <= 100 for line in screen.strip().partition("\n\n")[0].splitlines()), screen)

@@ -354,12 +354,41 @@ def locked():
         fine = ["--set", "Drillstring/Assembly={pipe}", "--set", "Contact/Friction/Static=0.5", "--set", "Contact/Friction/Dynamic=0.5"] if deck != DECK else []
         done = tooljoint(words[0], deck, *words[2:], *fine, "--output", "locked " + weight, "--set", f"Loads/Weight On Bit={weight}")
         expect(f"{weight}: why the stiff string has no result", done.returncode == 0 and reason in " ".join(done.stderr.split()), done.stderr)
+        if weight == "600 kN":
+            expect("its last screen counts one row that is locked up", "\nlocked up           1 row  " in done.stdout, done.stdout[-600:])
     expect("the table says that it locks up", float(rows("locked 1200 kN")[0]["stiff_locked_up"]) == 1 and float(rows("locked 600 kN")[0]["stiff_locked_up"]) == 0)
     row = rows("locked 600 kN", "torque_drag.csv")[0]
     expect("it locks up", row["lock_up_depth"] != "" and 0 < float(row["lock_up_depth"]) < 1425, row)
     expect("no loads at the surface", all(row[key] == "" for key in ("hook_load", "surface_torque", "twist", "stretch")), row)
     depths = [float(line["depth"]) for line in rows("locked 600 kN", "torque_drag_profile.csv")]
     expect("the profile ends where it locks up", 0 < depths[-1] - float(row["lock_up_depth"]) <= 3.0, depths[-1])
+
+
+def buckled_runs():
+    """A horizontal pipe that turns, pushed past its buckling load: the stages of its static state do not converge, and it slides to a state in
+    balance; harder still, friction drives it round the hole, and the run says so and what helps."""
+    survey = pathlib.Path("horizontal.csv").resolve()
+    text = pathlib.Path("fine.xml").read_text(encoding="utf-8").replace('value="300"', 'value="100"')
+    pathlib.Path("hundred.xml").write_text(text, encoding="utf-8")
+    folder = pathlib.Path("buckled run")
+
+    def pushed(weight, *settings):
+        words = ["run", "hundred.xml", "--without", "Reduction", "--without", "Substructures", "--output", str(folder)]
+        for setting in ("Well/Trajectory=Survey", f"Well/Survey/File={survey}", "Drillstring/Assembly={pipe}", "Transient/End Time=0.002 s", "Output/Report=false",
+                        f"Loads/Weight On Bit={weight} kN", *settings):
+            words += ["--set", setting]
+        shutil.rmtree(folder, ignore_errors=True)
+        done = tooljoint(*words)
+        return done, json.loads((folder / "summary.json").read_text(encoding="utf-8"))["static"]
+
+    for weight, settings in ((220, ()), (350, ("Static/Friction=None",))):
+        done, static = pushed(weight, *settings)
+        expect(f"{weight} kN {settings}: a state of rest", done.returncode == 0 and static["residual"] < 1e-8, done.stderr)
+        near(f"{weight} kN {settings}: hook load", static["hook_load"], -1e3 * weight, 1e-6)
+        expect(f"{weight} kN {settings}: torques balance", abs(static["torque_balance_defect"]) < 1e-3 * static["torque_scale"], static)
+    done, _ = pushed(350)
+    said = " ".join(done.stderr.split())
+    expect("350 kN: friction drives it round", done.returncode == 4 and "friction drives it round the hole" in said and 'Set Static/Friction to "None"' in said, done.stderr)
 
 
 def announced():
@@ -488,6 +517,7 @@ in_motion(as_it_is)
 weight_on_bit()
 grouped()
 locked()
+buckled_runs()
 resumed()
 files()
 announced()

@@ -234,7 +234,7 @@ def table(entries, arguments):
         if why:
             print("    " + why.replace("\n", "\n    "), flush=True)
     share = 100.0 * killed / len(entries)
-    print(f"{killed} of {len(entries)} mutants are killed ({share:.1f} %; at least {arguments.least:g} % are asked for).")
+    print(f"{killed} of {len(entries)} mutants are killed ({share:.1f} %; at least {arguments.least:g} % are required).")
     return 0 if share >= arguments.least else 1
 
 

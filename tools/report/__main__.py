@@ -66,7 +66,8 @@ def main():
         text = page.text()
         write(path, text)
     if not options.quiet:
-        print(f"report      {path}: {len(text.encode()) / 1e6:.1f} MB")
+        size = len(text.encode())
+        print(f"report      {path}: " + (f"{size / 1e6:.1f} MB" if size >= 1e6 else f"{size / 1e3:.0f} kB"))
     if viewer() is None:
         print("The report has no 3-D view: three.js is not installed (Debian: libjs-three).", file=sys.stderr)
     if page.damaged:

@@ -5,7 +5,7 @@ from report.page import Page, cards
 from report.quantities import both, fixed, percent
 
 def headline(run):
-    """Cards of what is asked first."""
+    """Cards of the headline figures."""
     found = []
     whole = "the whole motion" + ("" if run.time is None or len(run.time) == 0 else f", {results.span(run.time[0], run.time[-1])}")
     if run.is_string and run.value("static.hook_load") is not None:

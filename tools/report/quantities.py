@@ -12,7 +12,7 @@ UNITS = {
     "penetration": (("m/h", 3600.0, 2), ("ft/h", 3600 / FOOT, 1)),
     "torque": (("kN m", 1e-3, 2), ("kft lbf", 1e-3 / (FOOT * POUND), 2)),
 }
-SMALLEST = 1e-6  # share that is told in numbers
+SMALLEST = 1e-6  # share that is printed in numbers
 
 
 def fixed(value, decimals):

@@ -28,7 +28,12 @@ bool touches(const std::string& override, const std::string& path) {
 
 }  // namespace
 
-std::string overrideSwitches(const deck::Deck& deck) { return switches(deck.overrides()); }
+std::string overrideSwitches(const deck::Deck& deck, const std::string& unread) {
+  std::vector<std::string> read;
+  for (const auto& one : deck.overrides())
+    if (unread.empty() || !touches(one, unread)) read.push_back(one);
+  return switches(read);
+}
 
 std::string fullModelSwitches(const deck::Deck& deck) {
   std::vector<std::string> gone{"Reduction"};

@@ -9,8 +9,9 @@
 
 namespace tooljoint::cases {
 
-/// The overrides of a deck: " --without Mud --set 'Transient/Step=1 ms'"; "" for none.
-std::string overrideSwitches(const deck::Deck& deck);
+/// The overrides of a deck but for those of `unread`, a list that the command does not read:
+/// " --without Mud --set 'Transient/Step=1 ms'"; "" for none.
+std::string overrideSwitches(const deck::Deck& deck, const std::string& unread = "");
 
 /// The switches that make the full model of a deck that reduces: what has no effect, or is refused,
 /// without its Reduction list goes with that list; the other overrides stay.

@@ -24,11 +24,14 @@ constexpr double muchCutOffEnergy = 0.03;
 /// Integrator and steps; the counters are printed behind the last screen.
 std::string describeSteps(const transient::TransientReport& report) {
   const auto& c = report.counters;
+  const std::string shortest = fmt::sprintf("%.3g", c.minStep),
+                    longest = fmt::sprintf("%.3g", c.maxStep);
   std::string text = fmt::sprintf(
-      "transient   %s, %g to %g s: %ld steps of %.3g to %.3g s in %.2f s wall, %.2f s CPU: %.3g "
-      "times real time\n",
-      report.integrator.c_str(), report.start, report.end, c.steps, c.minStep, c.maxStep,
-      report.wall, report.cpu, report.realTimeFactor);
+      "transient   %s, %g to %g s: %ld steps of %s s in %.2f s wall, %.2f s CPU: %.3g times real "
+      "time\n",
+      report.integrator, report.start, report.end, c.steps,
+      shortest == longest ? longest : shortest + " to " + longest, report.wall, report.cpu,
+      report.realTimeFactor);
   if (report.ranks > 1) text += fmt::sprintf("            divided among %d ranks\n", report.ranks);
   return text;
 }

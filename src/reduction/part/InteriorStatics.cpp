@@ -22,8 +22,8 @@ namespace {
 constexpr double notMoved = 1e-6;
 /// Energy below this part of |phi|' |K| |phi| is rounding.
 constexpr double zeroEnergy = 1e-12;
-/// A rigid body has six ways to float; a block may be a body with joints inside, so more are looked
-/// at when these are not all.
+/// A rigid body has six ways to float; a block may be a body with joints inside, so more are
+/// computed when these are not all.
 constexpr int floatingCandidates = 8;
 
 }  // namespace

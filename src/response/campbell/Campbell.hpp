@@ -92,8 +92,8 @@ struct StabilityLimit {
   }
 };
 
-/// A speed of the diagram at which the state is left without vibration: s > 0 of the modes looked
-/// at there.
+/// A speed of the diagram at which the state is left without vibration: s > 0 of the modes
+/// computed there.
 struct Divergence {
   double speed = 0.0;   ///< [rad/s]
   double growth = 0.0;  ///< the largest s [1/s]

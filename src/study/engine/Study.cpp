@@ -165,11 +165,12 @@ class Study {
               rows_->result().machine);
     for (const auto& remark : scene_.remarks()) log::warn(remark);
     const auto methods = plan_.settings.methods.size();
-    log::info("study       " + std::to_string(plan_.runs.size() - plan_.referenceRuns()) +
-              " runs of " + std::to_string(methods) + " methods, " + formatNumber(plan_.start) +
-              " to " + formatNumber(plan_.end) + " s, each timed " +
-              std::to_string(plan_.settings.repeats) + " times; pointwise errors up to " +
-              formatNumber(plan_.windowEnd) + " s");
+    log::info(
+        "study       " + std::to_string(plan_.runs.size() - plan_.referenceRuns()) + " runs of " +
+        std::to_string(methods) + " methods, " + formatNumber(plan_.start) + " to " +
+        formatNumber(plan_.end) + " s, each timed " +
+        (plan_.settings.repeats == 1 ? "once" : std::to_string(plan_.settings.repeats) + " times") +
+        "; pointwise errors up to " + formatNumber(plan_.windowEnd) + " s");
     if (groups_.count() > 1)
       log::info("            " + std::to_string(groups_.count()) + " at a time, on " +
                 std::to_string(timing_.ranks) + (timing_.ranks == 1 ? " rank" : " ranks") +

@@ -2,6 +2,7 @@
 #include "study/engine/StudyPlan.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -21,6 +22,8 @@
 namespace tooljoint::study {
 
 namespace {
+
+constexpr std::size_t listedRuns = 12;  ///< that a fault names
 
 double transientNumber(const cases::Case& scene, const char* name) {
   return scene.transient().get<double>(name);
@@ -172,9 +175,12 @@ class Planner {
       if (run.kind == RunKind::Method) labels.push_back(run.label);
     if (std::find(labels.begin(), labels.end(), wanted) != labels.end()) return;
     const auto near = closest(wanted, labels);
+    const auto more = labels.size() - std::min(labels.size(), listedRuns);
+    labels.resize(labels.size() - more);
     fault("Study/Baseline", "names no run: there is no " + inQuotes(wanted) + "." +
                                 (near.empty() ? "" : " Did you mean " + inQuotes(near) + "?") +
-                                " The runs are " + quotedList(labels) + ".");
+                                " The runs are " + quotedList(labels) +
+                                (more > 0 ? " and " + std::to_string(more) + " more." : "."));
   }
 
   /// Runs that can be compared have the same nodes at the same times; those of one method, and of

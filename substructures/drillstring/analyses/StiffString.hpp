@@ -4,11 +4,11 @@
 /// the friction of an operation.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "substructures/drillstring/EquationBuilder.hpp"
+#include "substructures/drillstring/SlidingRest.hpp"
 #include "substructures/drillstring/figures/BendingFigures.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
@@ -68,24 +68,7 @@ class StiffString {
   StiffLoads under(const softstring::Operation& operation) const;
 
  private:
-  /// A share of the friction and of the loads at the bit.
-  struct Part {
-    equilibrium::StaticInput input;
-    double share;
-  };
-  struct Rest {
-    equilibrium::StaticState state;
-    int negativePivots;  ///< of the tangent
-  };
-  Vector hangingFree() const;
   equilibrium::StaticInput input(const softstring::Operation& operation) const;
-  Part part(const softstring::Operation& operation, double share) const;
-  std::optional<Rest> near(const Part& part, const Vector& start, double tolerance, double alpha,
-                           int& iterations) const;
-  std::optional<Rest> slide(const softstring::Operation& operation, StiffLoads& why) const;
-  std::string tooLong(const Vector& axialForce) const;
-  bool compressed(const equilibrium::StaticProblem& problem, const Vector& x) const;
-  Vector withHelix(const Vector& displacement) const;
 
   Scene scene_;
   path::PathState path_;

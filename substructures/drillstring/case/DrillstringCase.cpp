@@ -71,7 +71,7 @@ class RestingString : public cases::RestingCase {
     return m;
   }
 
-  std::string describe() const override { return describeStatic(stage_); }
+  std::string describe() const override { return describeStatic(scene_, stage_); }
   void summarise(io::Summary& summary) const override {
     drillstring::summarise(scene_, stage_, summary);
   }

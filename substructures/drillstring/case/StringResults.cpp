@@ -30,6 +30,14 @@ std::vector<double> rows(const std::vector<Vector3>& vectors) {
   return out;
 }
 
+/// 1 for a string that turns to the right or not at all when the motion begins, -1 to the left.
+double senseOfRotation(const Scene& scene) {
+  return scene.rotary.sense(scene.startTime()) < 0.0 ? -1.0 : 1.0;
+}
+
+/// Torque, as a share of StaticState::torqueScale, that is printed as 0.
+constexpr double roundedTorque = 1e-6;
+
 }  // namespace
 
 void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& file) {
@@ -245,8 +253,7 @@ void summarise(const Scene& scene, const StaticStage& stage, io::Summary& summar
   summary.set("static.contact_nodes", state.contactNodes);
   summary.set("static.compressed_elements", state.compressedElements);
   summary.set("static.hook_load", state.hookLoad);
-  const double sense = scene.rotary.sense(scene.startTime()) < 0.0 ? -1.0 : 1.0;
-  summary.set("static.surface_torque", 0.0 - sense * state.topTorque);
+  summary.set("static.surface_torque", 0.0 - senseOfRotation(scene) * state.topTorque);
   summary.set("static.top_axial_force", state.topAxialForce);
   summary.set("static.last_element_axial_force", state.lastElementAxialForce);
   summary.set("static.last_element_torque", state.lastElementTorque);
@@ -334,7 +341,7 @@ std::string describeScene(const Scene& scene) {
   return text;
 }
 
-std::string describeStatic(const StaticStage& stage) {
+std::string describeStatic(const Scene& scene, const StaticStage& stage) {
   const auto& path = stage.path.report;
   const auto& s = stage.state;
   std::string text;
@@ -351,11 +358,15 @@ std::string describeStatic(const StaticStage& stage) {
                          s.report.residual);
   const auto force = [](double value) { return deck::printed(value, "kN", 4); };
   const auto torque = [](double value) { return deck::printed(value, "kN m", 4); };
+  const auto against = [&](double value) {  // the rotation, without what rounding leaves
+    const bool nothing = std::abs(value) <= roundedTorque * s.torqueScale;
+    return torque(nothing ? 0.0 : -senseOfRotation(scene) * value);
+  };
   text += fmt::sprintf(
-      "            hook load %s, axial force %s in the last element; torque %s at the top, %s in "
-      "the last element\n",
-      force(s.hookLoad), force(s.lastElementAxialForce), torque(s.topTorque),
-      torque(s.lastElementTorque));
+      "            hook load %s, axial force %s in the last element\n"
+      "            surface torque %s, %s in the last element\n",
+      force(s.hookLoad), force(s.lastElementAxialForce), against(s.topTorque),
+      against(s.lastElementTorque));
   if (s.maxNormalForceNode > 0)
     text += fmt::sprintf("            contact %s in all, at most %s at node %d\n",
                          force(s.totalNormalForce), force(s.maxNormalForce), s.maxNormalForceNode);

@@ -35,7 +35,8 @@ std::vector<cases::RestFigure> restFigures(const StaticStage& stage);
 
 /// Lines of the log.
 std::string describeScene(const Scene& scene);
-/// With log::verbose() also how the path and the state were found.
-std::string describeStatic(const StaticStage& stage);
+/// Torques are positive against the rotation. With log::verbose() also how the path and the state
+/// were found.
+std::string describeStatic(const Scene& scene, const StaticStage& stage);
 
 }  // namespace tooljoint::drillstring

@@ -2,20 +2,58 @@
 #include "substructures/drillstring/scene/RestProblem.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "statics/NoxSolver.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/contact/Eccentric.hpp"
 #include "substructures/drillstring/SidedFeatures.hpp"
+#include "substructures/drillstring/SlidingRest.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
 
 Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) {
   return scene.list().isSublist(name) ? scene.list().sublist(name) : Teuchos::ParameterList(name);
+}
+
+/// Halvings of a stage before a string slides to rest.
+constexpr int halvingsBeforeSliding = 1;
+
+/// The state that the string slides to, as where it buckles in a stage of its static state; none
+/// where there is none, with `why`.
+std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
+                                                    const equilibrium::StaticInput& input,
+                                                    const Vector& mass,
+                                                    const model::NonlinearSolver& solver,
+                                                    std::string& why) {
+  const auto problem = [&](double share) {
+    auto part = input;
+    const auto bit = kNodeDofs * (part.nodes - 1);
+    part.load(bit + beam::nodal::w) *= share, part.load(bit + beam::nodal::thetaZ) *= share;
+    return part;
+  };
+  const SlidingRest string(scene.string, scene.statics, mass, problem);
+  const auto slid = string.from(withoutFriction(problem(0.0), scene.statics, solver, mass));
+  why = slid.unsettled;
+  if (!slid.rest) {
+    if (slid.driven)
+      why +=
+          " Set Static/Friction to \"None\": the motion then starts from the state without "
+          "friction.";
+    return std::nullopt;
+  }
+  if (!(input.contact->largestPull() > 0.0)) return slid.rest->state;
+  auto pulled = string.withPull(slid.rest->state);
+  if (!pulled)
+    why =
+        "The string buckles, and rests only without the attraction of open points to the wall. "
+        "Set Contact/Law to \"Clamped\", which has none.";
+  return pulled;
 }
 
 }  // namespace
@@ -85,8 +123,33 @@ equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& 
   return input;
 }
 
+Vector massDiagonal(const StringModel& model) {
+  Vector mass = Vector::Zero(kNodeDofs * model.nodes);
+  for (int e = 0; e < model.elements(); ++e)
+    mass.segment<2 * kNodeDofs>(kNodeDofs * e) += model.mass[at(e)].diagonal();
+  return mass;
+}
+
 model::NonlinearSolver staticSolver(const Scene& scene) {
   return statics::noxSolver(listOrEmpty(scene, "Static"));
+}
+
+equilibrium::StaticState solveAtRest(const Scene& scene, const equilibrium::StaticInput& input,
+                                     const Vector& mass, const model::NonlinearSolver& solver) {
+  if (scene.statics.recipe != equilibrium::Recipe::Continuation || !input.contact ||
+      input.contact->size() == 0)
+    return equilibrium::solveStatic(input, scene.statics, solver);
+  std::string why;
+  try {
+    return equilibrium::solveStatic(input, scene.statics, solver, halvingsBeforeSliding);
+  } catch (const ConvergenceError&) {
+    if (auto slid = slideToRest(scene, input, mass, solver, why)) return *slid;
+  }
+  try {
+    return equilibrium::solveStatic(input, scene.statics, solver);
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError(why + " (" + error.what() + ")");
+  }
 }
 
 }  // namespace tooljoint::drillstring

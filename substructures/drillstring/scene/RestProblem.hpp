@@ -10,6 +10,7 @@
 #include "substructures/drillstring/EquationBuilder.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/equilibrium/StaticProblem.hpp"
+#include "substructures/equilibrium/StaticState.hpp"
 #include "substructures/path/PathState.hpp"
 
 namespace tooljoint::drillstring {
@@ -31,7 +32,16 @@ equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& 
                                      const contact::ContactPoints& points,
                                      equilibrium::Reference reference);
 
+/// Diagonal of the mass matrix, 6 entries per node [kg, kg m2].
+Vector massDiagonal(const StringModel& model);
+
 /// NOX with the deck's list `Static`.
 model::NonlinearSolver staticSolver(const Scene& scene);
+
+/// The static state by the stages of its recipe; where one does not converge, as where the string
+/// buckles in it, by sliding (SlidingRest); else by more and smaller stages. ConvergenceError.
+/// \param mass  massDiagonal()
+equilibrium::StaticState solveAtRest(const Scene& scene, const equilibrium::StaticInput& input,
+                                     const Vector& mass, const model::NonlinearSolver& solver);
 
 }  // namespace tooljoint::drillstring

@@ -254,7 +254,7 @@ StaticStage findEquilibrium(const Scene& scene) {
   };
   try {
     const Stage solving("static equilibrium");
-    stage.state = equilibrium::solveStatic(input, scene.statics, solver);
+    stage.state = solveAtRest(scene, input, massDiagonal(equations.model), solver);
   } catch (const ConvergenceError& error) {
     explainFreeMotion(scene, error.what());
     throw;

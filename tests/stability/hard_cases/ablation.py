@@ -3,7 +3,7 @@
 """What each strategy of an implicit step wins: hard cases and scenes with one left out at a time.
 
     ablation.py PROGRAM --short                     two cases (CTest)
-    ablation.py PROGRAM --write docs/strategies.md  all of them; writes the table
+    ablation.py PROGRAM --write docs/strategies.md  all of them; writes the table and draws its figure
 
 A strategy earns its place where a case is refused or changed without it, or takes 5 % longer. With
 --short the exit code is 1 when one that is left out is used, or none that is there is.
@@ -14,6 +14,7 @@ import math
 import pathlib
 import platform
 import shutil
+import subprocess
 import sys
 
 import numpy as np
@@ -33,16 +34,19 @@ SAME, NOISE = 0.01, 3.0  # vibration error that counts as the same motion, and h
 JUDGED_ELSEWHERE = {"Transient/Energy Residual Limit": 1e9, "Transient/Step Error Limit": 1e9}  # what is wrong with a case by itself
 HEAD = """# Strategies of a step
 
-A step of `Generalized-alpha` has strategies for hard contact; [theory](theory.md) says what each does. The
-expert parameter `Leave Out` takes strategies out of a run, and `transient.strategies` of `summary.json`
-counts their uses. This table is written by
+A step of `Generalized-alpha` has strategies for hard contact; [theory](theory.md) describes each.
+The expert parameter `Leave Out` takes strategies out of a run, and `transient.strategies` of
+`summary.json` counts their uses. Table and figure are written by
 
     cmake --build --preset release --target strategies
 
-Numbers are CPU times of the motion over those with all strategies, the least of {repeats} runs of each. A motion
-that differs by more than {same:g} % (vibration error), and by three times what half the tolerance of the iteration changes, is given with its difference, *refused* is a run that
-ends without one, and a dash stands where the strategy is not used in that case. Those that are not used in
-any case are not in the table of what they win.
+![CPU time without each strategy over that with all](figures/strategies.svg)
+
+Numbers are CPU times of the motion over those with all strategies, the least of {repeats} runs of
+each. A difference of the motion is stated where it exceeds {same:g} % (vibration error) and three
+times the change by half the tolerance of the iterations. *Refused* is a run without a result. A
+dash marks a strategy that the case does not use. The first table leaves out strategies that no case
+uses.
 
 """
 
@@ -201,6 +205,7 @@ def main():
         text += report.table(("left out", "needed by", "time won by", "time lost by", "verdict"), verdicts(wins))
         text += "\n## Case by case\n\n" + report.table(("case", "step [us]", *STRATEGIES), lines)
         pathlib.Path(options.write).write_text(text, encoding="utf-8")
+        subprocess.run([sys.executable, str(ROOT / "tools/strategies_figure.py")], check=True)  # of the page
     tried = [name for name, found in wins.items() if found]
     print(f"{len(chosen)} cases, {len(tried)} strategies left out: {', '.join(tried)}")
     for fault in broken:
