@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// SIGINT and SIGTERM set a flag that loops read each step, so that an interrupted run closes
-/// its files. (Open MPI turns Ctrl-C into SIGTERM, and SIGKILL a second later: react within half a
-/// second.)
+/// SIGINT, SIGTERM and SIGHUP set a flag that loops read each step, so that an interrupted run
+/// closes its files. (Open MPI turns Ctrl-C into SIGTERM, and SIGKILL a second later: react within
+/// half a second.)
 #pragma once
 
 namespace tooljoint {
 
-/// Install handlers for SIGINT and SIGTERM; call it after MPI_Init. A second SIGINT ends the
-/// program at once. A file that outgrows the limit of the process (SIGXFSZ) is an error of the
-/// write, like a full disk.
+/// Install handlers for these, but not for a SIGHUP that is ignored (nohup); call it after
+/// MPI_Init. A second SIGINT ends the program at once. A file that outgrows the limit of the
+/// process (SIGXFSZ) is an error of the write, like a full disk.
 void installInterruptHandlers();
 
 /// True once a signal has come. Local to this rank.

@@ -353,11 +353,7 @@ class Run {
     long intervals = checkpointIntervals(state_.t);
     while (state_.t < options_.end) {
       throwFailures();
-      if (isStopped()) {
-        if (integrator_->goesOnFromAnywhere()) keepCheckpoint();
-        throwFailures();
-        return true;
-      }
+      if (isStopped()) return stopHere();
       if (stepError_) stepError_->before(*integrator_, state_);
       integrator_->advance(state_, next_);
       checkFinite(model_, *integrator_, state_, next_);
@@ -386,23 +382,32 @@ class Run {
     if (bar) bar->finish();
     if (options_.ledger)
       energy_.judge(ledger_.account(model_, state_), state_.t, integrator_->advice());
-    judgeSteps();
+    if (!judgeSteps()) return stopHere();
     judgeLaws(model_.source(), *integrator_, {options_.start, state_.t, options_.stepErrorLimit});
     if (laws_) laws_->judge(*integrator_, options_.stepErrorLimit);
     return false;
   }
 
-  /// Of an integrator that does not judge its steps itself.
-  void judgeSteps() {
-    if (integrator_->judgesSteps()) return;
-    if (stepError_) {
-      judged_ = transient::judgeSteps(
-          *integrator_, *stepError_, options_,
-          [this](const State& from, double span) { return again(from, span); });
-      return;
+  bool stopHere() {
+    if (integrator_->goesOnFromAnywhere()) keepCheckpoint();
+    throwFailures();
+    return true;
+  }
+
+  /// Of an integrator that does not judge its steps itself. False when stopped before it is done.
+  bool judgeSteps() try {
+    if (integrator_->judgesSteps()) return true;
+    if (!stepError_) {
+      log::info("accuracy    not known: the integrator \"" + options_.integrator +
+                "\" does not measure its steps. Compare with a run of half the step.");
+      return true;
     }
-    log::info("accuracy    not known: the integrator \"" + options_.integrator +
-              "\" does not measure its steps. Compare with a run of half the step.");
+    judged_ =
+        transient::judgeSteps(*integrator_, *stepError_, options_,
+                              [this](const State& from, double span) { return again(from, span); });
+    return true;
+  } catch (const InterruptedError&) {
+    return false;
   }
 
   /// `span` [s] of the motion from a state on, to be compared with others.

@@ -32,6 +32,7 @@ double lossPerLength(const beam::Section& pipe, double hole, const Circulation& 
 
 PressureDifference::PressureDifference(const std::vector<Stretch>& string, const Hole& hole,
                                        double bit, std::optional<double> pumpPressure) {
+  const double down = hole.mud.flowRate < 0.0 ? -1.0 : 1.0;  // what goes down inside, or outside
   auto found = pieces(string, hole, bit);
   std::reverse(found.begin(), found.end());
   depth_.push_back(0.0);
@@ -41,7 +42,7 @@ PressureDifference::PressureDifference(const std::vector<Stretch>& string, const
     const double radius = hole.radius(0.5 * (piece.top + piece.bottom));
     depth_.push_back(piece.bottom);
     loss_.push_back(loss_.back() +
-                    (piece.bottom - piece.top) * lossPerLength(section, radius, hole.mud));
+                    down * (piece.bottom - piece.top) * lossPerLength(section, radius, hole.mud));
   }
   atSurface_ = pumpPressure.value_or(loss_.back());
 }

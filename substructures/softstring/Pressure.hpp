@@ -16,7 +16,8 @@ namespace tooljoint::softstring {
 ///
 ///     d(p_i - p_o)/ds = -C_f rho/pi (U_i^2/R_i + U_o^2/(R_w - R_e))
 ///
-/// from the pump pressure at the surface down. Without a pump pressure it is zero at the bit: the
+/// from the pump pressure at the surface down, with the other sign for mud that goes down the
+/// annulus. Without a pump pressure it is zero at the bit: the
 /// pump overcomes these losses, and no nozzles.
 class PressureDifference {
  public:

@@ -258,7 +258,7 @@ def two_runs_in_one_folder():
         fresh("shared", "spare")
         whole = whole_run(deck, LONG)
         size = pathlib.Path(whole, "results.h5").stat().st_size
-        code = stop(signal.SIGTERM, "shared", "run", deck, "--output", "shared", *LONG)
+        code = stop(signal.SIGHUP, "shared", "run", deck, "--output", "shared", *LONG)
         expect(f"{title}: run A is interrupted", code == 130, str(code))
         shutil.copytree("shared", "spare")
         failing = run("run", deck, "--output", "shared", *LONG, *other[deck], largest=int(0.8 * size))

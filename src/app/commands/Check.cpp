@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/commands/Command.hpp"
 #include "cases/CaseCheck.hpp"
+#include "substructures/drillstring/analyses/Calibration.hpp"
+#include "substructures/drillstring/analyses/bottom_hole/BottomHole.hpp"
+#include "substructures/drillstring/buckling/BucklingPath.hpp"
 
 namespace tooljoint::app {
 
@@ -10,12 +13,28 @@ struct CheckOptions : DeckOptions {
   bool cost = false;
 };
 
+/// The lists of analyses of a string, as their commands read them. DeckError: one makes no sense.
+void checkAnalyses(const drillstring::Scene& scene) {
+  const auto& deck = scene.list();
+  if (deck.isSublist("Torque and Drag"))
+    drillstring::measurementsOf(scene, drillstring::torqueDragSettings(scene));
+  if (deck.isSublist("Bottom-Hole Assembly")) drillstring::bottomHoleSettings(scene);
+  if (deck.isSublist("Buckling")) drillstring::bucklingSettings(scene);
+}
+
+void check(const CheckOptions& options) {
+  const auto one = readCase(options);
+  if (const auto* string = dynamic_cast<const drillstring::DrillstringCase*>(one.get()))
+    checkAnalyses(string->scene());
+  cases::check(*one, options.cost);
+}
+
 Action prepareCheck(CLI::App& line) {
   auto options = std::make_shared<CheckOptions>();
   addDeckOptions(line, *options, Output::None);
   line.add_flag("--cost", options->cost,
                 "compute static state and reduction too, and predict which model is faster");
-  return [options] { cases::check(*readCase(*options), options->cost); };
+  return [options] { check(*options); };
 }
 
 const bool checkRegistered =

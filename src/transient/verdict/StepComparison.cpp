@@ -100,7 +100,7 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
   const long between = std::max(1L, steps / disturbances);
   Sums sums;
   long unresolved = 0;
-  bool whole = false;
+  bool whole = false, stopped = false;
   try {
     Motion run, second;
     begin(run, std::move(first), step);
@@ -111,7 +111,9 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
       difference = a - b;
       return norm_.squares(difference);
     };
-    for (long k = 1; k <= steps && !stop_(); ++k) {
+    for (long k = 1; k <= steps; ++k) {
+      stopped = stop_();
+      if (stopped) break;
       const double t = window_.begin + static_cast<double>(k) * window_.step;
       if (k % between == 0) second.state.v *= k / between % 2 == 0 ? 1 - kick : 1 + kick;
       advance(run, t);
@@ -135,6 +137,7 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
   } catch (const ConvergenceError&) {
   }
   model_->comeBack(snapshot);
+  if (stopped) throw InterruptedError("Interrupted while the time step was judged.");
   if (!whole || !sums.isFinite()) return std::nullopt;
   Difference found = differenceOf(sums);
   found.unresolved = static_cast<double>(unresolved) > oftenUnresolved * static_cast<double>(steps);

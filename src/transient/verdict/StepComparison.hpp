@@ -49,7 +49,7 @@ class StepComparison {
   /// \param window  that of the run, with the length of its equal steps
   /// \param span    T [s]
   /// \param start   q, v and states where the compared motion begins
-  /// \param stop    true to end
+  /// \param stop    true to end with an InterruptedError
   StepComparison(CompiledModel& model, std::function<std::unique_ptr<Integrator>()> make,
                  const Window& window, double span, const State& start, std::function<bool()> stop);
   /// The other steps become a quarter as long; false where they are a 32nd of a step already.

@@ -32,7 +32,8 @@ using Comparison = std::function<StepComparison(const State& from, double span)>
 ///
 /// \return the step error; 0 where contact that no step resolves leaves it unknown. Above `Step
 /// Error Warning` it warns, and so does a scheme that damps more of the vibration than that; above
-/// `Step Error Limit` the run fails. Throws ConvergenceError. Collective.
+/// `Step Error Limit` the run fails. Throws ConvergenceError, and
+/// InterruptedError where a comparison was stopped. Collective.
 double judgeSteps(const Integrator& run, const StepError& error, const TransientOptions& options,
                   const Comparison& comparison);
 

@@ -57,6 +57,11 @@ struct CalibrationResults {
   std::vector<BroomRow> broomstick;
 };
 
+/// The table of the settings, none without one. DeckError: it is missing or malformed, or holds
+/// depths below the string.
+std::vector<Measurement> measurementsOf(const Scene& scene,
+                                        const softstring::TorqueDragSettings& settings);
+
 /// Reads the measurements, fits and prints. Collective.
 CalibrationResults calibrationOf(const Scene& scene,
                                  const softstring::TorqueDragSettings& settings);

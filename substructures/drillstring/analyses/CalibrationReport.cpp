@@ -91,15 +91,21 @@ void stageFit(const Calibration& fit, io::OutputFolder& folder) {
 
 }  // namespace
 
+std::vector<Measurement> measurementsOf(const Scene& scene,
+                                        const softstring::TorqueDragSettings& settings) {
+  if (!settings.measured) return {};
+  std::string file = *settings.measured;
+  if (file[0] != '/' && !scene.deck.folder().empty()) file = scene.deck.folder() + "/" + file;
+  auto measured = readMeasurements(file, softstring::operationNames());
+  for (auto& one : measured) one.bit = withinReach(scene, one.bit, file + ": the table holds");
+  return measured;
+}
+
 CalibrationResults calibrationOf(const Scene& scene,
                                  const softstring::TorqueDragSettings& settings) {
   CalibrationResults found;
   if (settings.measured) {
-    std::string file = *settings.measured;
-    if (file[0] != '/' && !scene.deck.folder().empty()) file = scene.deck.folder() + "/" + file;
-    auto measured = readMeasurements(file, softstring::operationNames());
-    for (auto& one : measured) one.bit = withinReach(scene, one.bit, file + ": the table holds");
-    found.fit = calibrate(scene, settings, measured);
+    found.fit = calibrate(scene, settings, measurementsOf(scene, settings));
     print(*found.fit);
   }
   if (!settings.broomstick.empty()) found.broomstick = broomstick(scene, settings);

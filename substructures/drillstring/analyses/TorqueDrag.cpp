@@ -221,6 +221,12 @@ softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
   for (double& depth : settings.depths) depth = withinReach(scene, depth, depths);
   if (const auto twice = repeated(settings.depths); twice != settings.depths.end())
     throw DeckError(depths + " " + deck::printed(*twice, "m", 8) + " twice. Leave one out.");
+  for (const char* name : {"Hook Load Uncertainty", "Torque Uncertainty"})
+    if (const std::string path = std::string("Torque and Drag/") + name;
+        !settings.measured && scene.deck.gives(path))
+      throw DeckError(scene.deck.error(path,
+                                       "is that of measurements, which are not given. Give "
+                                       "Measured, or leave it out."));
   if (const auto twice = repeated(settings.operations); twice != settings.operations.end())
     throw DeckError(scene.deck.error("Torque and Drag/Operations", "holds") + " " +
                     inQuotes(*twice) + " twice. Leave one out.");

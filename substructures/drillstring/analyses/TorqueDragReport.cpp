@@ -120,6 +120,21 @@ void warnOfBuckling(const std::vector<TorqueDragProfile>& profiles) {
         first->stiff->unsettled));
 }
 
+/// A part of the string whose strength nothing gives has no margin to yield.
+void warnOfStrength(const Scene& scene, const softstring::TorqueDragSettings& settings) {
+  if (settings.yieldStrength) return;
+  double whole = 0.0, without = 0.0;
+  for (const auto& stretch : softModel(scene).string) {
+    whole += stretch.length;
+    if (!stretch.section.material().yieldStrength) without += stretch.length;
+  }
+  if (without > 0.0 && without < whole)
+    log::warn(fmt::format(
+        "{} of the string's {} have no yield strength: the yield margins leave them out. Give "
+        "Torque and Drag/Yield Strength, or that of the Material of Drillstring or of a component.",
+        text(without, "m", 0), text(whole, "m", 0)));
+}
+
 /// The tables of the deepest bit.
 void print(const Scene& scene, const std::vector<TorqueDragProfile>& profiles,
            const softstring::TorqueDragSettings& settings) {
@@ -133,6 +148,7 @@ void print(const Scene& scene, const std::vector<TorqueDragProfile>& profiles,
                         "surface torque", "turns", "side force", "yield", "sinus.", "helix"));
   for (const auto& profile : profiles)
     if (profile.row.bit == deepest) print(profile.row);
+  warnOfStrength(scene, settings);
   if (std::none_of(profiles.begin(), profiles.end(),
                    [](const auto& profile) { return profile.stiff.has_value(); }))
     return;

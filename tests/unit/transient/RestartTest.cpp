@@ -248,6 +248,21 @@ TEST(Restarts, keepTheHalvingsOfAStepUnderWay) {
   EXPECT_GT(within, 3);
 }
 
+/// A run that is stopped while its steps are compared with shorter ones is not done.
+TEST(Restarts, compareStepsWhereThatWasStopped) {
+  const auto model = oscillator(1.0, 0.0, 100.0, 0.1, 0.0);
+  auto o = options("Generalized-alpha", 2.0, 4e-2, 0.2);
+  o.stepErrorWarning = 1e-3;  // a scheme that damps more than a fifth of it is compared
+  const auto whole = run(model, o);
+  ASSERT_TRUE(whole.error.empty()) << whole.error;
+  ASSERT_GT(whole.report.stepError, 0.0);
+  for (const long compared : {0L, 1L, 33L}) {
+    const long steps = whole.report.counters.steps + compared;
+    EXPECT_TRUE(run(model, o, nullptr, steps).report.interrupted) << compared;
+    expectSameAfterStopping(model, o, whole, steps);
+  }
+}
+
 /// A step that follows its error waits before it grows: the wait goes on, too.
 TEST(Restarts, keepTheWaitOfStepControl) {
   const auto model = eventful();

@@ -335,7 +335,7 @@ TEST(StepComparison, endsWhenItIsStopped) {
   const auto model = oscillator(1.0, 0.0, w * w, 0.3, 0.0);
   int looks = 0;
   Compared run(model, 0.1, 1.0, true, [&] { return ++looks > 10; });
-  EXPECT_FALSE(run.comparison.withShorter());
+  EXPECT_THROW(run.comparison.withShorter(), InterruptedError);
   EXPECT_EQ(looks, 11);
 }
 

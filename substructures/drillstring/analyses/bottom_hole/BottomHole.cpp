@@ -140,7 +140,22 @@ void requireWithin(const Scene& scene, const std::string& name, std::optional<do
                deck::printed(whole, "m", 8) + " long. Give a distance on the string.");
 }
 
-void check(const Scene& scene, const BottomHoleSettings& settings, double whole) {
+/// What the list says by itself.
+void requireSense(const Scene& scene, const BottomHoleSettings& settings, double whole) {
+  requireWithin(scene, "Length", settings.length, whole);
+  requireWithin(scene, "Survey Tool", settings.surveyTool, whole);
+  if (settings.length && settings.surveyTool && *settings.surveyTool > *settings.length)
+    refuse(scene, here + "/Survey Tool",
+           "is " + formatNumber(*settings.surveyTool) + " m above the bit, beyond the Length of " +
+               formatNumber(*settings.length) + " m that is modelled. Give a larger Length.");
+  for (const char* rate : {"Build Rate", "Turn Rate"})
+    if (settings.inclinations.empty() && scene.deck.gives(here + "/" + rate))
+      refuse(scene, here + "/" + rate,
+             "applies to the holes of Inclination, which is not given: the hole is that of the "
+             "list Well. Give Inclination, or leave it out.");
+}
+
+void check(const Scene& scene) {
   if (!scene.contact)
     throw DeckError(
         scene.deck.file() +
@@ -164,17 +179,6 @@ void check(const Scene& scene, const BottomHoleSettings& settings, double whole)
     refuse(scene, "Loads/Forces",
            "acts at numbered nodes, and `tooljoint bha` renumbers the nodes. Give a component a "
            "Pad instead.");
-  requireWithin(scene, "Length", settings.length, whole);
-  requireWithin(scene, "Survey Tool", settings.surveyTool, whole);
-  if (settings.length && settings.surveyTool && *settings.surveyTool > *settings.length)
-    refuse(scene, here + "/Survey Tool",
-           "is " + formatNumber(*settings.surveyTool) + " m above the bit, beyond the Length of " +
-               formatNumber(*settings.length) + " m that is modelled. Give a larger Length.");
-  for (const char* rate : {"Build Rate", "Turn Rate"})
-    if (settings.inclinations.empty() && scene.deck.gives(here + "/" + rate))
-      refuse(scene, here + "/" + rate,
-             "applies to the holes of Inclination, which is not given: the hole is that of the "
-             "list Well. Give Inclination, or leave it out.");
 }
 
 }  // namespace
@@ -187,12 +191,13 @@ BottomHoleSettings bottomHoleSettings(const Scene& scene) {
                      [&](const auto& list) { settings = readBottomHole(list); });
   if (settings.weights.empty()) settings.weights = {scene.weightOnBit()};
   if (settings.toolFaces.empty()) settings.toolFaces = {scene.string.toolFace};
+  requireSense(scene, settings, scene.string.length());
   return settings;
 }
 
 BottomHole::BottomHole(const Scene& scene, const BottomHoleSettings& settings)
     : scene_(scene), settings_(settings) {
-  check(scene, settings, scene.string.length());
+  check(scene);
   string_ = divided(scene, settings.elementLength);
 }
 
