@@ -130,8 +130,8 @@ struct BottomHoleSweep {
   std::vector<MissingRow> missing;
 };
 
-/// The deck's list `Bottom-Hole Assembly`; its defaults where the deck has none. DeckError: it makes
-/// no sense for this string.
+/// The deck's list `Bottom-Hole Assembly`; its defaults where the deck has none. DeckError: it
+/// makes no sense for this string.
 BottomHoleSettings bottomHoleSettings(const Scene& scene);
 
 /// Every combination of the settings, dealt to the ranks one by one; all ranks end with all of
