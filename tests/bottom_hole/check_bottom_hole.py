@@ -299,15 +299,15 @@ def lying():
 def missing():
     """A weight without an equilibrium is warned of; the others keep their rows."""
     scene = str(SOURCES / "tests/effects/bottom_hole.xml")
-    settings = ("--set", "Bottom-Hole Assembly/Weight On Bit={10 kN, 2000 kN}", "--set", "Static/Max Iterations=10")
+    settings = ("--set", "Bottom-Hole Assembly/Weight On Bit={10 kN, 20000 kN}", "--set", "Static/Max Iterations=10")
     done = tooljoint("bha", scene, "--output", "missing", *settings)
     expect("bha ends well without one of its rows", done.returncode == 0, done.stderr)
     found = rows("missing", "bha.csv")
     expect("the rows of 10 kN are there", {row["weight_on_bit"] for row in found} == {1e4} and len(found) == 2, found)
-    expect("those of 2000 kN are told", done.stderr.count("No equilibrium was found, so no table has this state: 2000.0 kN on the bit") == 2, done.stderr)
+    expect("those of 20000 kN are told", done.stderr.count("No equilibrium was found, so no table has this state: 20000.0 kN on the bit") == 2, done.stderr)
     with open("missing/summary.json", encoding="utf-8") as file:
         expect("and counted", json.load(file)["bha"]["missing"] == 2)
-    done = tooljoint("bha", scene, "--output", "missing_all", *settings[2:], "--set", "Bottom-Hole Assembly/Weight On Bit={2000 kN}")
+    done = tooljoint("bha", scene, "--output", "missing_all", *settings[2:], "--set", "Bottom-Hole Assembly/Weight On Bit={20000 kN}")
     expect("bha without any row does not converge", done.returncode == 4 and "did not converge" in done.stderr, f"{done.returncode} {done.stderr}")
 
 
