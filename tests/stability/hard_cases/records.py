@@ -78,8 +78,7 @@ def restart(program, short):
 
 def tolerances(program, short):
     """20 s of shipped scenes for tolerances of Newton's method: what it leaves over makes no energy. Steps of 1 ms make some of their own at
-    any tolerance (stress_170m 0.26 %, 0.007 % in steps of 0.5 ms), so the bound is that of the balance of energy of a report."""
-    balance = 1e-2
+    any tolerance: stress_170m 0.1 to 0.3 %, 0.007 % in steps of 0.5 ms."""
     scenes = ("helical_170m",) if short else ("helical_170m", "stress_170m", "inclined_1000m", "vertical_1000m", "build_hold_1400m", "frame")
     for scene in scenes:
         for tolerance in (1e-3,) if short else np.logspace(-1, -12, 12):
@@ -89,7 +88,7 @@ def tolerances(program, short):
             def made():
                 residual = run.motion["energy_residual"]
                 return "no energy made", f"energy residual {residual:.2g}", max(0.0, -residual)
-            yield judged(run, scene, f"{end:g} s, tolerance {tolerance:.0e}", made, balance)
+            yield judged(run, scene, f"{end:g} s, tolerance {tolerance:.0e}", made, 1e-3)
 
 
 @case(28, "600 s", "a turning string at rest (damped by 0.5 1/s; with 0.1 1/s friction makes it unstable): generalized-alpha steps of 1 and 5 ms, spectral radius 0 to 1; 60 s of RK4; a shaken string; 20 s of six scenes for 12 tolerances of Newton's method",
