@@ -30,7 +30,7 @@ std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
                                                     const equilibrium::StaticInput& input,
                                                     const Vector& mass,
                                                     const model::NonlinearSolver& solver,
-                                                    std::string& why) {
+                                                    std::string& why) try {
   const auto problem = [&](double share) {
     auto part = input;
     const auto bit = kNodeDofs * (part.nodes - 1);
@@ -39,12 +39,9 @@ std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
   };
   const SlidingRest string(scene.string, scene.statics, mass, problem);
   const auto slid = string.from(withoutFriction(problem(0.0), scene.statics, solver, mass));
-  why = slid.unsettled;
   if (!slid.rest) {
-    if (slid.driven)
-      why +=
-          " Set Static/Friction to \"None\": the motion then starts from the state without "
-          "friction.";
+    why = "The string does not come to rest. " + slid.unsettled +
+          (slid.driven ? " Static/Friction \"None\" gives the state without friction." : "");
     return std::nullopt;
   }
   if (!(input.contact->largestPull() > 0.0)) return slid.rest->state;
@@ -54,6 +51,9 @@ std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
         "The string buckles, and rests only without the attraction of open points to the wall. "
         "Set Contact/Law to \"Clamped\", which has none.";
   return pulled;
+} catch (const ConvergenceError& error) {
+  why = std::string("Without friction and loads at the bit: ") + error.what();
+  return std::nullopt;
 }
 
 }  // namespace
