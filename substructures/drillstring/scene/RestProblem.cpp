@@ -25,7 +25,7 @@ Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) 
 constexpr int halvingsBeforeSliding = 1;
 
 /// The state that the string slides to, as where it buckles in a stage of its static state; none
-/// where there is none, with `why`.
+/// where there is none, with `why` where that is known.
 std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
                                                     const equilibrium::StaticInput& input,
                                                     const Vector& mass,
@@ -51,8 +51,7 @@ std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
         "The string buckles, and rests only without the attraction of open points to the wall. "
         "Set Contact/Law to \"Clamped\", which has none.";
   return pulled;
-} catch (const ConvergenceError& error) {
-  why = std::string("Without friction and loads at the bit: ") + error.what();
+} catch (const ConvergenceError&) {  // without friction there is no state to slide from
   return std::nullopt;
 }
 
@@ -148,6 +147,7 @@ equilibrium::StaticState solveAtRest(const Scene& scene, const equilibrium::Stat
   try {
     return equilibrium::solveStatic(input, scene.statics, solver);
   } catch (const ConvergenceError& error) {
+    if (why.empty()) throw;
     throw ConvergenceError(why + " (" + error.what() + ")");
   }
 }
