@@ -36,6 +36,10 @@ constexpr double beside[] = {-2.0, -1.0, 0.0, 1.0, 2.0};
 /// Of the largest amplitude there: an output that changes by less does not see the resonance.
 constexpr double unseen = 1e-6;
 
+/// Of the work of a load: as much of it by rounding of the stiffness, as of one that does not hold
+/// a model at rest, and the response has no digits.
+constexpr double noDigits = 0.01;
+
 constexpr int storeFormat = 4;  ///< raised when the meaning of a kept point changes
 
 /// Rows of the recovery that the deck names.
@@ -116,7 +120,7 @@ class Sweep {
     const auto& sweep = sweepOf();
     cases::RowKeys keys{"points", whose(), {}};
     for (const double where : sweep) keys.rows.push_back(fmt::format("{}", where));
-    out.points = resumed(keys, [&](std::size_t i) { return at(sweep[i]); });
+    out.points = resumed(keys, [&](std::size_t i) { return at(sweep[i], true, true); });
     addPeaks(out);
     if (rotating_.reduced() && settings_.spotChecks > 0) addChecks(out);
     if (lookedAlong()) {
@@ -202,7 +206,8 @@ class Sweep {
 
   /// \param where  rotary speed [rad/s] or frequency [Hz]
   /// \param whole  with estimate and margin
-  ResponsePoint at(double where, bool whole = true) const {
+  /// \param given  a place of the sweep, and none beside a resonance, where digits may be few
+  ResponsePoint at(double where, bool whole = true, bool given = false) const {
     ResponsePoint point;
     point.speed = settings_.bySpeed() ? where : settings_.rotarySpeed;
     const double omega = settings_.omega(where);
@@ -210,8 +215,11 @@ class Sweep {
     const Complex s = imaginary * omega;
     const auto m = rotating_.at(point.speed, omega);
     linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness, s);
-    requireInverse(Q, point);
+    if (Q.singular()) throw singular(point);
     const ComplexMatrix f = loads_.on(rotating_.model(), point.speed), y = Q.solve(f);
+    for (Eigen::Index j = 0; given && j < f.cols(); ++j)
+      if (rotating_.rounding(m, y.col(j)) > noDigits * y.col(j).cwiseAbs().dot(f.col(j).cwiseAbs()))
+        throw singular(point);
     const ComplexMatrix c = loads_.outputs(rotating_.model());
     point.x = c.transpose() * y;
     if (!whole) return point;
@@ -227,11 +235,11 @@ class Sweep {
     return settings_.excitation != Excitation::Transfer && !along_.empty();
   }
 
-  static void requireInverse(const linalg::DynamicStiffness& Q, const ResponsePoint& point) {
-    if (Q.singular())
-      throw ModelError("The dynamic stiffness at " + formatNumber(point.frequency) +
-                       " Hz is singular: the model has an undamped resonance there, or it is not "
-                       "supported. Add damping or supports, or leave this frequency out.");
+  ModelError singular(const ResponsePoint& point) const {
+    return ModelError("The dynamic stiffness at " + formatNumber(point.frequency) +
+                      " Hz is singular: the model has an undamped resonance there, or it is not "
+                      "supported. Add damping or supports, or leave this frequency out (Response/" +
+                      (settings_.bySpeed() ? "Lowest Speed" : "Lowest Frequency") + ").");
   }
 
   /// The outputs of the deck and the extremes along the string in any model of the case.
@@ -266,7 +274,7 @@ class Sweep {
     const double omega = constants::twoPi * point.frequency;
     const auto m = rotating_.fullAt(point.speed, omega);
     const linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness, imaginary * omega);
-    requireInverse(Q, point);
+    if (Q.singular()) throw singular(point);
     const ComplexMatrix y = Q.solve(loads_.on(rotating_.full(), point.speed));
     point.x = loads_.outputs(rotating_.full()).transpose() * y;
     if (lookedAlong()) point.along = along_.ofFull(y.col(0), reduced.along);

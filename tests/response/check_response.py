@@ -147,17 +147,20 @@ def transfer():
     sum_of = 2 * rows["node 1:at 1_amplitude"] * np.exp(1j * rows["node 1:at 1_phase"]) + 1j * rows["node 1:at 3_amplitude"] * np.exp(1j * rows["node 1:at 3_phase"])
     close("harmonic loads add with their phases", loads["node 1_amplitude"] * np.exp(1j * loads["node 1_phase"]), sum_of, 1e-12)
     # a free chain near 0 Hz moves as much as hides what two of its modes lack between the resonances
-    chain[0, 0] = chain[2, 2] = 1
-    free = np.kron(np.eye(4), chain)
-    for n in (2, 5, 8):
-        free[n:n + 2, n:n + 2] += [[1, -1], [-1, 1]]
-    part("free.h5", ["u"], m * np.eye(12), k * free, 1e-3 * k * free)
+    links = np.diff(np.eye(12), axis=0)
+    free = 1e12 * links.T @ np.diag(k * (1 + 0.3 * np.sin(range(1, 12)))) @ links
+    turn = np.array([[0.8, 0.6], [-0.6, 0.8]]) @ np.diag([1, 0.7]) @ np.array([[0.8, -0.6], [0.6, 0.8]])
+    free = np.kron(free, turn)
+    part("free.h5", ["u", "v"], m * np.eye(24), free, 1e-9 * free)
     one = lists("Loads", lists("at", values(Node=6, Component="u"))) + lists("Outputs", lists("o", values(Node=6, Component="u")))
-    sweep = values(Excitation="Transfer", Lowest_Frequency=0.2, Highest_Frequency=30.0, Points=31)
-    done = run("response", deck("free", "free.h5", lists("Response", sweep + one), "", reduction(2)), "free")
+    sweep = values(Excitation="Transfer", Lowest_Frequency=2e5, Highest_Frequency=3e7, Points=31)
+    done = run("response", deck("free", "free.h5", lists("Response", sweep + one), "", reduction(4)), "free")
     rows = table("free", "response")
     poor = np.sum(rows["o:at_estimate"] > 0.2 * rows["o:at_amplitude"])
     expect("free: errors between the resonances are warned of", f"At {poor} of 31 points the estimated error" in done.stderr, f"{poor} {done.stderr}")
+    expect("free: rounding of its motions at rest does not grow", "unstable" not in done.stderr, done.stderr)
+    done = tooljoint("response", "free.xml", "--without", "Reduction", "--set", "Response/Lowest Frequency=0", "--output", "free_at_rest")
+    expect("free: it has no response at 0 Hz", done.returncode == 3 and "(Response/Lowest Frequency)" in done.stderr, done.stderr)
 
 
 def motor():
