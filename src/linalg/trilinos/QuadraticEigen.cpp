@@ -9,6 +9,7 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Interrupt.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/DenseDecompositions.hpp"
 #include "linalg/DynamicStiffness.hpp"
@@ -27,6 +28,9 @@ constexpr double converged = 1e-13, stagnant = 1e-7;
 /// Vectors of a space at most, or twelve times the number of modes: all there are of a model of 750
 /// dofs.
 constexpr int largestSpace = 1500;
+/// A search for more modes takes minutes and ends with a signal; after a shorter one the caller
+/// looks, which may have something to keep.
+constexpr std::size_t longSearch = 200;
 /// Values s -> infinity, nu = 1 / (s - sigma) -> 0, stand in Jordan chains where neither mass nor
 /// damping acts: rounding leaves their nu at the root of rounding, and an answer to the residual
 /// that has nothing of the vector. Below this part of the largest nu that is what they are.
@@ -310,8 +314,10 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
                          const RitzPairs& ritz, std::size_t wanted, const DofNamer& name) {
   DampedModes out;
   std::size_t zeros = 0;
+  const bool isLong = wanted > longSearch;
   const double farthest = 1.0 / infiniteNu(ritz, inverse.shift());
   for (std::size_t j = 0; j < std::min(wanted, found.s.size()); ++j) {
+    if (isLong) stopIfInterrupted();
     const ComplexVector phi = space.vector(ritz, found.column[j]).head(pencil.size());
     Complex s = found.s[j];
     ComplexVector better = inverse.again(s, phi);
@@ -362,6 +368,7 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
   double bound = -1;
   double before = std::numeric_limits<double>::infinity();  // largest residual in the smaller space
   for (;;) {
+    if (wanted > longSearch) stopIfInterrupted();
     space.grow(columns);
     const RitzPairs ritz = space.ritz();
     const Upper found(ritz, inverse->shift(), finite);
