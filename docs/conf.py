@@ -13,10 +13,12 @@ sys.path.insert(0, str(PROJECT / "docs"))
 
 project = "Tooljoint"
 author = "The Tooljoint authors"
-release = re.search(r"project\(Tooljoint VERSION (\S+)", (PROJECT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+release = re.search(r"project\(Tooljoint VERSION (\S+)",
+                    (PROJECT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
 
 root_doc = "docs/index"
-include_patterns = ["docs/**.md", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/*/README.md"]
+include_patterns = [
+    "docs/**.md", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/*/README.md"]
 exclude_patterns = ["build", "results", ".*", "src", "substructures", "tests", "tools", "xml"]
 extensions = ["myst_parser", "sphinx.ext.mathjax", "breathe", "python_reference"]
 add_module_names = False
@@ -31,8 +33,10 @@ highlight_language = "none"
 KATEX = "/usr/share/javascript/katex"
 html_static_path = [KATEX, "site.css"]
 html_css_files = ["katex.min.css", "site.css"]
-html_js_files = [("katex.min.js", {"defer": "defer"}),
-                 ("contrib/auto-render.js", {"defer": "defer", "onload": "renderMathInElement(document.body)"})]
+html_js_files = [
+    ("katex.min.js", {"defer": "defer"}),
+    ("contrib/auto-render.js", {"defer": "defer", "onload": "renderMathInElement(document.body)"}),
+]
 mathjax_path = "katex.min.js"
 mathjax_options = {"defer": "defer"}
 myst_update_mathjax = False
@@ -40,7 +44,7 @@ myst_update_mathjax = False
 # Doxygen's XML of the headers; its folder is given on the command line, -D breathe_projects.tooljoint=FOLDER.
 breathe_projects = {"tooljoint": ""}
 breathe_default_project = "tooljoint"
-breathe_default_members = ("members",)
+breathe_default_members = ("members", )
 
 html_theme = "furo"
 html_title = f"Tooljoint {release}"
@@ -79,7 +83,9 @@ def inline_normalize(app, exception):
     text = style.read_text(encoding="utf-8")
     normalize = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")
     own = normalize.read_text(encoding="utf-8") if normalize.is_file() else ""
-    changed = re.sub(r'@import\s*(?:url\()?["\']?/javascript/normalize\.css/normalize\.css["\']?\)?;', lambda _: own, text)
+    changed = re.sub(
+        r'@import\s*(?:url\()?["\']?/javascript/normalize\.css/normalize\.css["\']?\)?;',
+        lambda _: own, text)
     if changed != text:
         style.write_text(changed, encoding="utf-8")
 

@@ -61,18 +61,22 @@ def segments(deck):
     def pieces(name):
         component = library.find(f"ParameterList[@name='{name}']")
         if component.find("Parameter[@name='Parts']") is None:
-            return [tuple(value(component, key) for key in ("Length", "Outer Radius", "Inner Radius"))]
+            return [
+                tuple(value(component, key) for key in ("Length", "Outer Radius", "Inner Radius"))]
         return [piece for part in entries(value(component, "Parts")) for piece in pieces(part)]
 
-    return [(name, *piece) for name in entries(value(scene, "Drillstring/Assembly")) for piece in pieces(name)]
+    return [(name, *piece) for name in entries(value(scene, "Drillstring/Assembly"))
+            for piece in pieces(name)]
 
 
 def loads(deck):
     """Weight on bit [N], torque on bit [N m], and the weight in mud per metre [N/m] as a function of the radii."""
     scene = ET.parse(deck).getroot()
-    steel, mud, g = (value(scene, path) for path in ("Drillstring/Material/Density", "Mud/Density", "Loads/Gravity"))
-    return value(scene, "Loads/Weight On Bit"), value(scene, "Loads/Torque On Bit"), lambda outer, inner: (
-        (steel - mud) * math.pi * (outer**2 - inner**2) * g)
+    steel, mud, g = (value(scene, path)
+                     for path in ("Drillstring/Material/Density", "Mud/Density", "Loads/Gravity"))
+    return value(scene,
+                 "Loads/Weight On Bit"), value(scene, "Loads/Torque On Bit"), lambda outer, inner: (
+                     (steel - mud) * math.pi * (outer**2 - inner**2) * g)
 
 
 def short(path):
@@ -104,17 +108,24 @@ def run(program, folder, more):
 def figures(program, output):
     """Everything that is printed, as numbers."""
     reduced, full = run(program, output / "reduced", []), run(program, output / "full", FULL)
-    compared = subprocess.run([str(program), "compare", str(output / "reduced"), str(output / "full"), "--json"], stdout=subprocess.PIPE, check=True)
+    compared = subprocess.run(
+        [str(program), "compare",
+         str(output / "reduced"),
+         str(output / "full"), "--json"], stdout=subprocess.PIPE, check=True)
     weight_on_bit, torque_on_bit, in_mud = loads(DECK)
     string = segments(DECK)
     with h5py.File(output / "reduced" / "results.h5") as results:
         force, depth = results["/static/normal_force"][:], results["/model/s"][:]
     node = int(np.argmax(force))
     ends = np.cumsum([length for _, length, _, _ in string])
-    errors = [(measure(summary) / bound, name, measure(summary), bound) for summary in (reduced, full) for name, measure, bound in checks.CHECKS]
-    cpu = {name: s["transient"]["cpu_s"] / (s["transient"]["end"] - s["transient"]["start"]) for name, s in (("reduced", reduced), ("full", full))}
+    errors = [(measure(summary) / bound, name, measure(summary), bound)
+              for summary in (reduced, full) for name, measure, bound in checks.CHECKS]
+    cpu = {
+        name: s["transient"]["cpu_s"] / (s["transient"]["end"] - s["transient"]["start"])
+        for name, s in (("reduced", reduced), ("full", full))}
     return {
-        "dofs": {"reduced": reduced["reduction"]["reduced_dofs"], "full": full["model"]["free_dofs"]},
+        "dofs": {
+            "reduced": reduced["reduction"]["reduced_dofs"], "full": full["model"]["free_dofs"]},
         "cpu_per_simulated_second": cpu,
         "speed_up": cpu["full"] / cpu["reduced"],
         "vibration_error": json.loads(compared.stdout)["vibration_error"],
@@ -123,10 +134,13 @@ def figures(program, output):
         "weight_on_bit": weight_on_bit,
         "surface_torque": reduced["static"]["surface_torque"],
         "torque_on_bit": torque_on_bit,
-        "side_force": {"value": float(force[node]), "depth": float(depth[node]), "component": string[int(np.searchsorted(ends, depth[node]))][0]},
+        "side_force": {
+            "value": float(force[node]),
+            "depth": float(depth[node]),
+            "component": string[int(np.searchsorted(ends, depth[node]))][0], },
         "bit_speed_rpm": reduced["transient"]["bit_speed_rpm"],
-        "worst_check": dict(zip(("name", "value", "bound"), max(errors)[1:])),
-    }
+        "worst_check": dict(zip(("name", "value", "bound"),
+                                max(errors)[1:])), }
 
 
 def report(f, program, output):
@@ -154,13 +168,18 @@ type    {short(program)} new my_well
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/tooljoint")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("results/first_run"))
     options = parser.parse_args()
     found = figures(options.program, options.output)
-    (options.output / "comparison.json").write_text(json.dumps(found, indent=2) + "\n", encoding="utf-8")
-    drawing = [sys.executable, short(ROOT / "tools" / "plot_results.py"), short(options.output / "reduced")]
+    (options.output / "comparison.json").write_text(
+        json.dumps(found, indent=2) + "\n", encoding="utf-8")
+    drawing = [
+        sys.executable,
+        short(ROOT / "tools" / "plot_results.py"),
+        short(options.output / "reduced")]
     print(lines("== ", drawing), flush=True)
     subprocess.run(drawing, check=True, stdout=subprocess.DEVNULL)
     print(report(found, options.program, options.output))

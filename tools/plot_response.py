@@ -13,10 +13,16 @@ try:
     from plots import rotating
     from report.folder import draw_folder
 except ImportError as missing:
-    sys.exit(f"{missing}: plot_response.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
-
+    sys.exit(
+        f"{missing}: plot_response.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3)."
+    )
 
 if __name__ == "__main__":
-    draw_folder(__doc__, "folder of tooljoint campbell or tooljoint response",
-                {"campbell.h5": {"": ("Campbell diagram", rotating.campbell_figure), "shapes": ("Modes in the hole", rotating.shapes_figure)},
-                 "response.h5": {"": ("Response to a harmonic force", rotating.response_figure), "profile": ("Along the string", rotating.profile_figure)}})
+    draw_folder(
+        __doc__, "folder of tooljoint campbell or tooljoint response", {
+            "campbell.h5": {
+                "": ("Campbell diagram", rotating.campbell_figure),
+                "shapes": ("Modes in the hole", rotating.shapes_figure), },
+            "response.h5": {
+                "": ("Response to a harmonic force", rotating.response_figure),
+                "profile": ("Along the string", rotating.profile_figure), }, })

@@ -23,7 +23,11 @@ from .results import Results, read
 from .variants import Parameter, basis, law, point_law
 
 __version__ = _core.version()
-__all__ = [name for name in dir() if not name.startswith("_") and name not in ("arguments", "decks", "errors", "lists", "modal", "motion", "parts", "quantity", "results", "variants")]
+__all__ = [
+    name for name in dir()
+    if not name.startswith("_") and name not in ("arguments", "decks", "errors", "lists", "modal",
+                                                 "motion", "parts", "quantity", "results",
+                                                 "variants")]
 
 
 def bases():

@@ -38,18 +38,20 @@ class Deck:
     ...
     tooljoint.errors.DeckError: /frame/Transient/End Tim is not a parameter. Did you mean "End Time"? ...
     """
-
-    def __init__(self, file: str | os.PathLike, set: Mapping[str, Any] | None = None, without: Iterable[str] = ()):
+    def __init__(self, file: str | os.PathLike, set: Mapping[str, Any] | None = None,
+                 without: Iterable[str] = ()):
         self.file = str(file)
         self._folder = os.getcwd()
         self._text = ""
-        self.overrides = ["!" + path for path in without] + [f"{path}={text_of(value)}" for path, value in (set or {}).items()]
+        self.overrides = ["!" + path for path in without] + [
+            f"{path}={text_of(value)}" for path, value in (set or {}).items()]
         self._read = _core.read_deck(self._source())
 
     def _source(self, text=None, overrides=None):
         """What the toolkit reads, also after a change of the working folder."""
         file = self.file if os.getcwd() == self._folder else os.path.join(self._folder, self.file)
-        return _core.DeckSource(file, self._text if text is None else text, self.overrides if overrides is None else overrides)
+        return _core.DeckSource(file, self._text if text is None else text,
+                                self.overrides if overrides is None else overrides)
 
     def _change(self, override):
         self._read = _core.read_deck(self._source(overrides=[*self.overrides, override]))
@@ -97,12 +99,15 @@ class Deck:
         element = root
         for each in outer:
             inner = _find(element, "ParameterList", each)
-            element = ElementTree.SubElement(element, "ParameterList", name=each) if inner is None else inner
+            element = ElementTree.SubElement(element, "ParameterList",
+                                             name=each) if inner is None else inner
             description = _described(description, each)
         overrides = list(self.overrides)
         if f"!{path}" in overrides:  # a list that was deleted is replaced, with what was set in it
             deleted = overrides.index(f"!{path}")
-            overrides = [one for i, one in enumerate(overrides) if i > deleted or (i < deleted and not one.startswith(f"{path}/"))]
+            overrides = [
+                one for i, one in enumerate(overrides)
+                if i > deleted or (i < deleted and not one.startswith(f"{path}/"))]
             old = _find(element, "ParameterList", name)
             if old is not None:
                 element.remove(old)
@@ -114,13 +119,16 @@ class Deck:
 
     def _tree(self):
         parser = ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))
-        return ElementTree.fromstring(self._read.text, parser), json.loads(self._read.description)[0]
+        return ElementTree.fromstring(self._read.text,
+                                      parser), json.loads(self._read.description)[0]
 
     def _whole(self, root):
         """The text of a tree, with the comments that stand before its root."""
         prolog = re.match(r"(\s|<!--.*?-->|<\?.*?\?>)*", self._read.text, re.DOTALL).group()
         ElementTree.indent(root)
-        return "\n".join([*re.findall(r"<!--.*?-->", prolog, re.DOTALL), ElementTree.tostring(root, encoding="unicode"), ""])
+        return "\n".join([
+            *re.findall(r"<!--.*?-->", prolog, re.DOTALL),
+            ElementTree.tostring(root, encoding="unicode"), ""])
 
     def gives(self, path: str) -> bool:
         """Whether the deck or a change gives this, and not a default."""
@@ -154,7 +162,8 @@ class Deck:
         """Refuse what a run would refuse; with quiet=False print what will be modelled, as `tooljoint check`."""
         _core.check(self._source(), quiet)
 
-    def run(self, output: str | os.PathLike = "", restart: str | os.PathLike = "", quiet: bool = True) -> Results:
+    def run(self, output: str | os.PathLike = "", restart: str | os.PathLike = "",
+            quiet: bool = True) -> Results:
         """Run the deck in this process, as `tooljoint run` does: its Results. Collective under MPI."""
         return Results(_core.run(self._source(), str(output), str(restart), quiet))
 
@@ -163,42 +172,49 @@ class Deck:
         state at rest. ConvergenceError, ModelError."""
         return _core.solve_static(self._source())
 
-    def study(self, output: str | os.PathLike = "", fresh: bool | None = None, shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
+    def study(self, output: str | os.PathLike = "", fresh: bool | None = None,
+              shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
         """Run its list Study in this process, as `tooljoint study` does: the rows of study.csv, a list of dicts. Rows known from an earlier
         study of the folder are taken from there, unless `fresh`, or a variant written in Python takes part (it may have changed).
         """
         return self._analyse("study", output, fresh, shared_timing, quiet)
 
-    def map(self, output: str | os.PathLike = "", fresh: bool | None = None, quiet: bool = True) -> list[dict[str, Any]]:
+    def map(self, output: str | os.PathLike = "", fresh: bool | None = None,
+            quiet: bool = True) -> list[dict[str, Any]]:
         """Compute its list Map, as `tooljoint map` does: the rows of map.csv. fresh: as of study()."""
         return self._analyse("map", output, fresh, False, quiet)
 
-    def campbell(self, output: str | os.PathLike = "", fresh: bool | None = None, quiet: bool = True) -> list[dict[str, Any]]:
+    def campbell(self, output: str | os.PathLike = "", fresh: bool | None = None,
+                 quiet: bool = True) -> list[dict[str, Any]]:
         """Damped modes against the rotary speed (list Campbell), as `tooljoint campbell` does: the rows of campbell.csv. fresh: as of study()."""
         return self._analyse("campbell", output, fresh, False, quiet)
 
-    def response(self, output: str | os.PathLike = "", fresh: bool | None = None, quiet: bool = True) -> list[dict[str, Any]]:
+    def response(self, output: str | os.PathLike = "", fresh: bool | None = None,
+                 quiet: bool = True) -> list[dict[str, Any]]:
         """Harmonic responses (list Response), as `tooljoint response` does: the rows of response.csv. fresh: as of study()."""
         return self._analyse("response", output, fresh, False, quiet)
 
     def _analyse(self, what, output, fresh, shared_timing, quiet):
         folder = str(output) or f"results/{pathlib.Path(self.file).stem}_{what}"
-        _core.analyse(what, self._source(), folder, any_written() if fresh is None else fresh, shared_timing, quiet)
+        _core.analyse(what, self._source(), folder,
+                      any_written() if fresh is None else fresh, shared_timing, quiet)
         return Results(folder).table(f"{what}.csv")
 
     def __repr__(self):
         return f"<Deck {self.file}{f' with {len(self.overrides)} changes' if self.overrides else ''}>"
 
 
-def run(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None, without: Iterable[str] = (), output: str | os.PathLike = "",
+def run(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None,
+        without: Iterable[str] = (), output: str | os.PathLike = "",
         restart: str | os.PathLike = "", quiet: bool = True) -> Results:
     """Run a deck (a file or a Deck) in this process: its Results. set: {"Transient/End Time": "2 s"}; without: lists to take out.
     The errors are those of the program, with the same sentence. Collective under MPI."""
     return _with(deck, set, without).run(output, restart, quiet)
 
 
-def study(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None, without: Iterable[str] = (), output: str | os.PathLike = "",
-          fresh: bool | None = None, shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
+def study(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None,
+          without: Iterable[str] = (), output: str | os.PathLike = "", fresh: bool | None = None,
+          shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
     """Run the study of a deck (a file or a Deck) in this process: see Deck.study."""
     return _with(deck, set, without).study(output, fresh, shared_timing, quiet)
 
@@ -222,7 +238,8 @@ def _pieces(path):
 def _described(description, name):
     """The description of a list in a list; of none, when it passes through or has free names, an empty one."""
     lists = [one for one in description["lists"] if one["name"] == name]
-    return lists[0] if lists else description["named_lists"] or {"lists": [], "parameters": [], "named_lists": None}
+    return lists[0] if lists else description["named_lists"] or {
+        "lists": [], "parameters": [], "named_lists": None}
 
 
 def _find(element, tag, name):

@@ -4,8 +4,8 @@
 An interrupt (Ctrl-C, or SIGTERM, which mpirun sends in its place) ends a long call with KeyboardInterrupt.
 """
 
-
-not_finite: dict[str, str] = {}  # point laws in Python whose last forces were no numbers, each with a sentence
+not_finite: dict[str, str] = {
+}  # point laws in Python whose last forces were no numbers, each with a sentence
 
 
 class Error(Exception):

@@ -49,14 +49,16 @@ def write(name: str, values: Mapping[str, Any], description: Mapping[str, Any]) 
     lines = []
     for given, value in values.items():
         if isinstance(value, dict):
-            own = known.get(keyword(given)) or ({**free, "name": given} if free else {"name": title(given), "lists": [], "parameters": [], "named_lists": None})
+            own = known.get(keyword(given)) or ({**free, "name": given} if free else {
+                "name": title(given), "lists": [], "parameters": [], "named_lists": None})
             lines.append(write(own["name"], value, own))
         elif value is not None:
             lines.append(_parameter(given, value, parameters.get(keyword(given))))
     return f"<ParameterList name={_quote(name)}>{''.join(lines)}</ParameterList>"
 
 
-def placed(description: Mapping[str, Any], values: Mapping[str, Any], places: Sequence[str | None]) -> dict[str, Any]:
+def placed(description: Mapping[str, Any], values: Mapping[str, Any],
+           places: Sequence[str | None]) -> dict[str, Any]:
     """Values by keyword in the lists they belong to: the list described, else the first of its lists `places` that knows the keyword.
     One that none knows goes where the most similar is, so that the reader can suggest that.
 
@@ -65,12 +67,14 @@ def placed(description: Mapping[str, Any], values: Mapping[str, Any], places: Se
     """
     lists = {each["name"]: each for each in description["lists"]}
     known: list[tuple[str, str]] = [("", name) for name in map(keyword, _names(description))]
-    known += [(place, name) for place in places if place and place in lists for name in map(keyword, _names(lists[place]))]
+    known += [(place, name) for place in places if place and place in lists
+              for name in map(keyword, _names(lists[place]))]
     out: dict[str, Any] = {}
     inner: dict[str, dict[str, Any]] = {}
     for name, value in values.items():
         similar = difflib.get_close_matches(keyword(name), [one for _, one in known], 1)
-        place = next((place for place, one in known if one == (similar[0] if similar else name)), "")
+        place = next((place for place, one in known if one == (similar[0] if similar else name)),
+                     "")
         if place and not isinstance(value, dict):
             inner.setdefault(place, {})[name] = value
         else:
@@ -108,7 +112,9 @@ def text_of(value: Any) -> str:
     try:
         values = list(value)
     except TypeError:
-        raise UsageError(f"{value!r} is no value of a deck; expected is a number, a text, a boolean or a list of them.") from None
+        raise UsageError(
+            f"{value!r} is no value of a deck; expected is a number, a text, a boolean or a list of them."
+        ) from None
     return "{" + ", ".join(map(text_of, values)) + "}"
 
 
@@ -119,7 +125,8 @@ def type_of(value: Any, kind: str = "") -> str:
     if isinstance(value, str):
         return "string"
     if isinstance(value, numbers.Real):
-        return "int" if isinstance(value, numbers.Integral) and not kind.startswith("real") else "double"
+        return "int" if isinstance(value,
+                                   numbers.Integral) and not kind.startswith("real") else "double"
     inner = {type_of(each, kind) for each in value} or {"string"}
     return f"Array({'double' if inner == {'int', 'double'} else inner.pop()})"
 

@@ -20,8 +20,8 @@ class Motion:
     """A motion: `time` [s], and `displacement`, `velocity` and `acceleration` (samples x coordinates of the model), with the units of the
     coordinates in `model.dof_units`; `report` has counts, times and energies of the integration. `at()` gives the motion of nodes.
     """
-
-    def __init__(self, model: _core.Model, time: np.ndarray, displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, report: dict[str, Any]):
+    def __init__(self, model: _core.Model, time: np.ndarray, displacement: np.ndarray,
+                 velocity: np.ndarray, acceleration: np.ndarray, report: dict[str, Any]):
         self.model, self.report = model, report
         self.time = Quantity(time, "s", "Time")
         unit = ", ".join(dict.fromkeys(model.dof_units))
@@ -59,7 +59,8 @@ def _rate(units: str, order: int) -> str:
     return ", ".join(unit + ("", "/s", "/s2")[order] for unit in units.split(", "))
 
 
-def integrate(of: HasModel, end_time: float | str, *, integrator: str = "Generalized-alpha", **parameters: Any) -> Motion:
+def integrate(of: HasModel, end_time: float | str, *, integrator: str = "Generalized-alpha",
+              **parameters: Any) -> Motion:
     """Integrate the motion of a model, a part or a synthesis from its start. Arguments are the deck list Transient: names in snake_case,
     of the list itself or of the list of the integrator (sampling_interval, step, spectral_radius ...). Collective under MPI.
 
@@ -72,6 +73,9 @@ def integrate(of: HasModel, end_time: float | str, *, integrator: str = "General
     >>> motion.displacement.round(3).ravel().tolist(), motion.displacement.unit
     ([1.0, 0.0, -1.0], 'm')
     """
-    values = placed(describe("Transient"), {"integrator": integrator, "end_time": end_time, "progress": False, **parameters}, [integrator])
+    values = placed(
+        describe("Transient"),
+        {"integrator": integrator, "end_time": end_time, "progress": False, **parameters},
+        [integrator])
     model = model_of(of, "integrate")
     return Motion(model, *_core.integrate(model, checked("Transient", values)))

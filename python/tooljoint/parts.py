@@ -20,8 +20,11 @@ if TYPE_CHECKING:
     MatrixLike = Union[ArrayLike, spmatrix]
 
 
-def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Iterable[int] = (), retained: Iterable[int] = (), damping: MatrixLike | None = None,
-         load: ArrayLike | None = None, nodes: ArrayLike | None = None, components: ArrayLike | None = None, component_names: Sequence[str] = ("u",)) -> _core.Part:
+def part(
+    name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Iterable[int] = (),
+    retained: Iterable[int] = (), damping: MatrixLike | None = None, load: ArrayLike | None = None,
+    nodes: ArrayLike | None = None, components: ArrayLike | None = None,
+    component_names: Sequence[str] = ("u", )) -> _core.Part:
     """A part from its matrices.
 
     mass, stiffness, damping: scipy.sparse matrices or arrays, dofs x dofs [kg, N/m, N s/m]; load: a constant load, dofs [N].
@@ -40,7 +43,7 @@ def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Itera
     >>> bar.model.dof_names[2]
     'u of node 3'
     """
-    size, width = (np.shape(mass) or (0,))[0], len(component_names)
+    size, width = (np.shape(mass) or (0, ))[0], len(component_names)
     if nodes is None:
         nodes = np.arange(size) // width + 1
     nodes = _whole(nodes, "nodes")
@@ -48,19 +51,22 @@ def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Itera
         raise ModelError(f"nodes has {min(nodes)}; nodes are numbered from 1 on.")
     if components is None:
         components = _repeating(nodes, width)
-    model = _core.Model(mass, stiffness, nodes, _whole(components, "components"), list(component_names))
+    model = _core.Model(mass, stiffness, nodes, _whole(components, "components"),
+                        list(component_names))
     if damping is not None:
         model.add_damping(damping)
     if load is not None:
         model.add_load(load)
-    return _core.Part(name, model, sorted(_whole(interface, "interface")), sorted(_whole(retained, "retained")))
+    return _core.Part(name, model, sorted(_whole(interface, "interface")),
+                      sorted(_whole(retained, "retained")))
 
 
 def _whole(values: Any, what: str) -> list[int]:
     """Whole numbers of any kind as a list of int. ModelError."""
     values = list(values) if np.iterable(values) else [values]
     for value in values:
-        if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)) or not float(value).is_integer():
+        if isinstance(value, (bool, np.bool_)) or not isinstance(
+                value, (int, float, np.integer, np.floating)) or not float(value).is_integer():
             raise ModelError(f"{what} has {value!r}; expected are whole numbers.")
     return [int(value) for value in values]
 
@@ -75,7 +81,8 @@ def _repeating(nodes, width):
     return components
 
 
-def write_part(part: _core.Part, path: str | os.PathLike, interfaces: Mapping[str, Iterable[int]] | None = None,
+def write_part(part: _core.Part, path: str | os.PathLike,
+               interfaces: Mapping[str, Iterable[int]] | None = None,
                positions: Mapping[int, ArrayLike] | None = None) -> None:
     """Write a part for `Parts/Imported` of a deck: one file when the path ends with .h5, else a folder of Matrix Market files.
 
@@ -84,18 +91,27 @@ def write_part(part: _core.Part, path: str | os.PathLike, interfaces: Mapping[st
     A reduced part is refused: make a part of its `model` with `part()`.
     """
     if not isinstance(part, _core.Part):
-        raise UsageError(f"write_part() takes a Part, not {part!r}. Of a reduced part, write part(name, model.mass, model.stiffness(), ...) of its model.")
+        raise UsageError(
+            f"write_part() takes a Part, not {part!r}. Of a reduced part, write part(name, model.mass, model.stiffness(), ...) of its model."
+        )
     sets = {"interface": part.interface} if interfaces is None else interfaces
-    _core.write_part(part, str(path), {name: found for name, dofs in sets.items() if (found := _whole(dofs, f'the interface "{name}"'))}, dict(positions or {}))
+    _core.write_part(
+        part, str(path), {
+            name: found
+            for name, dofs in sets.items() if (found := _whole(dofs, f'the interface "{name}"'))},
+        dict(positions or {}))
 
 
-def read_part(path: str | os.PathLike, name: str = "part", laws: dict[str, Any] | None = None) -> _core.Part:
+def read_part(path: str | os.PathLike, name: str = "part",
+              laws: dict[str, Any] | None = None) -> _core.Part:
     """Read a part: a file .h5 or .json, or a folder with a part.json. DeckError for what is malformed, ModelError.
 
     laws: of every law of time that terms of the file name, its function of the time [s], or a number: `laws={"Omega": 12.5}`.
     Point laws, which a file cannot hold, are warned of.
     """
-    functions = {law: value if callable(value) else (lambda t, value=real(value, "read_part", law): value) for law, value in (laws or {}).items()}
+    functions = {
+        law: value if callable(value) else (lambda t, value=real(value, "read_part", law): value)
+        for law, value in (laws or {}).items()}
     return _core.read_part(str(path), name, functions)
 
 
@@ -115,7 +131,8 @@ def reduction(method: str = "Craig-Bampton", **parameters: Any) -> _core.DeckLis
     return checked("Reduction", values)
 
 
-def reduce(parts: _core.Part | Sequence[_core.Part], method: str = "Craig-Bampton", **parameters: Any) -> _core.ReducedPart | list[_core.ReducedPart]:
+def reduce(parts: _core.Part | Sequence[_core.Part], method: str = "Craig-Bampton",
+           **parameters: Any) -> _core.ReducedPart | list[_core.ReducedPart]:
     """Reduce a part, or each of a list of parts by itself.
 
     method and parameters: as `reduction()`; "modes=6" or "cut_off_frequency='30 Hz'", for example. Collective under MPI.
@@ -128,14 +145,17 @@ def reduce(parts: _core.Part | Sequence[_core.Part], method: str = "Craig-Bampto
     """
     if isinstance(parts, _core.Part):
         return _core.reduce([parts], reduction(method, **parameters))[0]
-    return _core.reduce(list_of(parts, ("Part",), "reduce", "parts"), reduction(method, **parameters))
+    return _core.reduce(list_of(parts, ("Part", ), "reduce", "parts"),
+                        reduction(method, **parameters))
 
 
 def _joining(coupling):
     if coupling is None or isinstance(coupling, _core.Connections):
         return coupling
     if not isinstance(coupling, dict):
-        raise UsageError(f"coupling is {coupling!r}; expected is the deck list Coupling as a dict, or what joins the parts of Deck.at_rest().")
+        raise UsageError(
+            f"coupling is {coupling!r}; expected is the deck list Coupling as a dict, or what joins the parts of Deck.at_rest()."
+        )
     return checked("Coupling", coupling)
 
 
@@ -147,15 +167,20 @@ def couple(parts: Iterable[Any], coupling: dict | _core.Connections | None = Non
     parts = list_of(parts, ("Part", "ReducedPart"), "couple", "parts")
     reduced = [isinstance(part, _core.ReducedPart) for part in parts]
     if any(reduced) and not all(reduced):
-        raise UsageError("Some of the parts are reduced and some are not. Reduce all of them, or none.")
+        raise UsageError(
+            "Some of the parts are reduced and some are not. Reduce all of them, or none.")
     if any(reduced):
         if coupling is not None:
-            raise UsageError("Reduced parts are joined by their labels alone. Give the coupling to synthesise(), which reduces and couples.")
+            raise UsageError(
+                "Reduced parts are joined by their labels alone. Give the coupling to synthesise(), which reduces and couples."
+            )
         return _core.couple_reduced(parts)
     return _core.couple(parts, _joining(coupling))
 
 
-def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton", coupling: dict | _core.Connections | None = None, **parameters: Any) -> _core.Synthesis:
+def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton",
+               coupling: dict | _core.Connections | None = None,
+               **parameters: Any) -> _core.Synthesis:
     """Component mode synthesis: reduce the parts, couple them, augment bases that need the coupled model, reduce the interface where
     asked for. parameters: as `reduction()`; with frequency_tolerance the modes are chosen by the estimated error. Collective under MPI.
 
@@ -167,4 +192,5 @@ def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton", coupl
     >>> both
     <Synthesis of 2 parts, 5 dofs>
     """
-    return _core.synthesise(list_of(parts, ("Part",), "synthesise", "parts"), reduction(method, **parameters), _joining(coupling))
+    return _core.synthesise(list_of(parts, ("Part", ), "synthesise", "parts"),
+                            reduction(method, **parameters), _joining(coupling))

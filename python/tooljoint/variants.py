@@ -21,14 +21,15 @@ class Parameter:
     """A parameter of a variant: its default (None: it must be given), SI unit and a sentence. The default decides the type; without one
     it is a real number.
     """
-
-    def __init__(self, default: bool | int | float | str | None = None, unit: str = "", doc: str = ""):
+    def __init__(self, default: bool | int | float | str | None = None, unit: str = "",
+                 doc: str = ""):
         self.default, self.unit, self.doc = default, unit, doc
 
     def row(self, name: str) -> tuple:
         """As the description of a deck list takes it: name, kind, unit, default, sentence."""
         kinds = {bool: "boolean", int: "integer", str: "text"}
-        return (name, kinds.get(type(self.default), "real"), self.unit, self.default, self.doc or f"Parameter {name} of the function.")
+        return (name, kinds.get(type(self.default), "real"), self.unit, self.default, self.doc
+                or f"Parameter {name} of the function.")
 
 
 def _parameters(function, taken):
@@ -61,13 +62,16 @@ def _checked_force(name, force, states):
             return found
         if forces is None or np.size(forces) != d.size:
             what = "None" if forces is None else f"{np.size(forces)} values"
-            raise ModelError(f"{who} returned {what} at t = {t:.6g} s; expected are {d.size} forces, as many as there are positions d.")
-        wrong = _first_not_finite(found if paired else (found,), len(d))
+            raise ModelError(
+                f"{who} returned {what} at t = {t:.6g} s; expected are {d.size} forces, as many as there are positions d."
+            )
+        wrong = _first_not_finite(found if paired else (found, ), len(d))
         if wrong is None:
             not_finite.pop(name, None)
         elif np.isfinite(d).all() and np.isfinite(v).all():
             value, point = wrong
-            not_finite[name] = f"{who} returned {value} at t = {t:.6g} s, where d is {_numbers(d[point])} m and v {_numbers(v[point])} m/s; expected are finite numbers."
+            not_finite[
+                name] = f"{who} returned {value} at t = {t:.6g} s, where d is {_numbers(d[point])} m and v {_numbers(v[point])} m/s; expected are finite numbers."
         return found
 
     return checked_force
@@ -107,7 +111,6 @@ def basis(name: str) -> Callable[[Callable], Callable]:
     >>> tj.reduce(chain, "Static Responses", modes=2, steps=3)
     <ReducedPart "chain": 4 coordinates, 2 of them modes>
     """
-
     def register(build):
         rows, names = _parameters(build, 2)
         _core.register_basis(name, _sentence(build), rows, names, build)
@@ -117,7 +120,8 @@ def basis(name: str) -> Callable[[Callable], Callable]:
     return register
 
 
-def point_law(name: str, *, width: int = 1, states: int = 0, tangent: Callable | None = None, power: Callable | None = None,
+def point_law(name: str, *, width: int = 1, states: int = 0, tangent: Callable | None = None,
+              power: Callable | None = None,
               start: Callable | None = None) -> Callable[[Callable], Callable]:
     """Registers a function as a point law: force(t, d, v, **parameters) for positions d [m] and velocities v [m/s] of all points at once,
     arrays of (points,), or (points, width) where width > 1; it returns the forces [N] in the same shape. The first coordinate is a
@@ -150,15 +154,20 @@ def point_law(name: str, *, width: int = 1, states: int = 0, tangent: Callable |
     ...     return force, -force / damping
     """
     if width < 1 or states < 0:
-        raise UsageError(f'The point law "{name}" has width {width} and {states} states: a point has at least 1 coordinate and 0 states.')
+        raise UsageError(
+            f'The point law "{name}" has width {width} and {states} states: a point has at least 1 coordinate and 0 states.'
+        )
     if states > 0 and tangent is not None:
-        raise UsageError(f'The point law "{name}" has states: its slopes are differences, leave tangent out.')
+        raise UsageError(
+            f'The point law "{name}" has states: its slopes are differences, leave tangent out.')
     if states == 0 and start is not None:
-        raise UsageError(f'The point law "{name}" has no states to start: give states, or leave start out.')
+        raise UsageError(
+            f'The point law "{name}" has no states to start: give states, or leave start out.')
 
     def register(force):
         rows, names = _parameters(force, 4 if states > 0 else 3)
-        _core.register_point_law(name, _sentence(force), rows, names, width, states, _checked_force(name, force, states), tangent, power, start)
+        _core.register_point_law(name, _sentence(force), rows, names, width, states,
+                                 _checked_force(name, force, states), tangent, power, start)
         _written.add(name)
         return force
 
@@ -174,7 +183,8 @@ def law(name: str, *, points: int = 1, coordinates: int = 3, **parameters: Any) 
     >>> spring.force(0.0, [0.1], [2.0]).tolist()
     [-320.0]
     """
-    return _core.point_law(name, checked(name, parameters), whole(points, "law", "points"), whole(coordinates, "law", "coordinates"))
+    return _core.point_law(name, checked(name, parameters), whole(points, "law", "points"),
+                           whole(coordinates, "law", "coordinates"))
 
 
 def any_written() -> bool:

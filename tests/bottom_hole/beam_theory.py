@@ -13,7 +13,6 @@ from scipy.optimize import brentq
 
 class Beam:
     """`load(x)` q [N/m], `compression(x)` P [N], `wall(x)` distance of the axis of the hole from that at the bit [m]."""
-
     def __init__(self, rigidity, load, compression, wall=lambda x: 0.0):
         self.rigidity, self.load, self.compression, self.wall = rigidity, load, compression, wall
 
@@ -23,7 +22,9 @@ class Beam:
         h = (end - start) / steps
 
         def slope(x, y):
-            rate = np.array([y[1], y[2] / self.rigidity, y[3] - self.compression(x) * y[1], np.zeros_like(y[0])])
+            rate = np.array([
+                y[1], y[2] / self.rigidity, y[3] - self.compression(x) * y[1],
+                np.zeros_like(y[0])])
             rate[3, 0] = self.load(x)
             return rate
 
@@ -60,18 +61,22 @@ class Beam:
                 state[3, 0] += value
         state = self.march(state, x, length)
         step = 1e-3
-        slope, bend = (self.wall(length + step) - self.wall(length - step)) / (2 * step), (self.wall(length + step) - 2 * self.wall(length) + self.wall(length - step)) / step**2
+        slope, bend = (self.wall(length + step) - self.wall(length - step)) / (2 * step), (
+            self.wall(length + step) - 2 * self.wall(length) + self.wall(length - step)) / step**2
         offset, second, target = (0.0, 2, 0.0) if end == "hinge" else (end, 1, slope)
         rows += [state[0, 1:].copy(), state[second, 1:].copy()]
         right += [offset + self.wall(length) - state[0, 0], target - state[second, 0]]
         found = np.linalg.solve(np.array(rows), np.array(right))
         moment = state[2, 0] + state[2, 1:] @ found - self.rigidity * bend
-        return {"tilt": found[0], "bit": found[1], "reactions": list(found[2:]), "excess": moment, "length": length}
+        return {
+            "tilt": found[0], "bit": found[1], "reactions": list(found[2:]), "excess": moment,
+            "length": length}
 
     def slick(self, events, wall, longest=60.0):
         """The same with the lowest tangency point above all events."""
         def excess(length):
             return self.solve(events, length, wall)["excess"]
+
         low = max((place for place, _, _ in events), default=0.0) + 0.5
         while low < longest and excess(low) * excess(low + 0.5) > 0:
             low += 0.5

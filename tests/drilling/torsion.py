@@ -11,7 +11,6 @@ from models import DENSITY, SHEAR
 
 class Drive:
     """J theta'' + k_p theta' + k_i theta, of the deviation from the set speed."""
-
     def __init__(self, kp, ki, inertia):
         self.kp, self.ki, self.inertia = kp, ki, inertia
 
@@ -21,10 +20,10 @@ class Drive:
 
 class Line:
     """Uniform pieces from the top down; rho I_p (theta_tt + a theta_t) = G I_p (1 + b d/dt) theta_zz with the damping coefficients a of the mass and b of the stiffness."""
-
     def __init__(self, pieces, mass=0.0, stiffness=0.0):
         """`pieces`: length, outer and inner radius [m]."""
-        self.pieces = [(length, math.pi / 2 * (outer**4 - inner**4)) for length, outer, inner in pieces]
+        self.pieces = [
+            (length, math.pi / 2 * (outer**4 - inner**4)) for length, outer, inner in pieces]
         self.mass, self.stiffness = mass, stiffness
 
     def torque_over_angle(self, s, slope, drive):
@@ -60,12 +59,12 @@ class Line:
 
     def critical_slope(self, drive, highest):
         """dT/domega [N m s/rad] below which steady drilling is unstable."""
-        return brentq(lambda slope: self.rightmost(slope, drive, highest).real, -400.0, 0.0, xtol=1e-6)
+        return brentq(lambda slope: self.rightmost(slope, drive, highest).real, -400.0, 0.0,
+                      xtol=1e-6)
 
 
 class LumpedString:
     """A line as masses and springs, far shorter than the waves; from rest, in the frame of the set speed."""
-
     def __init__(self, line, longest):
         """Masses at most `longest` apart; shorter pieces in a row are one spring."""
         springs, masses, compliance, inertia, way = [], [0.0], 0.0, 0.0, 0.0
@@ -96,7 +95,8 @@ class LumpedString:
         C[-1, -1] += slope
         K[0, 0] += drive.ki
         inverse = np.linalg.inv(M)
-        return np.linalg.eigvals(np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ K, -inverse @ C]]))
+        return np.linalg.eigvals(
+            np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ K, -inverse @ C]]))
 
     def motion(self, times, omega, acceleration, bit, drive):
         """Speed of the bit."""
@@ -114,5 +114,7 @@ class LumpedString:
             both = np.empty(2 * n)
             both[::2], both[1::2] = speed, force / inertia
             return both
-        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="LSODA", lband=3, uband=3, rtol=1e-7, atol=1e-8, t_eval=times, max_step=0.05)
+
+        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="LSODA", lband=3,
+                          uband=3, rtol=1e-7, atol=1e-8, t_eval=times, max_step=0.05)
         return omega(times) + found.y[-1]

@@ -19,16 +19,27 @@ import rooms
 import sizes
 
 LONGEST = 500  # lines of a source file; beyond, it is two ideas
-ROOMS = ["src", "substructures", "python", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
-TOP = ["CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "quickstart", ".ci/run"]
+ROOMS = [
+    "src", "substructures", "python", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
+TOP = [
+    "CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md",
+    "CITATION.cff", "quickstart", ".ci/run"]
 SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".in"}
 TEXTS = SOURCES | {".txt", ".md", ".xml", ".json", ".csv", ".cff", ".yml", ".yaml", ".supp", ""}
 # Spelt so that this file does not contain them.
-FORBIDDEN = [re.compile(word) for word in [r"\bTO" r"DO\b", r"\bFIX" r"ME\b", r"\bXX" r"X\b", r"(?i)\bnot " r"implemented\b", r"(?i)\bplace" r"holder\b",
-                                           r"(?<![\w.])/wo" r"rk/"]]
+FORBIDDEN = [
+    re.compile(word) for word in [
+        r"\bTO"
+        r"DO\b", r"\bFIX"
+        r"ME\b", r"\bXX"
+        r"X\b", r"(?i)\bnot "
+        r"implemented\b", r"(?i)\bplace"
+        r"holder\b", r"(?<![\w.])/wo"
+        r"rk/"]]
 FOREIGN = re.compile(r"(?i)drill[\s_-]?(string|pipe)")
 BY_NAME = re.compile(r'\b(?:name|law) [!=]= "1"')
-PERSONS = re.compile(r"(?i)\b(looked at|unasked|(?:is|are|was|were) (?:asked|told))\b")  # in product code and pages: what people do
+PERSONS = re.compile(r"(?i)\b(looked at|unasked|(?:is|are|was|were) (?:asked|told))\b"
+                     )  # in product code and pages: what people do
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
@@ -53,7 +64,8 @@ def lint_file(root, path):
     yield from sizes.of_source(relative.as_posix(), "\n".join(lines))
     if relative.as_posix() == "docs/architecture.md":
         yield from sizes.of_recipes("\n".join(lines))
-    spoken = parts[0] in ("src", "substructures", "python", "docs", "examples") or relative.as_posix() in ("README.md", "CONTRIBUTING.md")
+    spoken = parts[0] in ("src", "substructures", "python", "docs",
+                          "examples") or relative.as_posix() in ("README.md", "CONTRIBUTING.md")
     toolkit = parts[0] == "src" and parts[1] != "app"
     bad_deck = parts[:2] == ("tests", "decks") and path.suffix == ".xml"
     for number, line in enumerate(lines, 1):
@@ -74,7 +86,9 @@ def lint_file(root, path):
 def files_of(root, room):
     """The files of a room. Decks in xml/ that git does not know are a user's own; without git (an unpacked archive) all are the project's."""
     if room == "xml":
-        listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z", "--", room], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False).stdout
+        listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z", "--", room],
+                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                check=False).stdout
         if listed:
             return [root / name for name in listed.split("\0") if name]
     return (root / room).rglob("*")
@@ -107,39 +121,56 @@ def room_lines(root):
 def size_table(root):
     """Complaints about numbers of lines in docs/architecture.md that the tree has left by more than a tenth."""
     page = root / "docs" / "architecture.md"
-    rows = re.findall(r"^\| ([a-z, ]+) \| ([\d,]+) \|", page.read_text(encoding="utf-8"), re.M) if page.is_file() else []
+    rows = re.findall(r"^\| ([a-z, ]+) \| ([\d,]+) \|", page.read_text(
+        encoding="utf-8"), re.M) if page.is_file() else []
     left = room_lines(root)
     for names, said in rows:
         if names.startswith("other rooms"):
             mine = sum(count for room, count in left.items() if room.startswith("substructures/"))
         else:
-            mine = sum(left.pop(f"{side}/{name}", 0) for name in names.split(", ") for side in ("src", "substructures"))
+            mine = sum(
+                left.pop(f"{side}/{name}", 0) for name in names.split(", ")
+                for side in ("src", "substructures"))
         if abs(int(said.replace(",", "")) - mine) > 0.1 * mine:
             yield f"docs/architecture.md:1: says that {names} have {said} lines; they have {mine}"
 
 
 def strangers(root):
     """Complaints about what git keeps at the top level and no room holds: results of a run, most often."""
-    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False).stdout
+    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], stdout=subprocess.PIPE,
+                            stderr=subprocess.DEVNULL, text=True, check=False).stdout
     known = set(ROOMS) | {"tools", ".ci"}
-    firsts = {name.partition("/")[0]: name for name in sorted(listed.split("\0"), reverse=True) if "/" in name}
+    firsts = {
+        name.partition("/")[0]: name for name in sorted(listed.split("\0"), reverse=True)
+        if "/" in name}
     for room in sorted(set(firsts) - known):
         yield f"{firsts[room]}:1: stands in no room of the project: results of runs stay out of git (git rm -r --cached {room})"
 
 
 def standing_twice(root, files):
     """Complaints about code that stands twice in product code, the Python package or tools."""
-    known = [path for path in [*files, *sorted((root / "tools").rglob("*.py"))] if path.suffix in (".cpp", ".hpp", ".py")]
-    return repeats.of_texts({path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace") for path in known})
+    known = [
+        path for path in [*files, *sorted((root / "tools").rglob("*.py"))]
+        if path.suffix in (".cpp", ".hpp", ".py")]
+    return repeats.of_texts({
+        path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace")
+        for path in known})
 
 
 def lint(root):
     """All complaints about a tree as texts, and the number of files read."""
     files = [root / name for name in TOP if (root / name).is_file()]
     for room in ROOMS:
-        files += sorted(path for path in files_of(root, room) if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
-    complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)]
-    complaints += [*modes(root), *house(root), *size_table(root), *strangers(root), *standing_twice(root, files), *sizes.of_folders(path.relative_to(root).as_posix() for path in files)]
+        files += sorted(
+            path for path in files_of(root, room)
+            if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
+    complaints = [
+        f"{path.relative_to(root)}:{line}: {what}" for path in files
+        for line, what in lint_file(root, path)]
+    complaints += [
+        *modes(root), *house(root), *size_table(root), *strangers(root),
+        *standing_twice(root, files),
+        *sizes.of_folders(path.relative_to(root).as_posix() for path in files)]
     return complaints, len(files)
 
 
@@ -147,7 +178,10 @@ def counts(root):
     """Lines and files of each half and of the rooms of product code, and the folders with the most sources."""
     folders = {}
     for room in ["src", "substructures", "python", "tests", "tools"]:
-        paths = [path for path in (root / room).rglob("*") if path.is_file() and path.suffix in (".cpp", ".hpp", ".py") and "__pycache__" not in path.parts]
+        paths = [
+            path for path in (root / room).rglob("*")
+            if path.is_file() and path.suffix in (".cpp", ".hpp",
+                                                  ".py") and "__pycache__" not in path.parts]
         lines = sum(len(path.read_text(encoding="utf-8").splitlines()) for path in paths)
         yield f"{room:<15}{lines:>8} lines{len(paths):>6} files"
         if room in ("src", "substructures", "python"):
@@ -218,8 +252,9 @@ def self_test():
         complaints, _ = lint(root)
         for name, (_, expected) in cases.items():
             mine = [one for one in complaints if one.startswith(name + ":")]
-            wanted = (expected,) if isinstance(expected, str) else expected
-            good = not mine if wanted is None else all(any(one in complaint for complaint in mine) for one in wanted)
+            wanted = (expected, ) if isinstance(expected, str) else expected
+            good = not mine if wanted is None else all(
+                any(one in complaint for complaint in mine) for one in wanted)
             failures += not good
             print(f"{'ok    ' if good else 'FAILED'} {name}: {mine}")
     return 1 if failures else 0

@@ -5,7 +5,9 @@ import re
 LEAST = 6  # lines of code that count as a repeat
 WHERE = ("src/", "substructures/", "python/", "tools/")
 # Lines that say nothing by themselves: comments, what is included, braces, and the functions that every implementation of an interface declares.
-NO_CODE = re.compile(r"(//|#|using |namespace |import |from \S+ import |return;|[{}();\])]*$|else \{|\} else \{|public:|private:)|.*\boverride\b")
+NO_CODE = re.compile(
+    r"(//|#|using |namespace |import |from \S+ import |return;|[{}();\])]*$|else \{|\} else \{|public:|private:)|.*\boverride\b"
+)
 
 
 def code(text):
@@ -24,7 +26,8 @@ def of_texts(texts):
             continue
         lines, last = list(code(text)), None
         for i in range(len(lines) - LEAST + 1):
-            found = seen.setdefault(tuple(line for _, line in lines[i:i + LEAST]), (name, lines[i][0], i))
+            found = seen.setdefault(tuple(line for _, line in lines[i:i + LEAST]),
+                                    (name, lines[i][0], i))
             first, number, at = found
             if (first, at) == (name, i):
                 last = None

@@ -9,8 +9,13 @@ EI, MASS = 2.0e4, 12.0  # N m2, kg/m
 def beam(length, elements):
     """K and M of a free beam, 2 (elements + 1) dofs."""
     l = length / elements
-    k = EI / l**3 * np.array([[12, 6 * l, -12, 6 * l], [6 * l, 4 * l * l, -6 * l, 2 * l * l], [-12, -6 * l, 12, -6 * l], [6 * l, 2 * l * l, -6 * l, 4 * l * l]])
-    m = MASS * l / 420 * np.array([[156, 22 * l, 54, -13 * l], [22 * l, 4 * l * l, 13 * l, -3 * l * l], [54, 13 * l, 156, -22 * l], [-13 * l, -3 * l * l, -22 * l, 4 * l * l]])
+    k = EI / l**3 * np.array([[12, 6 * l, -12, 6 * l], [6 * l, 4 * l * l, -6 * l, 2 * l * l],
+                              [-12, -6 * l, 12, -6 * l], [6 * l, 2 * l * l, -6 * l, 4 * l * l]])
+    m = MASS * l / 420 * np.array([
+        [156, 22 * l, 54, -13 * l],
+        [22 * l, 4 * l * l, 13 * l, -3 * l * l],
+        [54, 13 * l, 156, -22 * l],
+        [-13 * l, -3 * l * l, -22 * l, 4 * l * l], ])
     size = 2 * (elements + 1)
     K, M = sparse.lil_matrix((size, size)), sparse.lil_matrix((size, size))
     for e in range(elements):
@@ -26,6 +31,8 @@ def halves(tj, elements=24):
     half = elements // 2
     Kh, Mh = beam(2.0, half)
     names = ("v", "theta")
-    left = tj.part("left", Mh[2:, 2:], Kh[2:, 2:], nodes=np.repeat(np.arange(2, half + 2), 2), component_names=names, interface=[2 * half - 2, 2 * half - 1])
-    right = tj.part("right", Mh, Kh, nodes=np.repeat(np.arange(half + 1, elements + 2), 2), component_names=names, interface=[0, 1], retained=[2 * half])
+    left = tj.part("left", Mh[2:, 2:], Kh[2:, 2:], nodes=np.repeat(np.arange(2, half + 2), 2),
+                   component_names=names, interface=[2 * half - 2, 2 * half - 1])
+    right = tj.part("right", Mh, Kh, nodes=np.repeat(np.arange(half + 1, elements + 2), 2),
+                    component_names=names, interface=[0, 1], retained=[2 * half])
     return left, right, K[2:, 2:], M[2:, 2:]

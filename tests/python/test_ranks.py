@@ -8,13 +8,15 @@ import unittest
 
 MPIEXEC = os.environ["TOOLJOINT_MPIEXEC"]
 TESTS = pathlib.Path(__file__).parent
-PRELUDE = "import sys; sys.path.insert(0, %r); import numpy as np, tooljoint as tj, beams\n" % str(TESTS)
+PRELUDE = "import sys; sys.path.insert(0, %r); import numpy as np, tooljoint as tj, beams\n" % str(
+    TESTS)
 
 
 def run(ranks, code):
     """Standard output, standard error and exit code of this code on so many ranks."""
     command = [sys.executable, "-c", PRELUDE + code]
-    done = subprocess.run([MPIEXEC, "-n", str(ranks), *command] if ranks > 1 else command, capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run([MPIEXEC, "-n", str(ranks), *command] if ranks > 1 else command,
+                          capture_output=True, text=True, timeout=120, check=False)
     return done.stdout, done.stderr, done.returncode
 
 
@@ -44,12 +46,16 @@ sys.stdout.write(f"{tj.ranks()} {[round(float(f), 9) for f in tj.modes(synthesis
         lines = two.splitlines()
         self.assertEqual(len(lines), 2)
         self.assertEqual(lines[0], lines[1])
-        values = [eval(line.split(" ", 1)[1].replace("] [", "], [")) for line in (one.strip(), lines[0])]
+        values = [
+            eval(line.split(" ", 1)[1].replace("] [", "], [")) for line in (one.strip(), lines[0])]
         for mine, theirs in zip(*values):
-            self.assertTrue(all(abs(a - b) <= 1e-8 * abs(max(mine, key=abs)) for a, b in zip(mine, theirs)), f"{mine}\n{theirs}")
+            self.assertTrue(
+                all(abs(a - b) <= 1e-8 * abs(max(mine, key=abs)) for a, b in zip(mine, theirs)),
+                f"{mine}\n{theirs}")
 
     def test_an_error_of_one_rank_is_thrown_on_all(self):
-        out, errors, code = run(2, """
+        out, errors, code = run(
+            2, """
 left, right, K, M = beams.halves(tj)
 @tj.basis("Raises On A Rank")
 def build(part, count):
@@ -62,10 +68,12 @@ except tj.ModelError as error:
     sys.stdout.write(f"{error}\\n")
 """)
         self.assertEqual(code, 0, errors)
-        self.assertEqual(out.splitlines(), ['The basis "Raises On A Rank" raised ValueError: only here.'] * 2)
+        self.assertEqual(out.splitlines(),
+                         ['The basis "Raises On A Rank" raised ValueError: only here.'] * 2)
 
     def test_a_rank_that_fails_alone_ends_all(self):
-        _, errors, code = run(2, """
+        _, errors, code = run(
+            2, """
 left, right, K, M = beams.halves(tj)
 if tj.rank() == 1:
     raise tj.ModelError("rank 1 alone")
@@ -75,7 +83,8 @@ tj.reduce([left, right], modes=2)
         self.assertIn("rank 1 alone", errors)
 
     def test_mpi_that_others_began_is_theirs_to_end(self):
-        done = subprocess.run([sys.executable, "-c", """
+        done = subprocess.run([
+            sys.executable, "-c", """
 import atexit, ctypes, sys
 mpi = ctypes.CDLL("libmpi.so.40", ctypes.RTLD_GLOBAL)
 flag = ctypes.c_int()

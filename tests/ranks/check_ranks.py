@@ -19,7 +19,9 @@ import time
 import numpy as np
 
 os.environ.setdefault("TOOLJOINT_REPORT", "off")
-ROOT = pathlib.Path(os.environ.get("TOOLJOINT_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
+ROOT = pathlib.Path(
+    os.environ.get("TOOLJOINT_SOURCE_DIR",
+                   pathlib.Path(__file__).resolve().parents[2]))
 sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "tools")]
 from checks import expect, finish, of_ranks, tooljoint  # noqa: E402
 from same_results import datasets, difference  # noqa: E402
@@ -39,10 +41,19 @@ COUNTS = "steps", "newton_iterations", "factorisations", "rejected", "halved"
 # rounding, has the size of the tolerance: 1e-14 of the density changes velocities by 4e-8 in 0.02 s and counts of steps in 0.2 s.
 ACCURATE = ["--set", "Transient/RK4 adaptive/Tolerance=1e-8"]
 # (deck, words, end of the motion [s], ranks)
-SHORT = [("helical_170m", FULL, 0.1, (2, 3)), ("frame", [], 0.1, (2, 3)), ("stress_170m", FULL, 0.02, (2,)), ("buckling_100m", FULL, 0.02, (2,)),
-         ("helical_170m_source", FULL + ACCURATE, 0.01, (2,)), ("stick_slip_2500m", FULL, 0.02, (2,)), ("vertical_1000m", [], 0.02, (2,)),
-         ("inclined_1000m", FULL, 0.02, (2,)), ("build_hold_1400m", FULL, 0.02, (2,)), ("vertical_5000m", FULL, 0.02, (2,)),
-         ("extended_reach_5000m", FULL, 0.02, (2,)), ("vertical_10000m", FULL, 0.02, (2,))]
+SHORT = [
+    ("helical_170m", FULL, 0.1, (2, 3)),
+    ("frame", [], 0.1, (2, 3)),
+    ("stress_170m", FULL, 0.02, (2, )),
+    ("buckling_100m", FULL, 0.02, (2, )),
+    ("helical_170m_source", FULL + ACCURATE, 0.01, (2, )),
+    ("stick_slip_2500m", FULL, 0.02, (2, )),
+    ("vertical_1000m", [], 0.02, (2, )),
+    ("inclined_1000m", FULL, 0.02, (2, )),
+    ("build_hold_1400m", FULL, 0.02, (2, )),
+    ("vertical_5000m", FULL, 0.02, (2, )),
+    ("extended_reach_5000m", FULL, 0.02, (2, )),
+    ("vertical_10000m", FULL, 0.02, (2, )), ]
 ALL = [(name, words, 0.2, (2, 3, 4))
        for name in ("first_run", "helical_170m", "stress_170m", "buckling_100m", "inclined_1000m", "vertical_1000m", "build_hold_1400m",
                     "stick_slip_2500m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m") for words in ([], FULL)] + \
@@ -52,11 +63,15 @@ ALL = [(name, words, 0.2, (2, 3, 4))
 def run(deck, words, end, ranks, folder):
     """(summary, datasets) of a run."""
     division = ["--set", "Transient/Ranks=Divide"] if ranks > 1 else []
-    done = tooljoint("run", str(deck), *words, *division, "--output", folder, "--set", f"Transient/End Time={end}", "--set", "Output/XDMF=false",
-                     ranks=ranks, seconds=1200)
+    done = tooljoint("run", str(deck), *words, *division, "--output", folder, "--set",
+                     f"Transient/End Time={end}", "--set", "Output/XDMF=false", ranks=ranks,
+                     seconds=1200)
     if done.returncode != 0:
-        raise SystemExit(f"{deck} {words} on {ranks} ranks: exit {done.returncode}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8")), datasets(pathlib.Path(folder, "results.h5"))
+        raise SystemExit(
+            f"{deck} {words} on {ranks} ranks: exit {done.returncode}\n{done.stdout[-2000:]}{done.stderr[-2000:]}"
+        )
+    return json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8")), datasets(
+        pathlib.Path(folder, "results.h5"))
 
 
 def rests(name, value):
@@ -67,13 +82,19 @@ def compare(one, many):
     """Largest difference of the static state and of the motion, each with its dataset."""
     worst = dict.fromkeys(BOUNDS, (0.0, ""))
     moved = np.abs(one["static/displacement"])
-    rounding = {"veloc": VELOCITY_ROUNDING * np.max(moved), "figures/axial": AXIAL_ROUNDING * np.max(moved[..., :3])}
+    rounding = {
+        "veloc": VELOCITY_ROUNDING * np.max(moved),
+        "figures/axial": AXIAL_ROUNDING * np.max(moved[..., :3])}
     for name, value in one.items():
-        if name.startswith(("input", "deck", "run")) or value.dtype.kind != "f" or value.size == 0 or rests(name, value):
+        if name.startswith(
+            ("input", "deck", "run")) or value.dtype.kind != "f" or value.size == 0 or rests(
+                name, value):
             continue
-        kind = "figures" if name.startswith("figures") else "motion" if name.startswith(("transient", "xdmf")) else "static"
+        kind = "figures" if name.startswith("figures") else "motion" if name.startswith(
+            ("transient", "xdmf")) else "static"
         other = many.get(name, np.empty(0))
-        if other.shape == value.shape and any(word in name and np.max(np.abs(value - other)) < least for word, least in rounding.items()):
+        if other.shape == value.shape and any(word in name and np.max(np.abs(value - other)) < least
+                                              for word, least in rounding.items()):
             continue
         worst[kind] = max(worst[kind], (difference(value, other), name))
     return worst
@@ -85,11 +106,14 @@ def check(name, words, end, rank_counts):
     for ranks in rank_counts:
         other, found = run(deck, words, end, ranks, f"np{ranks}")
         one, many = summary["transient"], other["transient"]
-        expect(f"{what}: {ranks} ranks divide the motion", (one["ranks"], many["ranks"]) == (1, ranks), (one["ranks"], many["ranks"]))
+        expect(f"{what}: {ranks} ranks divide the motion",
+               (one["ranks"], many["ranks"]) == (1, ranks), (one["ranks"], many["ranks"]))
         counts = [[each[key] for key in COUNTS] for each in (one, many)]
-        expect(f"{what}, {ranks} ranks: the same {', '.join(COUNTS)}", counts[0] == counts[1], counts)
+        expect(f"{what}, {ranks} ranks: the same {', '.join(COUNTS)}", counts[0] == counts[1],
+               counts)
         for kind, (size, where) in compare(values, found).items():
-            expect(f"{what}, {ranks} ranks: {kind} to {BOUNDS[kind]:g}", size <= BOUNDS[kind], f"{size:.1e} in {where}")
+            expect(f"{what}, {ranks} ranks: {kind} to {BOUNDS[kind]:g}", size <= BOUNDS[kind],
+                   f"{size:.1e} in {where}")
             print(f"       {size:.1e} {where}")
     return summary["peak_memory_mb"]
 
@@ -98,8 +122,10 @@ def first_rank(parent):
     """Process of rank 0 below mpiexec."""
     for entry in pathlib.Path("/proc").iterdir():
         try:
-            above = int((entry / "stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[1]) if entry.name.isdigit() else 0
-            if above == parent and b"OMPI_COMM_WORLD_RANK=0" in (entry / "environ").read_bytes().split(b"\0"):
+            above = int((entry / "stat").read_text(
+                encoding="utf-8").rsplit(")", 1)[1].split()[1]) if entry.name.isdigit() else 0
+            if above == parent and b"OMPI_COMM_WORLD_RANK=0" in (
+                    entry / "environ").read_bytes().split(b"\0"):
                 return int(entry.name)
         except OSError:  # it has ended
             continue
@@ -110,16 +136,22 @@ def full_disk():
     """What one rank cannot write ends all of them, with a sentence and the code of bad files."""
     folder = pathlib.Path("full")
     shutil.rmtree(folder, ignore_errors=True)  # of an earlier test
-    command = [sys.argv[2], "-np", "2", sys.argv[1], "run", str(ROOT / "xml/helical_170m.xml"), "--output", str(folder), "--set", "Transient/Ranks=Divide"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=of_ranks(2)) as run_of_two:
+    command = [
+        sys.argv[2], "-np", "2", sys.argv[1], "run",
+        str(ROOT / "xml/helical_170m.xml"), "--output",
+        str(folder), "--set", "Transient/Ranks=Divide"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          env=of_ranks(2)) as run_of_two:
         rank, files = 0, []
         while run_of_two.poll() is None and not (rank and files):
-            rank, files = first_rank(run_of_two.pid), [each for each in folder.glob("results*") if each.stat().st_size > 0]
+            rank, files = first_rank(run_of_two.pid), [
+                each for each in folder.glob("results*") if each.stat().st_size > 0]
             time.sleep(0.02)
         most = sum(each.stat().st_size for each in files) + 200_000
         resource.prlimit(rank, resource.RLIMIT_FSIZE, (most, most))
         _, error = run_of_two.communicate(timeout=120)
-    expect("a disk that is full for rank 0 ends both with 5 and a sentence", run_of_two.returncode == 5 and "File too large" in " ".join(error.split()),
+    expect("a disk that is full for rank 0 ends both with 5 and a sentence",
+           run_of_two.returncode == 5 and "File too large" in " ".join(error.split()),
            f"{run_of_two.returncode} {error[-500:]}")
 
 

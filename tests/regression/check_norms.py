@@ -57,12 +57,17 @@ def look_up(summary, key):
 
 def run(options, gold, ranks, output):
     """Runs the deck and returns its summary; ends the process with the program's output when the run fails."""
-    command = [options.mpiexec, "-np", str(ranks), options.program, "run", str(options.project / gold["deck"]), "--output", str(output)]
+    command = [
+        options.mpiexec, "-np",
+        str(ranks), options.program, "run",
+        str(options.project / gold["deck"]), "--output",
+        str(output)]
     for override in gold.get("set", []):
         command += ["--set", override]
     print(" ".join(command), flush=True)
     (output / "summary.json").unlink(missing_ok=True)
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          errors="replace", check=False)
     if done.returncode != 0:
         sys.exit(f"{done.stdout}\nThe run failed with exit code {done.returncode}.")
     with open(output / "summary.json", encoding="utf-8") as file:
@@ -96,7 +101,9 @@ def faults_of(gold):
     for key, norm in norms.items():
         if "value" not in norm:
             yield f"{key} has no value yet: run with --update and look at what it wrote."
-        elif isinstance(norm["value"], float) and not ({"relative", "absolute", "at_most", "at_least"} & norm.keys()):
+        elif isinstance(
+                norm["value"],
+                float) and not ({"relative", "absolute", "at_most", "at_least"} & norm.keys()):
             yield f"{key} is a real number and states no tolerance."
         source, _, argument = arguments.get(key, "").partition(": ")
         if source not in SOURCES or not argument.strip():
@@ -114,12 +121,22 @@ def check_gold(gold, path):
 
 def self_test():
     """Shows that every fault of a gold is found, and that values outside of their tolerance fail."""
-    good = {"norms": {"a.b": {"value": 1.5, "relative": 0.1}, "c": {"value": 3}, "d": {"value": 1.0, "at_most": True}},
-            "rests_on": {"a.b": "closed form: 3/2", "c": "pinned: no closed form", "d": "balance: what goes in comes out"}}
-    cases = {"": lambda gold: None, "no norms": lambda gold: gold.update(norms={}, rests_on={}), "no value yet": lambda gold: gold["norms"]["c"].pop("value"),
-             "states no tolerance": lambda gold: gold["norms"]["a.b"].pop("relative"), "c does not say": lambda gold: gold["rests_on"].pop("c"),
-             "d does not say": lambda gold: gold.pop("rests_on"), "a.b does not say": lambda gold: gold["rests_on"].update({"a.b": "guess: it looks right"}),
-             "one of closed form": lambda gold: gold["rests_on"].update({"a.b": "closed form: "}), "argues for e": lambda gold: gold["rests_on"].update(e="pinned: x")}
+    good = {
+        "norms": {
+            "a.b": {"value": 1.5, "relative": 0.1}, "c": {"value": 3},
+            "d": {"value": 1.0, "at_most": True}},
+        "rests_on": {
+            "a.b": "closed form: 3/2", "c": "pinned: no closed form",
+            "d": "balance: what goes in comes out"}, }
+    cases = {
+        "": lambda gold: None, "no norms": lambda gold: gold.update(norms={}, rests_on={}),
+        "no value yet": lambda gold: gold["norms"]["c"].pop("value"),
+        "states no tolerance": lambda gold: gold["norms"]["a.b"].pop("relative"),
+        "c does not say": lambda gold: gold["rests_on"].pop("c"),
+        "d does not say": lambda gold: gold.pop("rests_on"),
+        "a.b does not say": lambda gold: gold["rests_on"].update({"a.b": "guess: it looks right"}),
+        "one of closed form": lambda gold: gold["rests_on"].update({"a.b": "closed form: "}),
+        "argues for e": lambda gold: gold["rests_on"].update(e="pinned: x")}
     failures = 0
     for sentence, spoil in cases.items():
         gold = copy.deepcopy(good)
@@ -128,11 +145,20 @@ def self_test():
         fine = any(sentence in fault for fault in faults) if sentence else not faults
         failures += not fine
         print(f"{'ok    ' if fine else 'FAILED'} {sentence or 'a good gold'}: {faults}")
-    for norm, found, expected in (({"value": 2.0, "relative": 0.1}, 2.19, True), ({"value": 2.0, "relative": 0.1}, 2.21, False), ({"value": 2.0, "absolute": 0.1}, 1.89, False),
-                                  ({"value": 2.0, "relative": 0.05, "absolute": 0.1}, 2.19, True), ({"value": 1.0, "at_most": True}, -1.1, False),
-                                  ({"value": 1.0, "at_most": True}, -0.9, True), ({"value": 1.0, "at_most": True}, math.nan, False),
-                                  ({"value": -0.1, "at_least": True}, 0.5, True), ({"value": -0.1, "at_least": True}, -0.2, False), ({"value": 3}, 4, False),
-                                  ({"value": True}, 1, False), ({"value": 3}, None, False)):
+    for norm, found, expected in (
+        ({"value": 2.0, "relative": 0.1}, 2.19, True),
+        ({"value": 2.0, "relative": 0.1}, 2.21, False),
+        ({"value": 2.0, "absolute": 0.1}, 1.89, False),
+        ({"value": 2.0, "relative": 0.05, "absolute": 0.1}, 2.19, True),
+        ({"value": 1.0, "at_most": True}, -1.1, False),
+        ({"value": 1.0, "at_most": True}, -0.9, True),
+        ({"value": 1.0, "at_most": True}, math.nan, False),
+        ({"value": -0.1, "at_least": True}, 0.5, True),
+        ({"value": -0.1, "at_least": True}, -0.2, False),
+        ({"value": 3}, 4, False),
+        ({"value": True}, 1, False),
+        ({"value": 3}, None, False),
+    ):
         fine = compare(norm, found)[2] is expected
         failures += not fine
         print(f"{'ok    ' if fine else 'FAILED'} {norm} against {found}")
@@ -147,8 +173,10 @@ def update(options, gold):
             if found != norm.get("value"):
                 print(f"{key}: {norm.get('value')} -> {found}")
             norm["value"] = found
-    norms = ",\n    ".join(f"{json.dumps(key)}: {json.dumps(norm)}" for key, norm in gold["norms"].items())
-    text = json.dumps({**gold, "norms": {}}, indent=2).replace('"norms": {}', f'"norms": {{\n    {norms}\n  }}')
+    norms = ",\n    ".join(
+        f"{json.dumps(key)}: {json.dumps(norm)}" for key, norm in gold["norms"].items())
+    text = json.dumps({**gold, "norms": {}}, indent=2).replace('"norms": {}',
+                                                               f'"norms": {{\n    {norms}\n  }}')
     options.gold.write_text(text + "\n", encoding="utf-8")
     return 0
 
@@ -166,8 +194,11 @@ def verify(options, gold):
         except KeyError as step:
             found, difference, allowed, ok = f"no {step}", "", "", False
         failed += not ok
-        print(f"{key:<{width}}  {norm['value']!s:>24}  {found!s:>24}  {difference:>10}  {allowed:>10}{'' if ok else '  FAILED'}")
-    print(f"\n{len(gold['norms'])} norms on {options.ranks} ranks, {failed} outside their tolerance.")
+        print(
+            f"{key:<{width}}  {norm['value']!s:>24}  {found!s:>24}  {difference:>10}  {allowed:>10}{'' if ok else '  FAILED'}"
+        )
+    print(
+        f"\n{len(gold['norms'])} norms on {options.ranks} ranks, {failed} outside their tolerance.")
     return 1 if failed else 0
 
 
@@ -179,7 +210,8 @@ def main():
     parser.add_argument("--program", default=os.environ.get("TOOLJOINT_PROGRAM", "tooljoint"))
     parser.add_argument("--mpiexec", default="mpirun")
     parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--output", type=pathlib.Path, required=True, help="folder for the results of the run")
+    parser.add_argument("--output", type=pathlib.Path, required=True,
+                        help="folder for the results of the run")
     parser.add_argument("--update", action="store_true", help="rewrite the values of the gold")
     options = parser.parse_args()
     options.project = pathlib.Path(__file__).resolve().parents[2]

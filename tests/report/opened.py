@@ -29,7 +29,6 @@ TEXTS = """[...document.querySelectorAll("figure svg")].flatMap((svg) => {
   return faults.map((fault) => svg.closest("figure").id + ": " + fault);
 })"""
 
-
 # Texts of the axes in space that lie on one another or outside of the picture.
 AXES = """(() => {
   const view = document.getElementById("view"), texts = view.labels(), canvas = view.querySelector("canvas");
@@ -41,7 +40,6 @@ NAMES = 'document.getElementById("view").labels().map((one) => one.text).filter(
 WHEEL = """(() => {
   for (let i = 0; i < 8; ++i) document.querySelector("#view canvas").dispatchEvent(new WheelEvent("wheel", {deltaY: %d, bubbles: true, cancelable: true}));
 })()"""
-
 
 # Of each figure: its name, the size [px] of its smallest text, by how much it is wider than the place it has, and whether it is a large one.
 SMALLEST = """[...document.querySelectorAll("figure")].map((figure) => {
@@ -66,62 +64,101 @@ def look(title, path, chromium, view=True, moves=True):
         across = chromium.value("document.scrollingElement.scrollWidth")
         expect(f"{title}, {width} px: nothing stands out on the right", across <= width, across)
         if view and width == 1280:
-            expect(f"{title}: the view says it is drawn", chromium.value("document.body.dataset.view") == "drawn")
+            expect(f"{title}: the view says it is drawn",
+                   chromium.value("document.body.dataset.view") == "drawn")
             rest = chromium.value(PIXELS)
-            expect(f"{title}: the canvas is drawn", rest["colours"] > 20 and 0.003 < rest["drawn"] < 0.9, rest)
+            expect(f"{title}: the canvas is drawn", rest["colours"] > 20
+                   and 0.003 < rest["drawn"] < 0.9, rest)
             if moves:
-                chromium.value('(() => { const s = document.getElementById("view-slider"); s.value = s.max; s.dispatchEvent(new Event("input")); })()')
+                chromium.value(
+                    '(() => { const s = document.getElementById("view-slider"); s.value = s.max; s.dispatchEvent(new Event("input")); })()'
+                )
                 last = chromium.value(PIXELS)
                 shown = chromium.value('document.getElementById("view-time").textContent')
-                expect(f"{title}: the slider moves the picture", last["sum"] != rest["sum"] and shown.endswith(" s"), shown)
+                expect(f"{title}: the slider moves the picture", last["sum"] != rest["sum"]
+                       and shown.endswith(" s"), shown)
                 chromium.value('document.getElementById("view-rest").click()')
                 expect(f"{title}: and back to rest", chromium.value(PIXELS)["sum"] == rest["sum"])
             if chromium.value('document.getElementById("view-field").length') > 1:
-                chromium.value('(() => { const f = document.getElementById("view-field"); f.value = 1; f.dispatchEvent(new Event("change")); })()')
-                expect(f"{title}: another colour field is another picture", chromium.value(PIXELS)["sum"] != rest["sum"])
+                chromium.value(
+                    '(() => { const f = document.getElementById("view-field"); f.value = 1; f.dispatchEvent(new Event("change")); })()'
+                )
+                expect(f"{title}: another colour field is another picture",
+                       chromium.value(PIXELS)["sum"] != rest["sum"])
         if view:
-            expect(f"{title}, {width} px: the axes in space have their names", chromium.value(NAMES) == 3, chromium.value(NAMES))
+            expect(f"{title}, {width} px: the axes in space have their names",
+                   chromium.value(NAMES) == 3, chromium.value(NAMES))
             for zoom in (0, 100, -100, -100):  # as it opens, farther away, nearer
                 if zoom:
                     chromium.value(WHEEL % zoom)
                 faults = chromium.value(AXES)
-                expect(f"{title}, {width} px: no text of the axes in space is cut off or lies on another", not faults, faults)
-        small = chromium.value("""[...document.querySelectorAll("figure")].filter((f) => f.querySelector("svg").getBoundingClientRect().height < 60).map((f) => f.id)""")
+                expect(
+                    f"{title}, {width} px: no text of the axes in space is cut off or lies on another",
+                    not faults, faults)
+        small = chromium.value(
+            """[...document.querySelectorAll("figure")].filter((f) => f.querySelector("svg").getBoundingClientRect().height < 60).map((f) => f.id)"""
+        )
         expect(f"{title}, {width} px: figures have a size", not small, small)
         texts = chromium.value(SMALLEST)
-        expect(f"{title}, {width} px: no text of a plot is too small", all(size >= LEAST for _, size, _, _ in texts), [one for one in texts if one[1] < LEAST])
-        expect(f"{title}, {width} px: plots fit the screen, but for large ones on a narrow one", all(out < 1 for _, _, out, large in texts if not large or width > 400), texts)
-        wide = chromium.value("""[...document.querySelectorAll(".card, .notes li")].filter((card) => card.scrollWidth > card.clientWidth).map((card) => card.textContent)""")
+        expect(f"{title}, {width} px: no text of a plot is too small",
+               all(size >= LEAST for _, size, _, _ in texts),
+               [one for one in texts if one[1] < LEAST])
+        expect(f"{title}, {width} px: plots fit the screen, but for large ones on a narrow one",
+               all(out < 1 for _, _, out, large in texts if not large or width > 400), texts)
+        wide = chromium.value(
+            """[...document.querySelectorAll(".card, .notes li")].filter((card) => card.scrollWidth > card.clientWidth).map((card) => card.textContent)"""
+        )
         expect(f"{title}, {width} px: figures fit into their cards", not wide, wide)
         texts = chromium.value(TEXTS)
-        expect(f"{title}, {width} px: no text of a plot is cut off or lies on another", not texts, texts[:8])
-        expect(f"{title}, {width} px: the console is empty", not chromium.faults(), chromium.faults())
+        expect(f"{title}, {width} px: no text of a plot is cut off or lies on another", not texts,
+               texts[:8])
+        expect(f"{title}, {width} px: the console is empty", not chromium.faults(),
+               chromium.faults())
     on_paper(title, path, chromium, view)
 
 
 def on_paper(title, path, chromium, view):
     """A4 pages on which each thing stands whole, and the view has its scale of colours in words and numbers."""
     width, height = (round(length / 25.4 * 96) for length in (210 - 2 * MARGIN, 297 - 2 * MARGIN))
-    chromium.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+    chromium.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                  deviceScaleFactor=1, mobile=False)
     chromium.call("Emulation.setEmulatedMedia", media="print")
     across = chromium.value("document.scrollingElement.scrollWidth")
     expect(f"{title}, on paper: nothing stands out on the right", across <= width, across)
     cut = chromium.value(CUT % (width, height))
     expect(f"{title}, on paper: each figure fits on a page", not cut, cut)
     small = chromium.value(SMALLEST)
-    expect(f"{title}, on paper: texts of figures of a column and of half a page have 5.8 points", all(size >= 5.8 / 72 * 96 for _, size, _, large in small if not large), small)
-    tops = chromium.value('["bit-speed", "torques"].map((name) => document.getElementById(name)).filter((one) => one).map((one) => one.getBoundingClientRect().top)')
+    expect(f"{title}, on paper: texts of figures of a column and of half a page have 5.8 points",
+           all(size >= 5.8 / 72 * 96 for _, size, _, large in small if not large), small)
+    tops = chromium.value(
+        '["bit-speed", "torques"].map((name) => document.getElementById(name)).filter((one) => one).map((one) => one.getBoundingClientRect().top)'
+    )
     expect(f"{title}, on paper: two wide figures fill a row", len(set(tops)) <= 1, tops)
     if view:
-        key, field = chromium.value('document.getElementById("view-legend").innerText'), chromium.value('document.getElementById("view-field").selectedOptions[0].text')
+        key, field = chromium.value(
+            'document.getElementById("view-legend").innerText'), chromium.value(
+                'document.getElementById("view-field").selectedOptions[0].text')
         most = chromium.value('document.getElementById("view-most").textContent')
-        expect(f"{title}, on paper: the view says what its colours are", key.startswith("Colour: " + field.partition(" [")[0]) and most and most in key and "at rest" in key, key)
-        expect(f"{title}, on paper: there are no controls and no hint for the mouse", "Drag to turn" not in chromium.value("document.body.innerText") and not chromium.value(SEEN % ".controls"))
+        expect(
+            f"{title}, on paper: the view says what its colours are",
+            key.startswith("Colour: " + field.partition(" [")[0]) and most and most in key
+            and "at rest" in key, key)
+        expect(
+            f"{title}, on paper: there are no controls and no hint for the mouse",
+            "Drag to turn" not in chromium.value("document.body.innerText")
+            and not chromium.value(SEEN % ".controls"))
     chromium.call("Emulation.setEmulatedMedia", media="")
     if view:
-        expect(f"{title}: the scale on paper is not on the screen", not chromium.value(SEEN % "#view-legend"))
-    content = base64.b64decode(chromium.call("Page.printToPDF", preferCSSPageSize=True, printBackground=False)["data"])
-    boxes = {tuple(float(size) for size in box.split()) for box in re.findall(rb"/MediaBox \[([^\]]*)\]", content)}
+        expect(f"{title}: the scale on paper is not on the screen",
+               not chromium.value(SEEN % "#view-legend"))
+    content = base64.b64decode(
+        chromium.call("Page.printToPDF", preferCSSPageSize=True, printBackground=False)["data"])
+    boxes = {
+        tuple(float(size) for size in box.split())
+        for box in re.findall(rb"/MediaBox \[([^\]]*)\]", content)}
     a4 = (0, 0, 210 / 25.4 * 72, 297 / 25.4 * 72)
-    expect(f"{title}: it prints on A4", boxes and all(len(box) == 4 and max(abs(x - y) for x, y in zip(box, a4)) < 1 for box in boxes), boxes)
+    expect(
+        f"{title}: it prints on A4", boxes
+        and all(len(box) == 4 and max(abs(x - y) for x, y in zip(box, a4)) < 1 for box in boxes),
+        boxes)
     expect(f"{title}: and holds its figures there", len(content) > 20_000, len(content))

@@ -24,7 +24,9 @@ def lists(name, inner):
 def values(**given):
     """Parameters of a list; blanks of a name are written as underscores."""
     kinds = {str: "string", int: "int", float: "double"}
-    return "".join(f'<Parameter name="{key.replace("_", " ")}" type="{kinds[type(value)]}" value="{value}"/>' for key, value in given.items())
+    return "".join(
+        f'<Parameter name="{key.replace("_", " ")}" type="{kinds[type(value)]}" value="{value}"/>'
+        for key, value in given.items())
 
 
 def part(path, components, mass, stiffness, damping=None, gyroscopic=None, terms=()):
@@ -35,15 +37,22 @@ def part(path, components, mass, stiffness, damping=None, gyroscopic=None, terms
         f["components"] = components
         f["dofs"] = [[node + 1, c + 1] for node in range(nodes) for c in range(len(components))]
         f["mass"] = mass
-        for name, law, matrix in (("stiffness/structure", "1", stiffness), ("damping/structure", "1", damping), ("damping/gyroscopic", "Omega", gyroscopic),
-                                  *((f"stiffness/{law}", law, matrix) for law, matrix in terms)):
+        for name, law, matrix in (
+            ("stiffness/structure", "1", stiffness),
+            ("damping/structure", "1", damping),
+            ("damping/gyroscopic", "Omega", gyroscopic),
+                *((f"stiffness/{law}", law, matrix) for law, matrix in terms),
+        ):
             if matrix is not None:
                 f[name] = matrix
                 f[name].attrs["law"] = law
 
 
 def deck(name, file, analyses, laws="", reduction=""):
-    whole = lists("Parts", lists("Imported", lists("rotor", values(File=file))) + (lists("Laws", laws) if laws else ""))
+    whole = lists(
+        "Parts",
+        lists("Imported", lists("rotor", values(File=file))) +
+        (lists("Laws", laws) if laws else ""))
     path = pathlib.Path(f"{name}.xml")
     path.write_text(lists(name, whole + reduction + analyses), encoding="utf-8")
     return str(path)
@@ -56,9 +65,12 @@ def table(folder, name):
 
 
 def run(command, scene, folder, *settings, ranks=1):
-    arguments = [word for setting in settings for word in (("--without", setting[1:]) if setting.startswith("!") else ("--set", setting))]
+    arguments = [
+        word for setting in settings
+        for word in (("--without", setting[1:]) if setting.startswith("!") else ("--set", setting))]
     done = tooljoint(command, scene, "--output", folder, *arguments, ranks=ranks, seconds=280)
-    expect(f"{folder}: {command} ends well", done.returncode == 0, done.stderr or done.stdout[-600:])
+    expect(f"{folder}: {command} ends well", done.returncode == 0, done.stderr
+           or done.stdout[-600:])
     expect_screen(done, folder, command)
     return done
 
@@ -78,9 +90,11 @@ def estimates(folder):
     checks = table(folder, "spot_checks")
     large = checks["error"] > 1e-8
     expect(f"{folder}: the spot checks found the modes", np.all(checks["mac"] > 0.9), checks["mac"])
-    expect(f"{folder}: {np.sum(large)} errors up to {checks['error'].max():.1e} within a factor of 2 of the estimates",
-           np.all(checks["error"][large] < 2 * checks["estimate"][large]) and np.all(checks["estimate"][large] < 2 * checks["error"][large] + 1e-8),
-           np.c_[checks["full"], checks["error"], checks["estimate"]][large])
+    expect(
+        f"{folder}: {np.sum(large)} errors up to {checks['error'].max():.1e} within a factor of 2 of the estimates",
+        np.all(checks["error"][large] < 2 * checks["estimate"][large])
+        and np.all(checks["estimate"][large] < 2 * checks["error"][large] + 1e-8),
+        np.c_[checks["full"], checks["error"], checks["estimate"]][large])
 
 
 SHAFT = """<ParameterList name="shaft">
@@ -100,6 +114,10 @@ SHAFT = """<ParameterList name="shaft">
 def material():
     """Young's modulus, Poisson's ratio and density of a deck without the list Material."""
     manual = json.loads(tooljoint("doc", "--format", "json").stdout)
-    bar = next(one for one in manual[0]["lists"] if one["name"] == "Drillstring") if isinstance(manual, list) else next(one for one in manual["lists"] if one["name"] == "Drillstring")
+    bar = next(one for one in manual[0]["lists"]
+               if one["name"] == "Drillstring") if isinstance(manual, list) else next(
+                   one for one in manual["lists"] if one["name"] == "Drillstring")
     number = {one["name"]: one.get("default") for one in bar["parameters"]}
-    return tuple(float(number.get(name, default) or default) for name, default in (("Young Modulus", 2.1e11), ("Poisson Ratio", 0.3), ("Density", 7850)))
+    return tuple(
+        float(number.get(name, default) or default)
+        for name, default in (("Young Modulus", 2.1e11), ("Poisson Ratio", 0.3), ("Density", 7850)))

@@ -25,7 +25,8 @@ def rows(heading):
             entries = [entry.strip() for entry in cell.split(";")]
             if title not in ("shape", "units"):
                 continue
-            assert len(entries) in (1, len(paths)), f"{MANUAL.name}: {len(entries)} {title} for {paths}"
+            assert len(entries) in (
+                1, len(paths)), f"{MANUAL.name}: {len(entries)} {title} for {paths}"
             for path, entry in zip(paths, entries if len(entries) > 1 else entries * len(paths)):
                 found[path][title] = entry
     return found
@@ -39,7 +40,8 @@ def matches(pattern, path):
 def fits(shape, found, sizes):
     """`sizes` gives the numbers that the letters of a documented shape stand for; other words stand for any number."""
     wanted = [sizes.get(word, int(word) if word.isdigit() else None) for word in shape.split(" x ")]
-    return len(wanted) == len(found) and all(size in (None, extent) for size, extent in zip(wanted, found))
+    return len(wanted) == len(found) and all(size in (None, extent)
+                                             for size, extent in zip(wanted, found))
 
 
 def faults(file, table, sizes=None):

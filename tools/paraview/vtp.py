@@ -26,11 +26,14 @@ def cells(name, corners):
     """<Lines>, <Polys> or <Verts> of m cells of equally many points (m x k, counted from 0)."""
     corners = np.asarray(corners, int)
     offsets = corners.shape[1] * np.arange(1, len(corners) + 1)
-    return f"<{name}>\n" + array("connectivity", corners.ravel(), "i8") + array("offsets", offsets, "i8") + f"</{name}>\n"
+    return f"<{name}>\n" + array("connectivity", corners.ravel(), "i8") + array(
+        "offsets", offsets, "i8") + f"</{name}>\n"
 
 
 def data(name, fields, components):
-    return f"<{name}>\n" + "".join(array(each, values, "f4", components if np.ndim(values) == 2 else ()) for each, values in fields.items()) + f"</{name}>\n"
+    return f"<{name}>\n" + "".join(
+        array(each, values, "f4", components if np.ndim(values) == 2 else ())
+        for each, values in fields.items()) + f"</{name}>\n"
 
 
 def polydata(points, kinds, axes, point_fields=None, cell_fields=None, field_data=None):
@@ -39,14 +42,20 @@ def polydata(points, kinds, axes, point_fields=None, cell_fields=None, field_dat
     numbers = {name: len(kinds.get(name, ())) for name in ("Verts", "Lines", "Polys")}
     text = HEADER.format(kind="PolyData") + "<PolyData>\n"
     if field_data:
-        text += "<FieldData>\n" + "".join(array(name, [value], "f8").replace("<DataArray ", '<DataArray NumberOfTuples="1" ') for name, value in field_data.items()) + "</FieldData>\n"
-    text += f'<Piece NumberOfPoints="{len(points)}" ' + " ".join(f'NumberOf{name}="{count}"' for name, count in numbers.items()) + ' NumberOfStrips="0">\n'
+        text += "<FieldData>\n" + "".join(
+            array(name, [value], "f8").replace("<DataArray ", '<DataArray NumberOfTuples="1" ')
+            for name, value in field_data.items()) + "</FieldData>\n"
+    text += f'<Piece NumberOfPoints="{len(points)}" ' + " ".join(
+        f'NumberOf{name}="{count}"' for name, count in numbers.items()) + ' NumberOfStrips="0">\n'
     text += data("PointData", point_fields or {}, axes) + data("CellData", cell_fields or {}, axes)
     text += "<Points>\n" + array("Points", points, "f8", axes) + "</Points>\n"
-    return text + "".join(cells(name, kinds[name]) for name in numbers if numbers[name]) + "</Piece>\n</PolyData>\n</VTKFile>\n"
+    return text + "".join(cells(name, kinds[name]) for name in numbers
+                          if numbers[name]) + "</Piece>\n</PolyData>\n</VTKFile>\n"
 
 
 def collection(files):
     """The text of a .pvd file: (time [s], name of a file beside it) of all pictures."""
-    rows = "".join(f'<DataSet timestep="{time:.17g}" part="0" file={attribute(name)}/>\n' for time, name in files)
-    return HEADER.format(kind="Collection") + "<Collection>\n" + rows + "</Collection>\n</VTKFile>\n"
+    rows = "".join(f'<DataSet timestep="{time:.17g}" part="0" file={attribute(name)}/>\n'
+                   for time, name in files)
+    return HEADER.format(
+        kind="Collection") + "<Collection>\n" + rows + "</Collection>\n</VTKFile>\n"

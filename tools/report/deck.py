@@ -19,7 +19,12 @@ OF_ANALYSES = (  # and of an analysis besides
 )
 BLOCK = ("Torque and Drag/Block Weight", "block ", "kN", 1e-3)
 # The speed a law ends with or turns about: law, parameter, words before and after.
-SPEEDS = (("Constant", "Speed", "", ""), ("Exponential", "Final Speed", "up to ", ""), ("Ramp", "Final Speed", "ramp to ", ""), ("Harmonic", "Mean Speed", "", " on average"))
+SPEEDS = (
+    ("Constant", "Speed", "", ""),
+    ("Exponential", "Final Speed", "up to ", ""),
+    ("Ramp", "Final Speed", "ramp to ", ""),
+    ("Harmonic", "Mean Speed", "", " on average"),
+)
 
 
 def nested(element):

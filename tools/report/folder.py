@@ -20,9 +20,13 @@ def conditions(results):
 
 
 def parser(description, kind, files):
-    options = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options = argparse.ArgumentParser(description=description,
+                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("folder", type=pathlib.Path, help=kind)
-    options.add_argument("--output", type=pathlib.Path, help=f"picture (default: {' or '.join(pathlib.Path(f).stem + '.png' for f in files)} in the folder)")
+    options.add_argument(
+        "--output", type=pathlib.Path, help=
+        f"picture (default: {' or '.join(pathlib.Path(f).stem + '.png' for f in files)} in the folder)"
+    )
     return options
 
 

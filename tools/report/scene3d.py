@@ -68,7 +68,9 @@ def field(name, label, unit, static, motion=None):
     largest = max(float(np.max(static)), float(np.max(motion)) if motion is not None else 0.0)
     if not largest > 0:
         return None
-    entry = {"name": name, "label": label, "unit": unit, "largest": largest, "rest": packed(static, "f4")}
+    entry = {
+        "name": name, "label": label, "unit": unit, "largest": largest,
+        "rest": packed(static, "f4")}
     if motion is not None:
         entry["motion"] = packed(motion, "i2")
     return entry
@@ -91,21 +93,32 @@ def of_string(run):
     at = samples_of(run, len(kept)) if run.moves else None
     motion = taken(run.file["/transient/displacement"], at) if run.moves else None
     stress, force = results.von_mises(run, rest), run.get("/static/normal_force")
-    moving_force = taken(run.file["/transient/normal_force"], at)[:, kept] / 1e3 if run.moves and "/transient/normal_force" in run.file else None
+    moving_force = taken(
+        run.file["/transient/normal_force"],
+        at)[:, kept] / 1e3 if run.moves and "/transient/normal_force" in run.file else None
     fields = [
-        field("stress", "von Mises stress", "MPa", at_nodes(stress)[kept] / 1e6, at_nodes(results.von_mises(run, motion))[:, kept] / 1e6 if run.moves else None)
-        if stress is not None else None,
+        field("stress", "von Mises stress", "MPa",
+              at_nodes(stress)[kept] / 1e6,
+              at_nodes(results.von_mises(run, motion))[:, kept] /
+              1e6 if run.moves else None) if stress is not None else None,
         field("force", "contact force", "kN", force[kept] / 1e3, moving_force),
-        field("displacement", "distance from the axis", "mm", 1e3 * results.lateral(run, rest)[kept],
+        field("displacement", "distance from the axis", "mm",
+              1e3 * results.lateral(run, rest)[kept],
               1e3 * results.lateral(run, motion)[:, kept] if run.moves else None)]
     data = {
-        "kind": "string", "colours": colours(), "fields": [entry for entry in fields if entry],
-        "position": packed(to_view(position)[kept], "f4"), "frames": packed(frames[kept], "f4"),
+        "kind": "string",
+        "colours": colours(),
+        "fields": [entry for entry in fields if entry],
+        "position": packed(to_view(position)[kept], "f4"),
+        "frames": packed(frames[kept], "f4"),
         "radius": packed(radius[kept], "f4"),
-        "bore": packed(bore[kept], "f4"), "depth": packed(run.s[kept], "f4"), "rest": packed(rest[kept][:, :3], "f4")}
+        "bore": packed(bore[kept], "f4"),
+        "depth": packed(run.s[kept], "f4"),
+        "rest": packed(rest[kept][:, :3], "f4"), }
     names = run.components()
     if names is not None:
-        data["places"] = [[f"{name} ({run.s[first]:.0f} m)", float(run.s[first])] for name, first in entries(names)][-12:]
+        data["places"] = [[f"{name} ({run.s[first]:.0f} m)",
+                           float(run.s[first])] for name, first in entries(names)][-12:]
     if run.moves:
         data["time"] = packed(run.time[at], "f4")
         data["motion"] = packed(motion[:, kept, :3], "i2")
@@ -114,7 +127,8 @@ def of_string(run):
 
 def entries(names):
     """Components where they begin, a row of equal ones once."""
-    return [(name, element) for element, name in enumerate(names) if element == 0 or names[element - 1] != name]
+    return [(name, element) for element, name in enumerate(names)
+            if element == 0 or names[element - 1] != name]
 
 
 def describe(run, at, shown, nodes):
@@ -133,7 +147,9 @@ def translations(run):
 
 
 def in_space(displacement, columns):
-    return np.stack([displacement[..., c] if c >= 0 else np.zeros(displacement.shape[:-1]) for c in columns], axis=-1)
+    return np.stack(
+        [displacement[..., c] if c >= 0 else np.zeros(displacement.shape[:-1]) for c in columns],
+        axis=-1)
 
 
 def held_edges(position, part, edges):
@@ -143,7 +159,9 @@ def held_edges(position, part, edges):
     for node in np.setdiff1d(np.arange(len(part)), linked):
         others = linked[part[linked] == part[node]]
         if len(others):
-            found.append((int(node), int(others[np.linalg.norm(position[others] - position[node], axis=1).argmin()])))
+            found.append((int(node),
+                          int(others[np.linalg.norm(position[others] - position[node],
+                                                    axis=1).argmin()])))
     return found
 
 
@@ -160,16 +178,25 @@ def of_parts(run):
     rows, position = rows[::step], position[::step]
     number = {row: i for i, row in enumerate(rows)}
     part, links = run.get("/model/part")[rows] - 1, run.get("/model/links")
-    edges = [(number[a], number[b]) for a, b in links - 1 if a in number and b in number] if links is not None else []
+    edges = [(number[a], number[b]) for a, b in links - 1
+             if a in number and b in number] if links is not None else []
     edges += held_edges(position, part, edges) if step == 1 else []
     rest = in_space(run.get("/static/displacement"), columns)[rows]
     at = samples_of(run, len(rows)) if run.moves else None
-    motion = in_space(taken(run.file["/transient/displacement"], at), columns)[:, rows] if run.moves else None
-    size = 1e3 * np.linalg.norm(rest, axis=-1), None if motion is None else 1e3 * np.linalg.norm(motion, axis=-1)
+    motion = in_space(taken(run.file["/transient/displacement"], at),
+                      columns)[:, rows] if run.moves else None
+    size = 1e3 * np.linalg.norm(
+        rest, axis=-1), None if motion is None else 1e3 * np.linalg.norm(motion, axis=-1)
     turn = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])  # x, z up, -y
-    data = {"kind": "parts", "colours": colours(), "fields": [entry for entry in [field("displacement", "displacement", "mm", *size)] if entry],
-            "position": packed(position @ turn.T, "f4"), "rest": packed(rest @ turn.T, "f4"),
-            "links": packed(np.array(edges, dtype="u4").reshape(-1, 2), "u4"), "part": packed(part, "u4")}
+    data = {
+        "kind": "parts",
+        "colours": colours(),
+        "fields": [
+            entry for entry in [field("displacement", "displacement", "mm", *size)] if entry],
+        "position": packed(position @ turn.T, "f4"),
+        "rest": packed(rest @ turn.T, "f4"),
+        "links": packed(np.array(edges, dtype="u4").reshape(-1, 2), "u4"),
+        "part": packed(part, "u4"), }
     if run.moves:
         data["time"] = packed(run.time[at], "f4")
         data["motion"] = packed(motion @ turn.T, "i2")

@@ -25,21 +25,29 @@ def half_waves(file, positions, axes, waves=5):
     length = positions[-1]
     columns = []
     for k in range(1, waves + 1):
-        for shapes in ([{c: 0, turn: sign} for c, turn, sign in deflections] + [{twist: 0}, {stretch: 0}]):
+        for shapes in ([{c: 0, turn: sign}
+                        for c, turn, sign in deflections] + [{twist: 0}, {stretch: 0}]):
             column = []
             for x in positions:
                 if x is None:
                     continue
-                wave, slope = np.sin(k * np.pi * x / length), k * np.pi / length * np.cos(k * np.pi * x / length)
-                column += [0.0 if c not in shapes else (shapes[c] * slope if shapes[c] else wave) for c in COMPONENTS]
+                wave, slope = np.sin(
+                    k * np.pi * x / length), k * np.pi / length * np.cos(k * np.pi * x / length)
+                column += [
+                    0.0 if c not in shapes else (shapes[c] * slope if shapes[c] else wave)
+                    for c in COMPONENTS]
             columns.append(column)
-    numbers = [f"{value:.9g}" if abs(value) > 1e-12 else "0" for column in columns for value in column]
+    numbers = [
+        f"{value:.9g}" if abs(value) > 1e-12 else "0" for column in columns for value in column]
     file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(f"%%MatrixMarket matrix array real general\n{len(columns[0])} {len(columns)}\n" + "\n".join(numbers) + "\n", encoding="utf-8")
+    file.write_text(
+        f"%%MatrixMarket matrix array real general\n{len(columns[0])} {len(columns)}\n" +
+        "\n".join(numbers) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
-    here = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent
+    here = pathlib.Path(
+        sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent
     for name in ("left column", "right column"):
         half_waves(here / f"{name}.mtx", [None, *np.linspace(0.5, 3, 6)], ALONG_X)
     for name in ("top beam", "middle beam"):

@@ -32,10 +32,14 @@ from .animation import animate
 from .labels import Labels, name_lines, overlaps
 from .signals import envelope, spectrum, stretches, thinned
 from .space import equal_axes, space_axes
-from .style import (COLOURS, GREY, MAP, MARKERS, RPM, SLENDER, STYLE, WIDE, depth_axis, error_band, figure, headline, in_time, label, legend_above, log_log, logarithmic,
-                    panels, percent, plain, profile, profiles, shades, square, tick, use_style, whole_ticks)
+from .style import (COLOURS, GREY, MAP, MARKERS, RPM, SLENDER, STYLE, WIDE, depth_axis, error_band,
+                    figure, headline, in_time, label, legend_above, log_log, logarithmic, panels,
+                    percent, plain, profile, profiles, shades, square, tick, use_style, whole_ticks)
 from .svg import inline_svg, save
 
-__all__ = ["COLOURS", "GREY", "Labels", "MAP", "MARKERS", "RPM", "SLENDER", "STYLE", "WIDE", "animate", "depth_axis", "envelope", "equal_axes", "error_band", "figure", "headline", "in_time",
-           "inline_svg", "label", "legend_above", "log_log", "logarithmic", "name_lines", "np", "overlaps", "panels", "percent", "plain", "plt", "profile", "profiles", "save", "shades",
-           "space_axes", "spectrum", "square", "stretches", "thinned", "tick", "ticker", "use_style", "whole_ticks"]
+__all__ = [
+    "COLOURS", "GREY", "Labels", "MAP", "MARKERS", "RPM", "SLENDER", "STYLE", "WIDE", "animate",
+    "depth_axis", "envelope", "equal_axes", "error_band", "figure", "headline", "in_time",
+    "inline_svg", "label", "legend_above", "log_log", "logarithmic", "name_lines", "np", "overlaps",
+    "panels", "percent", "plain", "plt", "profile", "profiles", "save", "shades", "space_axes",
+    "spectrum", "square", "stretches", "thinned", "tick", "ticker", "use_style", "whole_ticks"]

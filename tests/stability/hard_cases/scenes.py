@@ -27,9 +27,13 @@ BUCKLING = EULER / (1 + EULER / (0.9 * SHEAR * AREA))  # Engesser
 
 def alpha(step, radius=0.8, **own):
     """Generalized-alpha with equal steps."""
-    return {"Transient/Integrator": "Generalized-alpha", "Transient/Step": float(step),
-            "Transient/Generalized-alpha/Spectral Radius": float(radius),
-            **{f"Transient/Generalized-alpha/{key.replace('_', ' ')}": value for key, value in own.items()}}
+    return {
+        "Transient/Integrator": "Generalized-alpha",
+        "Transient/Step": float(step),
+        "Transient/Generalized-alpha/Spectral Radius": float(radius),
+        **{
+            f"Transient/Generalized-alpha/{key.replace('_', ' ')}": value for key, value in own.items(
+            )}, }
 
 
 def rk4(step=None):
@@ -37,12 +41,15 @@ def rk4(step=None):
 
 
 def rk4_adaptive(tolerance):
-    return {"Transient/Integrator": "RK4 adaptive", "Transient/RK4 adaptive/Tolerance": float(tolerance)}
+    return {
+        "Transient/Integrator": "RK4 adaptive",
+        "Transient/RK4 adaptive/Tolerance": float(tolerance), }
 
 
 def arkode(tolerance=1e-6):
-    return {"Transient/Integrator": "SUNDIALS ARKODE",
-            "Transient/SUNDIALS ARKODE/Relative Tolerance": float(tolerance)}
+    return {
+        "Transient/Integrator": "SUNDIALS ARKODE",
+        "Transient/SUNDIALS ARKODE/Relative Tolerance": float(tolerance), }
 
 
 def times(end, sampling):
@@ -81,7 +88,8 @@ def merged(*trees):
 
 def parts_deck(program, name, files, settings, **lists):
     """A deck of imported parts {name: file or list}, its lists, and settings written as paths."""
-    imported = {part: {"File": file} if isinstance(file, str) else file for part, file in files.items()}
+    imported = {
+        part: {"File": file} if isinstance(file, str) else file for part, file in files.items()}
     return program.deck(name, merged({"Parts": {"Imported": imported}}, lists, transient(settings)))
 
 
@@ -89,11 +97,16 @@ def planar_beam(elements, length, stiffness, mass, thrust=0.0, rotary=0.0):
     """K, M of an Euler-Bernoulli beam in (v, theta_z) node by node; `thrust` compresses it."""
     h = length / elements
     k = stiffness / h**3 * np.array([[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h],
-                                     [-12, -6 * h, 12, -6 * h], [6 * h, 2 * h * h, -6 * h, 4 * h * h]])
+                                     [-12, -6 * h, 12, -6 * h], [
+                                         6 * h, 2 * h * h, -6 * h, 4 * h * h]])
     g = thrust / (30 * h) * np.array([[36, 3 * h, -36, 3 * h], [3 * h, 4 * h * h, -3 * h, -h * h],
-                                      [-36, -3 * h, 36, -3 * h], [3 * h, -h * h, -3 * h, 4 * h * h]])
-    m = mass * h / 420 * np.array([[156, 22 * h, 54, -13 * h], [22 * h, 4 * h * h, 13 * h, -3 * h * h],
-                                   [54, 13 * h, 156, -22 * h], [-13 * h, -3 * h * h, -22 * h, 4 * h * h]])
+                                      [-36, -3 * h, 36, -3 * h], [3 * h, -h * h, -3 * h, 4 * h * h]
+                                      ])
+    m = mass * h / 420 * np.array([
+        [156, 22 * h, 54, -13 * h],
+        [22 * h, 4 * h * h, 13 * h, -3 * h * h],
+        [54, 13 * h, 156, -22 * h],
+        [-13 * h, -3 * h * h, -22 * h, 4 * h * h], ])
     n = 2 * (elements + 1)
     K, M = np.zeros((n, n)), np.zeros((n, n))
     for e in range(elements):
@@ -118,7 +131,9 @@ def growth_of_pair(t, x, pairs=1):
     """Rate [1/s] of the fastest of the pairs that are left at the end of equal samples, by linear prediction:
     x_{k+1} = a x_k + b x_{k-1} ..., whose roots are exp(s dt) (Prony)."""
     late, order = x[len(x) // 2:], 2 * pairs
-    prediction = np.linalg.lstsq(np.column_stack([late[order - 1 - k:len(late) - 1 - k] for k in range(order)]), late[order:], rcond=None)[0]
+    prediction = np.linalg.lstsq(
+        np.column_stack([late[order - 1 - k:len(late) - 1 - k] for k in range(order)]),
+        late[order:], rcond=None)[0]
     return float(np.log(np.abs(np.roots([1.0, *-prediction])).max()) / (t[1] - t[0]))
 
 
@@ -162,7 +177,8 @@ def ensemble(program, name, settings, without, runs, measure, seconds=900):
     refused ones. It ends with the second refusal where nothing is done before: the others would be refused as well."""
     found, refused, last = [], [], None
     for i in range(runs):
-        last = program.run(name, STRESS, {**settings, "Loads/Weight On Bit": 1e4 + 10.0 * i}, without, seconds=seconds)
+        last = program.run(name, STRESS, {**settings, "Loads/Weight On Bit": 1e4 + 10.0 * i},
+                           without, seconds=seconds)
         if last.done:
             found.append(measure(last))
         else:
