@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the plots of a study: plot_study.py DIR [--output DIR] [--formats png,svg]
 
-Reads study.csv and study.h5 in DIR and writes study_speed, study_bases, study_modes, study_error_over_time, study_bit_speed, study_statistics,
-study_static and study_reference there, each where the study has what it shows. Needs h5py, numpy and matplotlib.
+Reads study.csv and study.h5 in DIR and writes study_speed, study_bases, study_modes,
+study_error_over_time, study_bit_speed, study_statistics, study_static and study_reference there,
+each where the study has what it shows. Needs h5py, numpy and matplotlib.
 """
 import argparse
 import math
@@ -15,12 +16,12 @@ try:
     import numpy as np
 
     import plots
-    from plots import COLOURS, GREY, MARKERS, RPM, Labels, headline, label, logarithmic, panels, percent, plt, shades
+    from plots import (COLOURS, GREY, MARKERS, RPM, Labels, headline, label, logarithmic, panels,
+                       percent, plt, shades)
     from report import deck, files, results
 except ImportError as missing:
-    sys.exit(
-        f"{missing}: plot_study.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3)."
-    )
+    sys.exit(f"{missing}: plot_study.py needs h5py, numpy and matplotlib (Debian: python3-h5py "
+             "python3-matplotlib, then /usr/bin/python3).")
 
 PALE = "#d9d9d9"  # of what the curves are compared with
 
@@ -90,21 +91,23 @@ def ordered(runs):
     """Runs of a line in the order of the deck, failed ones skipped."""
     return [
         run for run in runs
-        if run.number("vibration_error") > 0 and run.number("cpu_per_simulated_s") > 0]
+        if run.number("vibration_error") > 0 and run.number("cpu_per_simulated_s") > 0
+    ]
 
 
 def published(study):
     for name in sorted(study.file.get("published", {})):
         group = study.file["published"][name]
         points = [
-            text.decode() if isinstance(text, bytes) else text
-            for text in group["points"][:]] if "points" in group else [""] * len(group["cpu_time"])
+            text.decode() if isinstance(text, bytes) else text for text in group["points"][:]
+        ] if "points" in group else [""] * len(group["cpu_time"])
         yield group.attrs["label"], group[
             "cpu_time"][:], group["error"][:] if "error" in group else None, points
 
 
 def draw_speed(study):
-    """vibration error against CPU time per simulated second: down and left is better. Names stand beside the lines where all have room there."""
+    """vibration error against CPU time per simulated second: down and left is better.
+    Names stand beside the lines where all have room there."""
     xs = [run.number("cpu_per_simulated_s") for run in study.methods]
     ys = [run.number("vibration_error") for run in study.methods]
     if not xs:
@@ -125,7 +128,8 @@ def draw_speed(study):
         study.conditions(),
         study.machine(), "solid: full model, dashed: reduced",
         "bands: to the longest of the repeats" if any(
-            run.spread() > 0 for run in study.methods) else ""]
+            run.spread() > 0 for run in study.methods) else ""
+    ]
     if study.failed:
         names = ", ".join(run.label for run in study.failed)
         note.append(f"failed, not shown: {names}"
@@ -169,14 +173,15 @@ def draw_speed(study):
         labels = relaid(labels, lines)
     for name, runs in drawn.items():
         for run in ([runs[0], runs[-1]] if len(runs) > 1 else []):
-            labels.put(short(run.value), [
-                (run.number("cpu_per_simulated_s"), run.number("vibration_error"))],
+            labels.put(short(run.value),
+                       [(run.number("cpu_per_simulated_s"), run.number("vibration_error"))],
                        study.colour[name], size=7.5, reach=(6, 10, 16))
     return made
 
 
 def relaid(labels, lines):
-    """The texts there are, after a legend has narrowed the axes: those that now lie on others are taken out."""
+    """The texts there are, after a legend has narrowed the axes: those that now lie on others are
+    taken out."""
     axes, texts = labels.axes, list(labels.axes.texts)
     moved = Labels(axes)
     for line in lines.values():
@@ -225,7 +230,8 @@ def draw_modes(study):
     """vibration error against the number of modes."""
     lines = {name: [run for run in runs if sweeps_modes(run)] for name, runs in study.lines.items()}
     lines = {
-        name: runs for name, runs in lines.items() if len({run.row["modes"] for run in runs}) > 1}
+        name: runs for name, runs in lines.items() if len({run.row["modes"] for run in runs}) > 1
+    }
     if not lines:
         return None
     made, axes = plt.subplots(figsize=(8.5, 5.5), constrained_layout=True)
@@ -262,7 +268,8 @@ def known(runs, x, y):
 
 
 def draw_bases(study):
-    """What a reduced model costs and how wrong it is: one line per basis, or per variant of one. Failed motions show the frequencies they had."""
+    """What a reduced model costs and how wrong it is: one line per basis, or per variant of one.
+    Failed motions show the frequencies they had."""
     lines = {}
     for run in study.all:
         if run.kind == "method" and run.reduced and run.row["reduced_dofs"]:
@@ -280,11 +287,13 @@ def draw_bases(study):
     motion, shapes = "vibration error of the motion", f"largest error of {count} frequencies"
     shown = [
         (cpu, vibration_error, label("CPU time per simulated second", "s"), motion),
-        (dofs, vibration_error, "reduced dofs", motion), ]
+        (dofs, vibration_error, "reduced dofs", motion),
+    ]
     if any(run.row["frequency_error"] for runs in lines.values() for run in runs):
         shown += [
             (setup, error, label("CPU time of the reduction", "s"), shapes),
-            (dofs, error, "reduced dofs", shapes), ]
+            (dofs, error, "reduced dofs", shapes),
+        ]
     figure, grid = plt.subplots(
         len(shown) // 2, 2, figsize=(11, 2.4 + 3.6 * len(shown) / 2), squeeze=False,
         constrained_layout=True)
@@ -309,7 +318,8 @@ def draw_bases(study):
                          label="error of the reference")
     found = {
         label: handle for axes in grid.flat
-        for handle, label in zip(*axes.get_legend_handles_labels())}
+        for handle, label in zip(*axes.get_legend_handles_labels())
+    }
     figure.legend(found.values(), found.keys(), loc="upper center", bbox_to_anchor=(0.5, 0.0),
                   ncol=4, fontsize=8)
     headline(
@@ -323,7 +333,8 @@ def draw_error_over_time(study):
     """eps_t(t): one panel per line, one curve per run."""
     lines = {
         name: [run for run in runs if len(run.curve("eps_t"))
-               ] for name, runs in study.lines.items()}
+               ] for name, runs in study.lines.items()
+    }
     lines = {name: runs for name, runs in lines.items() if runs}
     if not lines:
         return None
@@ -331,7 +342,8 @@ def draw_error_over_time(study):
     check = study.companion("check")
     positive = [
         value for runs in lines.values() for run in runs for value in run.curve("eps_t")[5:]
-        if value > 0]
+        if value > 0
+    ]
     own = np.median(check.curve("eps_t")) if check and len(check.curve("eps_t")) else None
     floor = max(min(positive), (own or 0) / 3, max(positive) * 1e-8)
     for index, (axes, (name, runs)) in enumerate(zip(grid, lines.items())):
@@ -346,7 +358,7 @@ def draw_error_over_time(study):
         axes.set_xlim(*study.window()), axes.set_ylim(floor / 2, max(positive) * 2)
         logarithmic(axes.yaxis, percent)
         for run, below in ((runs[0], True), (runs[-1], False)) if len(runs) > 1 else ((runs[0],
-                                                                                       False), ):
+                                                                                       False),):
             end = run.curve("eps_t")[-max(1, len(run.curve("eps_t")) // 4):]
             level = max(0.85 * end.min() if below else 1.15 * end.max(),
                         floor * (4 if below else 1))
@@ -358,14 +370,14 @@ def draw_error_over_time(study):
         if index >= len(lines) - columns:
             axes.set_xlabel(label("time", "s"))
     headline(
-        figure, "Error over time",
-        f"{study.scene()}; dark: the largest error of each method, grey: that of the reference itself"
-    )
+        figure, "Error over time", f"{study.scene()}; dark: the largest error of each method, "
+        "grey: that of the reference itself")
     return figure
 
 
 def representative(runs, enough=0.01):
-    """The fastest run of a line whose vibration error is at most 1 %, or else its most accurate one."""
+    """The fastest run of a line whose vibration error is at most 1 %, or else its most accurate
+    one."""
     good = [run for run in runs if run.number("vibration_error") <= enough]
     return min(good, key=lambda run: run.number("cpu_per_simulated_s")) if good else min(
         runs, key=lambda run: run.number("vibration_error"))
@@ -392,9 +404,8 @@ def draw_bit_speed(study):
         if index >= len(study.lines) - columns:
             axes.set_xlabel(label("time", "s"))
     headline(
-        figure, "Bit speed",
-        f"{study.scene()}; the fastest run of each method with vibration error up to 1 % (else its best) over the reference (grey); "
-        "shaded: window of errors")
+        figure, "Bit speed", f"{study.scene()}; the fastest run of each method with vibration "
+        "error up to 1 % (else its best) over the reference (grey); shaded: window of errors")
     return figure
 
 
@@ -425,7 +436,8 @@ def draw_statistics(study):
     for name, runs in study.lines.items():
         run = representative(runs)
         style = {
-            "color": study.colour[name], "linewidth": 1, "linestyle": "--" if run.reduced else "-"}
+            "color": study.colour[name], "linewidth": 1, "linestyle": "--" if run.reduced else "-"
+        }
         duty.plot(100 * run.curve("contact_duty"), s, **style)
         handles += rms.plot(1e3 * run.curve("lateral_rms"), s,
                             label=name + (f": {short(run.value)}" if run.value else ""), **style)
@@ -445,8 +457,8 @@ def draw_statistics(study):
     key.legend(handles=handles, loc="center", ncol=2, fontsize=8)
     headline(
         figure, f"Statistics beyond {study.window()[1]:g} s",
-        f"{study.scene()}; the fastest run of each method with vibration error up to 1 % (else its best), the reference in grey"
-    )
+        f"{study.scene()}; the fastest run of each method with vibration error up to 1 % (else its "
+        "best), the reference in grey")
     return figure
 
 
@@ -461,7 +473,8 @@ def draw_static(study):
     radial, contact, axial, torque = row
     plots.profiles(row, [
         label(*pair) for pair in (("lateral displacement", "mm"), ("contact force", "kN"),
-                                  ("axial force", "kN"), ("torque", "kN m"))], (s[0], s[-1]))
+                                  ("axial force", "kN"), ("torque", "kN m"))
+    ], (s[0], s[-1]))
     radial.fill_betweenx(s, 1e3 * profile["clearance"], step="mid", color="#ececec", linewidth=0)
     radial.plot(1e3 * profile["radius"], s, color="black", linewidth=1.2)
     scale = np.linalg.norm(profile["radius"]) or 1.0
@@ -521,7 +534,8 @@ def draw_reference(study):
 PLOTS = {
     "speed": draw_speed, "bases": draw_bases, "modes": draw_modes,
     "error_over_time": draw_error_over_time, "bit_speed": draw_bit_speed,
-    "statistics": draw_statistics, "static": draw_static, "reference": draw_reference}
+    "statistics": draw_statistics, "static": draw_static, "reference": draw_reference
+}
 
 
 def draw_all(study, output, kinds):
