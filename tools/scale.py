@@ -17,7 +17,6 @@ import json
 import math
 import os
 import pathlib
-import platform
 import re
 import shutil
 import subprocess
@@ -27,8 +26,8 @@ from xml.etree import ElementTree
 
 import scale_figures
 from same_results import datasets, difference
+from scale_runs import (FULL, PROJECT, chapter, machine_line, measured, seconds, table, times)
 
-PROJECT = pathlib.Path(__file__).resolve().parent.parent
 os.environ.setdefault("TOOLJOINT_REPORT", "off")
 os.environ.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
 DOCUMENT = scale_figures.DOCS / "scale.md"
@@ -37,7 +36,6 @@ BLOCK = PROJECT / "examples/12_solid_block"
 BLOCKS = (8, 4, 2), (24, 6, 3), (40, 10, 5), (56, 14, 7), (80, 20, 10), (116, 29, 15)
 STATIC_ONLY = ["--without", "Transient", "--without", "Reduction", "--without", "Substructures"]
 MODES, JOINED = 50, 100
-FULL = ["--without", "Reduction", "--without", "Substructures"]
 MOTIONS = [("vertical_5000m", FULL, 0.5), ("vertical_5000m", [], 1),
            ("extended_reach_5000m", FULL, 0.5), ("extended_reach_5000m", [], 0.5),
            ("vertical_10000m", FULL, 0.3), ("inclined_1000m", FULL, 1), ("stress_170m", FULL, 2)]
@@ -68,43 +66,6 @@ What the program takes for long strings, large parts and many rows. Written by
 Times are of one run each, where nothing else is said; ratios within a table are what lasts. Memory
 is the peak of the largest process.
 """
-
-
-def chapter(options, title, text, figure="", note=""):
-    """A chapter that names its machine; `text` ends with a table."""
-    shown = f"![{scale_figures.NAMES[figure]}](figures/{figure}.svg)\n\n" if figure else ""
-    own = f"{options.machine}{' ' if note else ''}{note}"
-    return f"## {title}\n\n{own}\n\n{shown}{text}"
-
-
-def measured(options, name, words, ranks=1):
-    """{code, wall_s, cpu_s, memory_mb, output} of a run of the program, from the work folder or by
-    running it."""
-    folder = pathlib.Path(options.work) / name
-    record = folder / "row.json"
-    if record.exists():
-        return json.loads(record.read_text(encoding="utf-8"))
-    folder.mkdir(parents=True, exist_ok=True)
-    command = [options.program, *words]
-    if ranks > 1:
-        command = [options.mpiexec, "-n", str(ranks), *command]
-    log = folder / "log.txt"
-    begin = time.monotonic()
-    child = os.fork()
-    if child == 0:
-        with open(log, "w", encoding="utf-8") as text:
-            os.dup2(text.fileno(), 1)
-            os.dup2(text.fileno(), 2)
-        os.chdir(folder)
-        os.execvp(command[0], command)
-    _, status, usage = os.wait4(child, 0)
-    row = {
-        "code": os.waitstatus_to_exitcode(status), "wall_s": time.monotonic() - begin,
-        "cpu_s": usage.ru_utime + usage.ru_stime, "memory_mb": usage.ru_maxrss / 1024,
-        "output": log.read_text(encoding="utf-8")
-    }
-    record.write_text(json.dumps(row), encoding="utf-8")
-    return row
 
 
 def solid(options, counts):
@@ -170,10 +131,6 @@ def rival(options, folder, count):
     return row
 
 
-def seconds(x):
-    return f"{x:.3g}" if x < 1000 else f"{x:.0f}"
-
-
 def cut_row(options, counts, ranks):
     """A line of the table of cut blocks."""
     folder, dofs, _ = block_of(options, counts, -1)
@@ -232,18 +189,6 @@ def cuts(options):
         f"more than {CUT_WHOLE} dofs is not solved.\n{faster_from(lines)}\n\n" + table(
             ("dofs", "ranks", "wall [s]", "memory [MB]", "largest error", "largest estimate",
              "whole: wall [s]", "memory [MB]"), lines))
-
-
-def table(head, lines):
-    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] +
-                     ["| " + " | ".join(map(str, line)) + " |" for line in lines]) + "\n"
-
-
-def times(row):
-    if row["code"] != 0:
-        last = [line for line in row["output"].splitlines() if line.strip()]
-        return f"exit code {row['code']}: {last[-1] if last else ''}", "", ""
-    return seconds(row["wall_s"]), seconds(row["cpu_s"]), f"{row['memory_mb']:.0f}"
 
 
 def solids(options):
@@ -514,18 +459,6 @@ def renewed(text, own):
                  len(chapters))
     chapters[place:place + 1] = [own.rstrip()]
     return "\n\n".join(chapters) + "\n"
-
-
-def machine():
-    text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
-    name = re.search(r"model name\s*: (.*)", text)
-    return name.group(1) if name else platform.machine()
-
-
-def machine_line(options):
-    blas = re.search(r"BLAS +(\S+)", os.popen(f"{options.program} --version").read())
-    return (f"Machine: {machine()}, {os.cpu_count()} cores; "
-            f"{blas.group(1) if blas else 'BLAS unknown'}.")
 
 
 def main():

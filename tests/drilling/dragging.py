@@ -8,21 +8,16 @@ import math
 import models
 import numpy as np
 from checks import expect
+from models import W, near
 from program import FULL
 from scipy.integrate import solve_ivp
 
-W = 2
 INCLINATION, OMEGA, ALPHA = math.radians(60), 10.0, 1e-3
 RK4 = {"Transient/Integrator": "RK4", "Transient/Step": 2.5e-4}
 PIPE = {"Length": 40.0, "Elements": 4, "Outer Radius": 0.0635, "Inner Radius": 0.054}
 COUNT, GRAVITY, BORE = 5, 9.81, 0.1
 STATIC, DYNAMIC, VELOCITY = 0.3, 0.2, 0.1
 WEIGHT = models.DENSITY * models.area(PIPE) * GRAVITY * PIPE["Length"] * COUNT
-
-
-def near(what, found, truth, tolerance):
-    expect(f"{what}: {found:.6g}, true {truth:.6g} within {tolerance:.2g}",
-           abs(found - truth) <= tolerance)
 
 
 def mu(v):

@@ -7,17 +7,12 @@ import math
 import models
 import numpy as np
 from checks import expect
+from models import THETA_Z, W, near
 
-THETA_Z, W = 5, 2
 ALPHA = {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 1e-3}
 RK4 = {"Transient/Integrator": "RK4", "Transient/Step": 1e-4}
 PARTS = {"Substructures": {"Rule": "By component"}, "Reduction": {"Mode Selection": {"Modes": 6}}}
 PIECES = ((models.PIPE, 3), (models.COLLAR, 2))
-
-
-def near(what, found, truth, tolerance):
-    expect(f"{what}: {found:.6g}, true {truth:.6g} within {tolerance:.2g}",
-           abs(found - truth) <= tolerance)
 
 
 def string(program, name, settings, end, lists):

@@ -4,6 +4,7 @@ characteristic equations."""
 import math
 
 import numpy as np
+from checks import expect
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.optimize import brentq
@@ -12,7 +13,14 @@ PIPE = {"Length": 300.0, "Elements": 3, "Outer Radius": 0.0635, "Inner Radius": 
 COLLAR = {"Length": 100.0, "Elements": 1, "Outer Radius": 0.0795, "Inner Radius": 0.0355}
 STEEL = {"Density": 7850.0, "Young Modulus": 2.1e11, "Poisson Ratio": 0.3}
 BORE = 0.2  # radius of the hole [m]
+RPM = math.pi / 30
+THETA_Z, W = 5, 2  # components of a node
 DENSITY, YOUNG, SHEAR = 7850.0, 2.1e11, 2.1e11 / 2.6
+
+
+def near(what, found, truth, tolerance):
+    expect(f"{what}: {found:.6g}, true {truth:.6g} within {tolerance:.2g}",
+           abs(found - truth) <= tolerance)
 
 
 def polar(part):

@@ -21,7 +21,7 @@ import sys
 import numpy as np
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
-import contact
+import impacts
 import report
 from program import FULL, ROOT, Program
 from scenes import HELICAL, LYING, STRESS, alpha, parts_deck, times
@@ -84,11 +84,11 @@ def walls(stiffness):
 
 def balls(program):
     """The deck of forty linked balls on stops."""
-    count, height = 40, contact.DROP
+    count, height = 40, impacts.DROP
     K = 1e4 * (2 * np.eye(count) - np.eye(count, k=1) - np.eye(count, k=-1))
     K[0, 0] = K[-1, -1] = 1e4
-    file = program.part("balls", ["v"], contact.BALL * np.eye(count), K,
-                        loads=[-contact.BALL * contact.GRAVITY] * count)
+    file = program.part("balls", ["v"], impacts.BALL * np.eye(count), K,
+                        loads=[-impacts.BALL * impacts.GRAVITY] * count)
     starts = {
         f"drop {i}": {"Part": "ball", "Node": i, "Component": "v", "Displacement": height}
         for i in range(1, count + 1)

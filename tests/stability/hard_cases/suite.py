@@ -25,6 +25,7 @@ import buckling  # noqa: F401
 import contact  # noqa: F401
 import drilling  # noqa: F401
 import friction  # noqa: F401
+import impacts  # noqa: F401
 import motion  # noqa: F401
 import parts  # noqa: F401
 import records  # noqa: F401
