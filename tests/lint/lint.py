@@ -22,8 +22,10 @@ import rooms
 import sizes
 
 LONGEST = 500  # lines of a source file; beyond, it is two ideas
+WIDEST = 100  # columns of a line of Python; clang-format holds C++
 ROOMS = [
-    "src", "substructures", "python", "tests", "examples", "benchmarks", "cmake", "docs", "xml"
+    "src", "substructures", "python", "tests", "tools", "examples", "benchmarks", "cmake", "docs",
+    "xml"
 ]
 TOP = [
     "CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md",
@@ -69,6 +71,10 @@ def lint_file(root, path):
         if len(lines) > LONGEST:
             yield LONGEST + 1, (f"has {len(lines)} lines, more than {LONGEST}: which two ideas are "
                                 "in it?")
+    if path.suffix == ".py":
+        for number, line in enumerate(lines, 1):
+            if len(line) > WIDEST:
+                yield number, f"has {len(line)} columns, more than {WIDEST}"
     yield from sizes.of_source(relative.as_posix(), "\n".join(lines))
     if relative.as_posix() == "docs/architecture.md":
         yield from sizes.of_recipes("\n".join(lines))
@@ -153,7 +159,7 @@ def strangers(root):
     often."""
     listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], stdout=subprocess.PIPE,
                             stderr=subprocess.DEVNULL, text=True, check=False).stdout
-    known = set(ROOMS) | {"tools", ".ci"}
+    known = set(ROOMS) | {".ci"}
     firsts = {
         name.partition("/")[0]: name for name in sorted(listed.split("\0"), reverse=True)
         if "/" in name
@@ -165,10 +171,7 @@ def strangers(root):
 
 def standing_twice(root, files):
     """Complaints about code that stands twice in product code, the Python package or tools."""
-    known = [
-        path for path in [*files, *sorted((root / "tools").rglob("*.py"))]
-        if path.suffix in (".cpp", ".hpp", ".py")
-    ]
+    known = [path for path in files if path.suffix in (".cpp", ".hpp", ".py")]
     return repeats.of_texts({
         path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace")
         for path in known

@@ -65,6 +65,8 @@ SIZES = {
     "src/transient/compiled/Y.hpp": (SPDX + KERNEL, None),
     "docs/architecture.md": (PAGE, ("lint.py --rooms", "a recipe of 21 lines",
                                     "says that app have 9,000 lines; they have 3")),
+    "tests/unit/a/W.py": (PYTHON + "x = 1  # " + "a" * 91 + "\n", None),
+    "tests/unit/a/W1.py": (PYTHON + "x = 1  # " + "a" * 92 + "\n", "has 101 columns"),
     **{f"src/crowd/V{i}.cpp": (SPDX, None) for i in range(sizes.FILES + 1)},
     "src/crowd": (None, "more than"),
 }
@@ -87,5 +89,8 @@ PLACES = {
 
 def all_cases(longest):
     """Of all rules; `longest`: lines of a source file."""
-    long = {"src/io/L.cpp": (SPDX + "\n" * longest, "more than")}
+    long = {
+        "src/io/L.cpp": (SPDX + "\n" * longest, "more than"),
+        "tools/L.py": (PYTHON + "\n" * longest, "more than"),
+    }
     return {**INCLUDES, **WORDS, **SIZES, **REPEATS, **PLACES, **long}
