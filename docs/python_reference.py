@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Directive of the documentation site for the Python package, whose sources are read and not imported.
+"""Directive of the documentation site for the Python package, whose sources are read and not
+imported.
 
     ```{python-reference} tooljoint
     part
     Deck
     ```
 
-shows the signatures and docstrings of these names of the module, of classes with all public members. A name that the module does not have is
-an error; so is a public name of a module that no page shows.
+shows the signatures and docstrings of these names of the module, of classes with all public
+members. A name that the module does not have is an error; so is a public name of a module that no
+page shows.
 """
 import ast
 import inspect
@@ -24,7 +26,8 @@ MODULES = {"tooljoint": PROJECT / "python/tooljoint",
            "tooljoint.plots": PROJECT / "tools/plots"}  # each with an __init__.py
 OPERATORS = {
     "__len__": "len(self)", "__getitem__": "self[{0}]", "__setitem__": "self[{0}] = {1}",
-    "__delitem__": "del self[{0}]", "__contains__": "{0} in self", "__iter__": "iter(self)"}
+    "__delitem__": "del self[{0}]", "__contains__": "{0} in self", "__iter__": "iter(self)"
+}
 
 
 def definitions(file):
@@ -68,12 +71,15 @@ def signature(node, method=False):
 
 
 def prose(node):
-    """A docstring as Markdown: its examples become blocks of code, what it says of arguments a list."""
+    """A docstring as Markdown: its examples become blocks of code, what it says of arguments a
+    list."""
     functions = [
-        one for one in [node, *getattr(node, "body", [])] if isinstance(one, ast.FunctionDef)]
+        one for one in [node, *getattr(node, "body", [])] if isinstance(one, ast.FunctionDef)
+    ]
     arguments = {
-        each.arg for one in functions for each in [
-            *one.args.args, *one.args.kwonlyargs, *filter(None, [one.args.vararg, one.args.kwarg])]}
+        each.arg for one in functions for each in
+        [*one.args.args, *one.args.kwonlyargs, *filter(None, [one.args.vararg, one.args.kwarg])]
+    }
     lines, example, item = [], False, False
     for line in inspect.cleandoc(ast.get_docstring(node) or "").splitlines():
         named = re.match(r"(\w+(?:(?:, | and )\w+)*): ", line)
@@ -93,8 +99,8 @@ def prose(node):
 
 def directive(kind, head, module, body, ticks, options=()):
     fence = "`" * ticks
-    return "\n".join([
-        f"{fence}{{py:{kind}}} {head}", f":module: {module}", *options, "", body, fence, ""])
+    return "\n".join(
+        [f"{fence}{{py:{kind}}} {head}", f":module: {module}", *options, "", body, fence, ""])
 
 
 def member(node, module, cls):
@@ -122,7 +128,8 @@ def shown(name, node, module):
     start = next((one for one in methods if one.name == "__init__"), None)
     members = [
         member(one, module, name) for one in methods
-        if not one.name.startswith("_") or one.name in OPERATORS]
+        if not one.name.startswith("_") or one.name in OPERATORS
+    ]
     exception = any(ast.unparse(base).endswith(("Error", "Exception")) for base in node.bases)
     return directive("exception" if exception else "class",
                      name + (signature(start, True) if start and not exception else ""), module,
@@ -155,10 +162,12 @@ def complete(app, env):
     """Every public name of the modules is on a page."""
     there = {
         key.split(" ", 1)[1] for page in env.metadata.values() for key in page
-        if key.startswith("python ")}
+        if key.startswith("python ")
+    }
     absent = [
         f"{module}.{name}" for module, folder in MODULES.items() for name in public(folder)
-        if f"{module}.{name}" not in there]
+        if f"{module}.{name}" not in there
+    ]
     if absent:
         raise ExtensionError(
             f"No page of the site shows {', '.join(absent)}: name it in docs/api/python.md.")

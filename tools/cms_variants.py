@@ -1,13 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares all bases on the reference scene and on a frame, and rewrites tables and figures of docs/cms-variants.md, docs/tables/cms_variants_*.csv.
+"""Compares all bases on the reference scene and on a frame, and rewrites tables and figures of
+docs/cms-variants.md, docs/tables/cms_variants_*.csv.
 
-    tools/cms_variants.py --program build/release/tooljoint [--work results/cms_variants] [--only helical,frame,estimates,tolerance] [--fresh] [--short]
+    tools/cms_variants.py --program build/release/tooljoint [--work results/cms_variants] [--only
+        helical,frame,estimates,tolerance] [--fresh] [--short]
 
-The bases, what they are given and their mode counts are the Study lists of xml/cms_variants.xml and xml/cms_variants_frame.xml; their numbers are those of
-study.csv and study.h5. Runs that are already in the work folder are not repeated unless --fresh is given. --set changes the studies, for a quick look
-(--set Study/Repeats=1). --short (a test) takes few runs, writes nothing and ends with 1 when an estimate or a tolerance fails.
-Needs h5py, matplotlib and numpy.
+The bases, what they are given and their mode counts are the Study lists of xml/cms_variants.xml and
+xml/cms_variants_frame.xml; their numbers are those of study.csv and study.h5. Runs that are already
+in the work folder are not repeated unless --fresh is given. --set changes the studies, for a quick
+look (--set Study/Repeats=1). --short (a test) takes few runs, writes nothing and ends with 1 when
+an estimate or a tolerance fails. Needs h5py, matplotlib and numpy.
 """
 import argparse
 import csv
@@ -32,7 +35,8 @@ PROJECT = pathlib.Path(__file__).resolve().parent.parent
 FREQUENCIES = 20
 FACTOR = 3.0  # an estimate is to lie within this factor of the true error
 ROUNDING = 1e-9  # true errors of frequencies below this are rounding
-STEPS = 5e-5  # a vibration error below this is what the tolerance of the steps leaves, with all modes kept too
+# a vibration error below this is what the tolerance of the steps leaves, with all modes kept too
+STEPS = 5e-5
 STUDIES = {"helical": ("reference scene", "cms_variants"), "frame": ("frame", "cms_variants_frame")}
 # scene, window [s], what the motion is run with
 SCENES = [("helical_170m", 3, []), ("helical_170m_source", 3, []), ("stress_170m", 3, []),
@@ -100,7 +104,8 @@ class Bench:
                 self.program, "study",
                 str(deck), "--output",
                 str(folder), "--set", "Study/Pictures=false", *self.changes,
-                *(["--fresh"] if self.fresh else [])]
+                *(["--fresh"] if self.fresh else [])
+            ]
             code = subprocess.run(command, check=False).returncode
             if code:
                 sys.exit(f"The study of {deck.name} ended with {code}.")
@@ -161,11 +166,13 @@ def overview(rows):
         if row[4] and (line not in best or float(row[4]) < float(best[line][4])):
             best[line] = row
     lines = [
-        "| run with the smallest vibration error | dofs | largest error of 20 frequencies | vibration error | CPU [s] per simulated s | reduction [s] |",
-        "|---|---|---|---|---|---|"]
+        "| run with the smallest vibration error | dofs | largest error of 20 frequencies | "
+        "vibration error | CPU [s] per simulated s | reduction [s] |", "|---|---|---|---|---|---|"
+    ]
     lines += [
         "| " + " | ".join(cell or "-" for cell in (row[0], row[1], row[2], *row[4:])) + " |"
-        for row in best.values()]
+        for row in best.values()
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -182,7 +189,8 @@ def failures(study):
         return "No run failed.\n"
     return "\n".join([
         "| failed | reason |", "|---|---|", *(f"| {label} | {reason.replace('|', '/')} |"
-                                              for label, reason in failed)]) + "\n"
+                                              for label, reason in failed)
+    ]) + "\n"
 
 
 def figure(study, name):
@@ -191,7 +199,8 @@ def figure(study, name):
 
 
 def frequency_ratios(run):
-    """(number of the mode, MAC, true error, estimate, complete, estimate / true error) where both errors mean something."""
+    """(number of the mode, MAC, true error, estimate, complete, estimate / true error) where both
+    errors mean something."""
     curves = [run.curve(f"mode_{name}") for name in ("mac", "error", "estimate", "definite")]
     for i, (mac, error, estimate, definite) in enumerate(zip(*curves)):
         if abs(error) > ROUNDING:
@@ -231,7 +240,8 @@ def estimate_rows(study, scene):
     span = lambda values: f"{min(values):.2g} to {max(values):.2g}" if values else "-"
     rows = [
         f"| {scene} | {line} | {c[0]} | {c[1]} | {span(c[2])} | {c[3]} | {c[4]} | {span(c[5])} |"
-        for line, c in counts.items() if c[0] + c[3] > 0]
+        for line, c in counts.items() if c[0] + c[3] > 0
+    ]
     return rows, exceptions
 
 
@@ -241,7 +251,8 @@ def tolerance_frequency(bench, scene, tolerance):
         "modes", f"tolerance {scene} {tolerance}", PROJECT / f"xml/{scene}.xml", [
             "--count",
             str(FREQUENCIES), "--without", "Reduction/Mode Selection", "--set",
-            f"Reduction/Mode Selection/Frequency Tolerance={tolerance}"])
+            f"Reduction/Mode Selection/Frequency Tolerance={tolerance}"
+        ])
     if reason:
         return f"| {scene} | {tolerance} | failed: {reason} | | | no |", False
     full, dofs = re.search(r"reduced +(\d+) dofs to (\d+)", printed).groups()
@@ -250,7 +261,8 @@ def tolerance_frequency(bench, scene, tolerance):
     error, estimated = (max(abs(float(row[name])) for row in rows)
                         for name in ("error", "estimate"))
     met = error <= float(tolerance)
-    return f"| {scene} | {tolerance} | {dofs} of {full} | {estimated:.1e} | {error:.1e} | {'yes' if met else '**no**'} |", met
+    return (f"| {scene} | {tolerance} | {dofs} of {full} | {estimated:.1e} | {error:.1e} | "
+            f"{'yes' if met else '**no**'} |"), met
 
 
 def vibration_error_between(bench, folder, reference, end):
@@ -271,19 +283,21 @@ def tolerance_motion(bench, scene, end, more, tolerance):
     full, _, reason = bench.call("run", f"motion full {scene} {end}", deck,
                                  [*common, "--without", "Reduction", *substructures])
     if reason:
-        return f"| {scene} | 0 to {end} s | {tolerance} | the full model failed: {reason} | | | no |", False
+        return (f"| {scene} | 0 to {end} s | {tolerance} | the full model failed: {reason} | | | "
+                "no |"), False
     folder, _, reason = bench.call("run", f"motion {scene} {end} {tolerance}", deck, [
         *common, "--without", "Reduction/Mode Selection", "--set",
-        f"Reduction/Mode Selection/Motion Tolerance={tolerance}"])
+        f"Reduction/Mode Selection/Motion Tolerance={tolerance}"
+    ])
     if reason:
         return f"| {scene} | 0 to {end} s | {tolerance} | failed: {reason} | | | no |", False
     summary = json.loads((folder / "summary.json").read_text())
     vibration_error, estimate = vibration_error_between(
         bench, folder, full, end), summary["reduction"]["estimate"]["motion_error"]
     met = vibration_error <= float(tolerance)
-    return (
-        f"| {scene} | 0 to {end} s | {tolerance} | {summary['reduction']['reduced_dofs']} of {summary['model']['free_dofs']} | {cell(estimate)} | {vibration_error:.1e} "
-        f"| {'yes' if met else '**no**'} |", met)
+    return (f"| {scene} | 0 to {end} s | {tolerance} | {summary['reduction']['reduced_dofs']} of "
+            f"{summary['model']['free_dofs']} | {cell(estimate)} | {vibration_error:.1e} | "
+            f"{'yes' if met else '**no**'} |", met)
 
 
 def scene_section(name, steps):
@@ -291,10 +305,12 @@ def scene_section(name, steps):
         study = bench.study(name)
         figure(study, f"cms_variants_{name}")
         own, timed = study.companion("check"), study.companion("reference")
-        cost = f"The steps alone ({steps}) cost a vibration error of {own.number('vibration_error'):.1e} against RK4." if own else "The check of the reference failed."
-        return (
-            f"Machine: {machine()}; the reference took {timed.number('cpu'):.3g} s. {cost}\n\n![errors](figures/cms_variants_{name}.png)\n\n"
-            + tabulated(table(study), f"cms_variants_{name}") + "\n" + failures(study))
+        cost = (f"The steps alone ({steps}) cost a vibration error of "
+                f"{own.number('vibration_error'):.1e} against RK4."
+                ) if own else "The check of the reference failed."
+        return (f"Machine: {machine()}; the reference took {timed.number('cpu'):.3g} s. {cost}\n\n"
+                f"![errors](figures/cms_variants_{name}.png)\n\n" +
+                tabulated(table(study), f"cms_variants_{name}") + "\n" + failures(study))
 
     return write
 
@@ -302,28 +318,31 @@ def scene_section(name, steps):
 def estimates_section(bench):
     rows = [
         "| scene | basis | frequencies | outside | ratios | motions | outside | ratios |",
-        "|---|---|---|---|---|---|---|---|"]
+        "|---|---|---|---|---|---|---|---|"
+    ]
     exceptions = [("scene", "run", "of", "true error", "estimate", "ratio", "said to lack a mode")]
     for name, (scene, _) in STUDIES.items():
         counts, found = estimate_rows(bench.study(name), scene)
         rows += counts
         exceptions += found
     write_csv("cms_variants_estimates", exceptions)
-    return "\n".join(
-        rows
-    ) + f"\n\nThe {len(exceptions) - 1} exceptions: [cms_variants_estimates.csv](tables/cms_variants_estimates.csv).\n"
+    return "\n".join(rows) + (f"\n\nThe {len(exceptions) - 1} exceptions: "
+                              "[cms_variants_estimates.csv](tables/cms_variants_estimates.csv).\n")
 
 
 def tolerance_section(bench):
     rows = [
         "| scene | tolerance | dofs | largest estimate | largest true error | met |",
-        "|---|---|---|---|---|---|"]
+        "|---|---|---|---|---|---|"
+    ]
     for scene, _, _ in SCENES:
         rows += [
-            tolerance_frequency(bench, scene, tolerance)[0] for tolerance in FREQUENCY_TOLERANCES]
+            tolerance_frequency(bench, scene, tolerance)[0] for tolerance in FREQUENCY_TOLERANCES
+        ]
     motions = [
         "| scene | window | tolerance | dofs | estimated vibration error | vibration error | met |",
-        "|---|---|---|---|---|---|---|"]
+        "|---|---|---|---|---|---|---|"
+    ]
     for scene, end, more in SCENES:
         motions.append(tolerance_motion(bench, scene, end, more, MOTION_TOLERANCE)[0])
     return f"The lowest {FREQUENCIES} coupled frequencies:\n\n" + "\n".join(
@@ -334,7 +353,8 @@ SECTIONS = {
     "helical": scene_section("helical", "0.25 ms"),
     "frame": scene_section("frame", "0.2 ms"),
     "estimates": estimates_section,
-    "tolerance": tolerance_section, }
+    "tolerance": tolerance_section,
+}
 
 
 def short_test(bench):
@@ -347,7 +367,8 @@ def short_test(bench):
     bench.changes += settings([
         "Study/Repeats=1", "Study/End Time=0.5", "Study/Check/Set={Transient/Step=0.1 ms}",
         *(f"!Study/Methods/{name}" for name in every if name not in chosen),
-        *(f"Study/Methods/{name}/Sweep/modes/Values={{8, 12}}" for name in chosen)])
+        *(f"Study/Methods/{name}/Sweep/modes/Values={{8, 12}}" for name in chosen)
+    ])
     study = bench.study("frame")
     full = study.companion("reference").number("reduced_dofs")
     for run in reduced_runs(study):
@@ -359,13 +380,11 @@ def short_test(bench):
         if run.line not in ("MacNeal", "Dual Craig-Bampton"):  # which have no estimates
             wrong = [ratio for *_, ratio in frequency_ratios(run) if outside(ratio)]
             if wrong:
-                faults.append(
-                    f"{run.label}: estimates of frequencies off by the factors {', '.join(f'{ratio:.2g}' for ratio in wrong)}"
-                )
+                faults.append(f"{run.label}: estimates of frequencies off by the factors "
+                              f"{', '.join(f'{ratio:.2g}' for ratio in wrong)}")
             if not run.row["estimated_vibration_error"] or outside(motion_ratio(run) or 1.0):
-                faults.append(
-                    f"{run.label}: vibration error {run.row['vibration_error']}, estimate {run.row['estimated_vibration_error']}"
-                )
+                faults.append(f"{run.label}: vibration error {run.row['vibration_error']}, "
+                              f"estimate {run.row['estimated_vibration_error']}")
     for line in chosen:
         mine = [run.number("frequency_error") for run in reduced_runs(study) if run.line == line]
         if len(mine) != 2 or not mine[1] < mine[0]:

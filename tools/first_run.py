@@ -34,7 +34,8 @@ UNITS = {"": 1.0, "in": 0.0254, "m": 1.0, "kN": 1e3, "kN m": 1e3, "g/cm3": 1e3}
 
 
 def value(list_element, path):
-    """Parameter PATH ("Loads/Gravity") below an element of a deck, in SI units; its text where it has no number."""
+    """Parameter PATH ("Loads/Gravity") below an element of a deck, in SI units; its text where it
+    has no number."""
     *lists, name = path.split("/")
     for one in lists:
         list_element = list_element.find(f"ParameterList[@name='{one}']")
@@ -62,7 +63,8 @@ def segments(deck):
         component = library.find(f"ParameterList[@name='{name}']")
         if component.find("Parameter[@name='Parts']") is None:
             return [
-                tuple(value(component, key) for key in ("Length", "Outer Radius", "Inner Radius"))]
+                tuple(value(component, key) for key in ("Length", "Outer Radius", "Inner Radius"))
+            ]
         return [piece for part in entries(value(component, "Parts")) for piece in pieces(part)]
 
     return [(name, *piece) for name in entries(value(scene, "Drillstring/Assembly"))
@@ -70,7 +72,8 @@ def segments(deck):
 
 
 def loads(deck):
-    """Weight on bit [N], torque on bit [N m], and the weight in mud per metre [N/m] as a function of the radii."""
+    """Weight on bit [N], torque on bit [N m], and the weight in mud per metre [N/m] as a function
+    of the radii."""
     scene = ET.parse(deck).getroot()
     steel, mud, g = (value(scene, path)
                      for path in ("Drillstring/Material/Density", "Mud/Density", "Loads/Gravity"))
@@ -96,7 +99,8 @@ def lines(label, command):
 
 
 def run(program, folder, more):
-    """Runs the scene into `folder`, with warnings printed only, and returns its summary; ends with the exit code of the program where that fails."""
+    """Runs the scene into `folder`, with warnings printed only, and returns its summary; ends with
+    the exit code of the program where that fails."""
     command = [short(program), "run", short(DECK), "--output", short(folder), "--quiet", *more]
     print(lines("== ", command), flush=True)
     code = subprocess.run(command, check=False).returncode
@@ -122,10 +126,12 @@ def figures(program, output):
               for summary in (reduced, full) for name, measure, bound in checks.CHECKS]
     cpu = {
         name: s["transient"]["cpu_s"] / (s["transient"]["end"] - s["transient"]["start"])
-        for name, s in (("reduced", reduced), ("full", full))}
+        for name, s in (("reduced", reduced), ("full", full))
+    }
     return {
         "dofs": {
-            "reduced": reduced["reduction"]["reduced_dofs"], "full": full["model"]["free_dofs"]},
+            "reduced": reduced["reduction"]["reduced_dofs"], "full": full["model"]["free_dofs"]
+        },
         "cpu_per_simulated_second": cpu,
         "speed_up": cpu["full"] / cpu["reduced"],
         "vibration_error": json.loads(compared.stdout)["vibration_error"],
@@ -137,16 +143,24 @@ def figures(program, output):
         "side_force": {
             "value": float(force[node]),
             "depth": float(depth[node]),
-            "component": string[int(np.searchsorted(ends, depth[node]))][0], },
+            "component": string[int(np.searchsorted(ends, depth[node]))][0],
+        },
         "bit_speed_rpm": reduced["transient"]["bit_speed_rpm"],
         "worst_check": dict(zip(("name", "value", "bound"),
-                                max(errors)[1:])), }
+                                max(errors)[1:])),
+    }
 
 
 def report(f, program, output):
     """The table and the summary."""
     wall = f["weight_in_mud"] - f["weight_on_bit"] - f["hook_load"]
     side, bit, check = f["side_force"], f["bit_speed_rpm"], f["worst_check"]
+    hook = (f"weight in mud {f['weight_in_mud'] / 1e3:.1f} - on the bit "
+            f"{f['weight_on_bit'] / 1e3:.1f} - on the wall {wall / 1e3:.1f}")
+    friction = f["surface_torque"] - f["torque_on_bit"]
+    torque = (f"torque on bit {f['torque_on_bit'] / 1e3:.2f} + friction on the wall "
+              f"{friction / 1e3:.2f}")
+    place = f"at a measured depth of {side['depth']:.1f} m, {side['component']}"
     verdict = "met" if check["value"] <= check["bound"] else "NOT MET"
     cpu = f["cpu_per_simulated_second"]
     return f"""
@@ -155,9 +169,9 @@ full     {f['dofs']['full']:6d} {cpu['full']:23.3f}         (reference)
 reduced  {f['dofs']['reduced']:6d} {cpu['reduced']:23.3f} {f['vibration_error']:17.2%}
 The reduced model is {f['speed_up']:.1f} times as fast.
 
-hook load           {f['hook_load'] / 1e3:7.1f} kN    weight in mud {f['weight_in_mud'] / 1e3:.1f} - on the bit {f['weight_on_bit'] / 1e3:.1f} - on the wall {wall / 1e3:.1f}
-surface torque      {f['surface_torque'] / 1e3:7.2f} kN m  torque on bit {f['torque_on_bit'] / 1e3:.2f} + friction on the wall {(f['surface_torque'] - f['torque_on_bit']) / 1e3:.2f}
-largest side force  {side['value'] / 1e3:7.2f} kN    at a measured depth of {side['depth']:.1f} m, {side['component']}
+hook load           {f['hook_load'] / 1e3:7.1f} kN    {hook}
+surface torque      {f['surface_torque'] / 1e3:7.2f} kN m  {torque}
+largest side force  {side['value'] / 1e3:7.2f} kN    {place}
 bit speed           {bit['mean']:7.1f} rpm   {bit['min']:.1f} to {bit['max']:.1f}
 worst check         {verdict}: {check['name']} {check['value']:.1e}, bound {check['bound']:.0e}
 
@@ -179,7 +193,8 @@ def main():
     drawing = [
         sys.executable,
         short(ROOT / "tools" / "plot_results.py"),
-        short(options.output / "reduced")]
+        short(options.output / "reduced")
+    ]
     print(lines("== ", drawing), flush=True)
     subprocess.run(drawing, check=True, stdout=subprocess.DEVNULL)
     print(report(found, options.program, options.output))

@@ -1,10 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Computes the maps of docs/guide/maps.md by the commands of the page and writes docs/figures/map_*.svg.
+"""Computes the maps of docs/guide/maps.md by the commands of the page and writes
+docs/figures/map_*.svg.
 
-    tools/maps.py --program build/release/tooljoint [--work results/maps] [--only map_helical_170m,map_inclined_1000m] [--figures DIR] [--set PATH=VALUE ...]
+    tools/maps.py --program build/release/tooljoint [--work results/maps] [--only
+        map_helical_170m,map_inclined_1000m] [--figures DIR] [--set PATH=VALUE ...]
 
-A map goes on from the points that are in the work folder. --set changes the maps, for a quick look (a test).
+A map goes on from the points that are in the work folder. --set changes the maps, for a quick look
+(a test).
 """
 import argparse
 import pathlib
@@ -22,11 +25,13 @@ def settings(deck):
     """Options of the command of the page that computes the most points of a deck."""
     page = (PROJECT / "docs/guide/maps.md").read_text(encoding="utf-8").replace("\\\n", " ")
     commands = [
-        shlex.split(line) for line in re.findall(rf"^tooljoint map xml/{deck}\.xml .*", page, re.M)]
+        shlex.split(line) for line in re.findall(rf"^tooljoint map xml/{deck}\.xml .*", page, re.M)
+    ]
     words = next(words for words in commands if "--set" in words)
     return [
         part for option, value in zip(words, words[1:]) if option == "--set"
-        for part in (option, value)]
+        for part in (option, value)
+    ]
 
 
 def main():
@@ -46,7 +51,8 @@ def main():
         more = [part for one in options.set for part in ("--set", one)]
         subprocess.run([
             options.program, "map", PROJECT / f"xml/{deck}.xml", "--output", folder,
-            *settings(deck), *more], check=True)
+            *settings(deck), *more
+        ], check=True)
         shutil.copyfile(folder / f"map_{SHOWN[deck]}.svg", options.figures / f"{deck}.svg")
         print(f"drawn {options.figures / deck}.svg", flush=True)
 

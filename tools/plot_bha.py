@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws what `tooljoint bha` left in its folder: tools/plot_bha.py DIR [--output FILE.png]
 
-DIR/bha.h5: the string in its hole towards the high side and towards the right side, with the room it has to the wall (narrow at stabilisers); its bending moment; and the side
-force of the bit against the weight on bit, or against inclination or tool face where the deck varies those instead.
+DIR/bha.h5: the string in its hole towards the high side and towards the right side, with the room
+it has to the wall (narrow at stabilisers); its bending moment; and the side force of the bit
+against the weight on bit, or against inclination or tool face where the deck varies those instead.
 """
 import sys
 
@@ -11,16 +12,16 @@ try:
     from plots import COLOURS, GREY, MARKERS, headline, label, np, plt
     from report.folder import conditions, draw_folder
 except ImportError as missing:
-    sys.exit(
-        f"{missing}: plot_bha.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3)."
-    )
+    sys.exit(f"{missing}: plot_bha.py needs h5py, numpy and matplotlib (Debian: python3-h5py "
+             "python3-matplotlib, then /usr/bin/python3).")
 
 MOST_LINES = 6  # states drawn along the string
 SIDES = {"high": ("high side", "-"), "right": ("right side", "--")}
 AXES = {
     "weight_on_bit": ("weight on bit", "kN", 1e-3),
     "inclination": ("inclination", "deg", 180 / np.pi),
-    "tool_face": ("tool face", "deg", 180 / np.pi), }
+    "tool_face": ("tool face", "deg", 180 / np.pi),
+}
 
 
 def columns(results, group):
@@ -30,7 +31,8 @@ def columns(results, group):
 def named(rows, i):
     face = "rotating" if rows["rotating"][
         i] else f"tool face {np.degrees(rows['tool_face'][i]):.0f} deg"
-    return f"{rows['weight_on_bit'][i] / 1e3:.0f} kN, {np.degrees(rows['inclination'][i]):.0f} deg, {face}"
+    return (f"{rows['weight_on_bit'][i] / 1e3:.0f} kN, {np.degrees(rows['inclination'][i]):.0f} "
+            f"deg, {face}")
 
 
 def shown(rows):
@@ -66,10 +68,11 @@ def draw_forces(axes, rows):
     others = [name for name in AXES if name != along]
     keys = sorted({
         tuple([rows["rotating"][i], *(rows[name][i] for name in others)])
-        for i in range(len(rows["rotating"])) if along != "tool_face" or not rows["rotating"][i]})
+        for i in range(len(rows["rotating"])) if along != "tool_face" or not rows["rotating"][i]
+    })
     for number, key in enumerate(keys):
-        own = (rows["rotating"] == key[0]) & np.logical_and.reduce([
-            rows[name] == value for name, value in zip(others, key[1:])])
+        own = (rows["rotating"] == key[0]) & np.logical_and.reduce(
+            [rows[name] == value for name, value in zip(others, key[1:])])
         values = [AXES[name][2] * value for name, value in zip(others, key[1:])]
         words = ", ".join(
             f"{AXES[name][0]} {value:.0f}" for name, value in zip(others, values)

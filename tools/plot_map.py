@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Maps of `tooljoint map` as pictures: plot_map.py DIR
 
-DIR holds map.csv and summary.json. Every value of the list `Map/Values` becomes map_NAME.png and .svg: cells coloured by the value over the
-first two axes, contour lines where the grid has three points or more each way, unsafe cells hatched with the limit as a line, failed points
-crossed out. With more than two axes each point of the others has a picture of its own.
+DIR holds map.csv and summary.json. Every value of the list `Map/Values` becomes map_NAME.png and
+.svg: cells coloured by the value over the first two axes, contour lines where the grid has three
+points or more each way, unsafe cells hatched with the limit as a line, failed points crossed out.
+With more than two axes each point of the others has a picture of its own.
 """
 import argparse
 import itertools
@@ -27,24 +28,26 @@ LONGEST_TICKS = 48  # letters of all ticks of an axis that stand side by side
 
 
 class Map:
-    """The table of a map as grids: `failed` and, of each value, `grid`, with nan where it is not known. `rows` are those of map.csv, by names
-    without units, in the order of the grids. Unreadable: no table, or not that of the summary."""
+    """The table of a map as grids: `failed` and, of each value, `grid`, with nan where it is not
+    known. `rows` are those of map.csv, by names without units, in the order of the grids.
+    Unreadable: no table, or not that of the summary."""
     def __init__(self, folder):
         summary, lines = results.read_summary(folder).get("map"), files.read_rows(
             folder / "map.csv")
         if not summary or not summary.get("axes"):
-            raise files.Unreadable(
-                f"{folder}/summary.json is not that of a map that has ended. tooljoint map DECK --output {folder} goes on with the map, --collect {folder} makes one of the points "
-                "that are done.")
+            raise files.Unreadable(f"{folder}/summary.json is not that of a map that has ended. "
+                                   f"tooljoint map DECK --output {folder} goes on with the map, "
+                                   f"--collect {folder} makes one of the points that are done.")
         self.folder, self.axes, self.values = folder, summary["axes"], summary["values"]
         self.rows = [
             dict(zip((re.sub(r" \[[^\]]*\]$", "", name) for name in lines[0]), line))
-            for line in lines[1:]]
+            for line in lines[1:]
+        ]
         shape = [axis["points"] for axis in self.axes]
         if len(self.rows) != np.prod(shape):
-            raise files.Unreadable(
-                f"{folder}/map.csv has {len(self.rows)} rows, the grid of summary.json {np.prod(shape)} points. Run the map again, or restore both files from a copy."
-            )
+            raise files.Unreadable(f"{folder}/map.csv has {len(self.rows)} rows, the grid of "
+                                   f"summary.json {np.prod(shape)} points. Run the map again, or "
+                                   "restore both files from a copy.")
         with files.reading(folder / "map.csv"):
             self.sort(shape)
 
@@ -53,7 +56,8 @@ class Map:
         self.failed = np.array([row["status"] != "done" for row in rows]).reshape(shape)
         self.grid = {
             value["name"]: np.array([float(row[value["name"]] or "nan") for row in rows
-                                     ]).reshape(shape) for value in self.values}
+                                     ]).reshape(shape) for value in self.values
+        }
         for k, axis in enumerate(self.axes):
             texts = list(dict.fromkeys(row[axis["name"]] for row in rows))
             axis["texts"] = texts
@@ -73,7 +77,8 @@ class Map:
         """Scene, what the axes do not vary, and overrides, for the second line of a title."""
         with results.open_results(self.folder / "map.h5") as file:
             said = {
-                name: file.attrs.get(name, "") for name in ("deck_file", "deck_text", "overrides")}
+                name: file.attrs.get(name, "") for name in ("deck_file", "deck_text", "overrides")
+            }
         fixed = deck.conditions(deck.read(said["deck_text"], said["overrides"]),
                                 {axis["parameter"] for axis in self.axes})
         changed = ", ".join(line for line in said["overrides"].splitlines()
@@ -110,7 +115,8 @@ def lines(axes, x, y, grid, value):
     low, high = np.nanmin(grid), np.nanmax(grid)
     even = [
         level for level in plots.ticker.MaxNLocator(CONTOURS).tick_values(low, high)
-        if low < level < high]
+        if low < level < high
+    ]
     if even:
         # dark on the light half of the colours
         drawn = axes.contour(
@@ -131,7 +137,8 @@ def hatch(axes, x, y, beyond):
         ends = np.flatnonzero(np.diff(np.concatenate([[0], row, [0]])))
         areas += [
             plt.Rectangle((left[first], low[j]), left[last] - left[first], low[j + 1] - low[j])
-            for first, last in ends.reshape(-1, 2)]
+            for first, last in ends.reshape(-1, 2)
+        ]
     outline = Path.make_compound_path(*(area.get_transform().transform_path(area.get_path())
                                         for area in areas))
     axes.add_patch(PathPatch(outline, fill=False, hatch="///", edgecolor=UNSAFE, linewidth=0))
@@ -143,7 +150,8 @@ def tick_texts(axes, along, axis, places, order, most):
     """Ticks at the points, or at as many of them as have room."""
     texts = [
         f"{place:.5g}" if axis["numeric"] else pathlib.PurePath(axis["texts"][i]).name
-        for place, i in zip(places, order)]
+        for place, i in zip(places, order)
+    ]
     room = (places[-1] - places[0]) / most
     kept = [0]
     for i, place in enumerate(places):
@@ -156,7 +164,8 @@ def tick_texts(axes, along, axis, places, order, most):
 
 
 def draw(made, value, rest, conditions=""):
-    """The map of one value over the first two axes, at the point `rest` of the others; `conditions` stand below the title, where no page has them."""
+    """The map of one value over the first two axes, at the point `rest` of the others; `conditions`
+    stand below the title, where no page has them."""
     first, second = made.axes[:2]
     # cells need increasing places
     order = np.argsort(first["places"]), np.argsort(second["places"])

@@ -1,11 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what a run left in its folder: tools/plot_results.py DIR [--output FILE.png] [--animate FILE.gif|FILE.mp4]
+"""Draws what a run left in its folder.
 
-Of a string: its well coloured by contact force, profiles of lateral displacement, contact force, axial force and torque along the measured
-depth, and the bit speed over time. Of a scene of parts, for each component: displacement at the start and largest displacement of all nodes,
-and the motion of the node that moves most; recorded forces between parts. --animate draws the motion besides: the lateral displacement of
-the string in its clearance, or the parts in space with magnified displacements. Needs h5py, numpy and matplotlib; reads results.h5 alone.
+    tools/plot_results.py DIR [--output FILE.png] [--animate FILE.gif|FILE.mp4]
+
+Of a string: its well coloured by contact force, profiles of lateral displacement, contact force,
+axial force and torque along the measured depth, and the bit speed over time. Of a scene of parts,
+for each component: displacement at the start and largest displacement of all nodes, and the motion
+of the node that moves most; recorded forces between parts. --animate draws the motion besides: the
+lateral displacement of the string in its clearance, or the parts in space with magnified
+displacements. Needs h5py, numpy and matplotlib; reads results.h5 alone.
 """
 import pathlib
 import sys
@@ -18,9 +22,8 @@ try:
     from plots import COLOURS, GREY, MAP, RPM, plt
     from report import figures, files, folder, scene3d
 except ImportError as missing:
-    sys.exit(
-        f"{missing}: plot_results.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3)."
-    )
+    sys.exit(f"{missing}: plot_results.py needs h5py, numpy and matplotlib (Debian: python3-h5py "
+             "python3-matplotlib, then /usr/bin/python3).")
 
 BLUE, ORANGE, GREEN = COLOURS[:3]
 WALL = "#e2e2e2"
@@ -50,7 +53,8 @@ def draw_static(row, results):
     radial, contact, axial, torque = row
     plots.profiles(row, [
         plots.label(*pair) for pair in (("lateral displacement", "mm"), ("contact force", "kN"),
-                                        ("axial force", "kN"), ("torque", "kN m"))], (s[0], s[-1]))
+                                        ("axial force", "kN"), ("torque", "kN m"))
+    ], (s[0], s[-1]))
     figures.draw_clearance(radial, s, results["/model/clearance"][:])
     radial.plot(1e3 * np.hypot(displacement[:, 0], displacement[:, 1]), s, color=BLUE,
                 linewidth=1.0, label="string")
@@ -99,7 +103,8 @@ def recorded(results):
 
 
 def draw_nodes(axes, results, start, motion):
-    """A component of all recorded nodes, part by part: at the start, and the range of the motion (samples x nodes, or None)."""
+    """A component of all recorded nodes, part by part: at the start, and the range of the motion
+    (samples x nodes, or None)."""
     part, names = results["/model/part"][:][recorded(results)], texts(results["/model/part_names"])
     row = np.arange(part.size)
     if motion is not None:
@@ -144,7 +149,8 @@ def draw_parts(results):
     moving = results.get("/transient", {})
     channels = [
         f"/transient/{law}/{name}" for law in moving if isinstance(moving[law], h5py.Group)
-        for name in moving[law]]
+        for name in moving[law]
+    ]
     rows, columns = len(components) + len(channels), 1 if motion is None and not channels else 2
     made, axes = plt.subplots(rows, columns, figsize=(5.5 * columns, 1.6 + 1.4 * rows),
                               squeeze=False, constrained_layout=True)
@@ -175,7 +181,8 @@ def draw(results):
 
 
 def lateral_names(results):
-    """What u and v are called: the frames of the nodes are carried along the well without spin, from north and east where it starts downwards."""
+    """What u and v are called: the frames of the nodes are carried along the well without spin,
+    from north and east where it starts downwards."""
     frame = results.get("/model/frame")
     known = frame is not None and frame[0, 0, 0] > ALONG
     return ("u, north at the surface", "v, east at the surface") if known else ("displacement u",
@@ -213,9 +220,9 @@ def moving_parts(results, samples):
     places = [list(np.searchsorted(rows, pair)) for pair in links]
     places += map(list, scene3d.held_edges(position, results["/model/part"][:][rows], places))
     columns = [components.index(name) if name in components else None for name in ("u", "v", "w")]
-    move = lambda sample: np.column_stack([
-        motion[sample][rows, c] if c is not None else np.zeros(len(rows))
-        for c in columns])  # noqa: E731
+    move = lambda sample: np.column_stack(
+        [motion[sample][rows, c] if c is not None else np.zeros(len(rows))
+         for c in columns])  # noqa: E731
     largest = max(float(np.abs(move(sample)).max()) for sample in samples)
     size = float(np.ptp(position, axis=0).max())
     factor = float(f"{LARGEST_SHARE * size / largest:.1g}") if largest > 0 and size > 0 else 1.0
@@ -242,27 +249,25 @@ def moving_parts(results, samples):
 def animate(results, path):
     """The motion as an animation of at most MOST_PICTURES samples."""
     if "/transient/time" not in results:
-        sys.exit(
-            "results.h5 has no motion to animate: the run ended with its static state. Run a deck with a list Transient (without --without Transient), or leave --animate out."
-        )
+        sys.exit("results.h5 has no motion to animate: the run ended with its static state. Run a "
+                 "deck with a list Transient (without --without Transient), or leave --animate "
+                 "out.")
     if "/transient/displacement" not in results:
         others = [name for name in FIELDS if f"/transient/{name}" in results]
         nodes = ", without Output/Depths and Output/Nodes" if "/transient/node" in results else ""
-        sys.exit(
-            f"results.h5 has a motion without displacements (of the fields it holds {', '.join(others) or 'none'}). "
-            f"Run the deck again with --set \"Output/Fields={{{', '.join(['displacement', *others])}}}\"{nodes}, or leave --animate out."
-        )
+        sys.exit("results.h5 has a motion without displacements (of the fields it holds "
+                 f"{', '.join(others) or 'none'}). Run the deck again with --set "
+                 f"\"Output/Fields={{{', '.join(['displacement', *others])}}}\"{nodes}, or leave "
+                 "--animate out.")
     if "/transient/node" in results:
-        sys.exit(
-            "results.h5 has the motion of chosen nodes alone. Take Output/Depths or Output/Nodes out and run the deck again, or leave --animate out."
-        )
+        sys.exit("results.h5 has the motion of chosen nodes alone. Take Output/Depths or "
+                 "Output/Nodes out and run the deck again, or leave --animate out.")
     time = results["/transient/time"][:]
     samples = np.unique(np.linspace(0, len(time) - 1, min(len(time), MOST_PICTURES)).astype(int))
     parts = "/model/part_names" in results
     if parts and "/model/located" not in results:
-        sys.exit(
-            "The parts of these results have no positions, so they cannot be drawn in space. Give coordinates in their part files, or leave --animate out."
-        )
+        sys.exit("The parts of these results have no positions, so they cannot be drawn in space. "
+                 "Give coordinates in their part files, or leave --animate out.")
     made, show = (moving_parts if parts else moving_string)(results, samples)
     title, said = show(samples[0], time[samples[0]])
     plots.headline(made, title, said)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the plots of a study: plot_study.py DIR [--output DIR] [--formats png,svg]
 
-Reads study.csv and study.h5 in DIR and writes study_speed, study_bases, study_modes, study_error_over_time, study_bit_speed, study_statistics,
-study_static and study_reference there, each where the study has what it shows. Needs h5py, numpy and matplotlib.
+Reads study.csv and study.h5 in DIR and writes study_speed, study_bases, study_modes,
+study_error_over_time, study_bit_speed, study_statistics, study_static and study_reference there,
+each where the study has what it shows. Needs h5py, numpy and matplotlib.
 """
 import argparse
 import math
@@ -15,14 +16,13 @@ try:
     import numpy as np
 
     import plots
-    from plots import COLOURS, GREY, MARKERS, RPM, Labels, headline, label, logarithmic, panels, percent, plt, shades
+    from plots import COLOURS, GREY, MARKERS, Labels, headline, label, logarithmic, percent, plt
     from report import deck, files, results
+    from report.figures_study import (PALE, draw_bit_speed, draw_error_over_time, draw_reference,
+                                      draw_static, draw_statistics, short)
 except ImportError as missing:
-    sys.exit(
-        f"{missing}: plot_study.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3)."
-    )
-
-PALE = "#d9d9d9"  # of what the curves are compared with
+    sys.exit(f"{missing}: plot_study.py needs h5py, numpy and matplotlib (Debian: python3-h5py "
+             "python3-matplotlib, then /usr/bin/python3).")
 
 
 class Run:
@@ -90,21 +90,23 @@ def ordered(runs):
     """Runs of a line in the order of the deck, failed ones skipped."""
     return [
         run for run in runs
-        if run.number("vibration_error") > 0 and run.number("cpu_per_simulated_s") > 0]
+        if run.number("vibration_error") > 0 and run.number("cpu_per_simulated_s") > 0
+    ]
 
 
 def published(study):
     for name in sorted(study.file.get("published", {})):
         group = study.file["published"][name]
         points = [
-            text.decode() if isinstance(text, bytes) else text
-            for text in group["points"][:]] if "points" in group else [""] * len(group["cpu_time"])
+            text.decode() if isinstance(text, bytes) else text for text in group["points"][:]
+        ] if "points" in group else [""] * len(group["cpu_time"])
         yield group.attrs["label"], group[
             "cpu_time"][:], group["error"][:] if "error" in group else None, points
 
 
 def draw_speed(study):
-    """vibration error against CPU time per simulated second: down and left is better. Names stand beside the lines where all have room there."""
+    """vibration error against CPU time per simulated second: down and left is better.
+    Names stand beside the lines where all have room there."""
     xs = [run.number("cpu_per_simulated_s") for run in study.methods]
     ys = [run.number("vibration_error") for run in study.methods]
     if not xs:
@@ -125,7 +127,8 @@ def draw_speed(study):
         study.conditions(),
         study.machine(), "solid: full model, dashed: reduced",
         "bands: to the longest of the repeats" if any(
-            run.spread() > 0 for run in study.methods) else ""]
+            run.spread() > 0 for run in study.methods) else ""
+    ]
     if study.failed:
         names = ", ".join(run.label for run in study.failed)
         note.append(f"failed, not shown: {names}"
@@ -169,14 +172,15 @@ def draw_speed(study):
         labels = relaid(labels, lines)
     for name, runs in drawn.items():
         for run in ([runs[0], runs[-1]] if len(runs) > 1 else []):
-            labels.put(short(run.value), [
-                (run.number("cpu_per_simulated_s"), run.number("vibration_error"))],
+            labels.put(short(run.value),
+                       [(run.number("cpu_per_simulated_s"), run.number("vibration_error"))],
                        study.colour[name], size=7.5, reach=(6, 10, 16))
     return made
 
 
 def relaid(labels, lines):
-    """The texts there are, after a legend has narrowed the axes: those that now lie on others are taken out."""
+    """The texts there are, after a legend has narrowed the axes: those that now lie on others are
+    taken out."""
     axes, texts = labels.axes, list(labels.axes.texts)
     moved = Labels(axes)
     for line in lines.values():
@@ -206,16 +210,6 @@ def draw_published(axes, labels, others):
             labels.put(text, [place], "#444444", size=7.5, reach=(6, 10, 16))
 
 
-def short(value):
-    """"Cut-off Frequency 25 Hz" -> "25 Hz"; "Modes 60" -> "60 modes"."""
-    if value.startswith("Modes "):
-        return value[6:] + " modes"
-    for name in ("Step ", "Cut-off Frequency "):
-        if value.startswith(name):
-            return value[len(name):]
-    return value[:1].lower() + value[1:] if value[:2].istitle() else value
-
-
 def sweeps_modes(run):
     return run.reduced and run.sweep.split("/")[0] in ("Reduction",
                                                        "Substructures") and run.row["modes"] != ""
@@ -225,7 +219,8 @@ def draw_modes(study):
     """vibration error against the number of modes."""
     lines = {name: [run for run in runs if sweeps_modes(run)] for name, runs in study.lines.items()}
     lines = {
-        name: runs for name, runs in lines.items() if len({run.row["modes"] for run in runs}) > 1}
+        name: runs for name, runs in lines.items() if len({run.row["modes"] for run in runs}) > 1
+    }
     if not lines:
         return None
     made, axes = plt.subplots(figsize=(8.5, 5.5), constrained_layout=True)
@@ -262,7 +257,8 @@ def known(runs, x, y):
 
 
 def draw_bases(study):
-    """What a reduced model costs and how wrong it is: one line per basis, or per variant of one. Failed motions show the frequencies they had."""
+    """What a reduced model costs and how wrong it is: one line per basis, or per variant of one.
+    Failed motions show the frequencies they had."""
     lines = {}
     for run in study.all:
         if run.kind == "method" and run.reduced and run.row["reduced_dofs"]:
@@ -280,11 +276,13 @@ def draw_bases(study):
     motion, shapes = "vibration error of the motion", f"largest error of {count} frequencies"
     shown = [
         (cpu, vibration_error, label("CPU time per simulated second", "s"), motion),
-        (dofs, vibration_error, "reduced dofs", motion), ]
+        (dofs, vibration_error, "reduced dofs", motion),
+    ]
     if any(run.row["frequency_error"] for runs in lines.values() for run in runs):
         shown += [
             (setup, error, label("CPU time of the reduction", "s"), shapes),
-            (dofs, error, "reduced dofs", shapes), ]
+            (dofs, error, "reduced dofs", shapes),
+        ]
     figure, grid = plt.subplots(
         len(shown) // 2, 2, figsize=(11, 2.4 + 3.6 * len(shown) / 2), squeeze=False,
         constrained_layout=True)
@@ -309,7 +307,8 @@ def draw_bases(study):
                          label="error of the reference")
     found = {
         label: handle for axes in grid.flat
-        for handle, label in zip(*axes.get_legend_handles_labels())}
+        for handle, label in zip(*axes.get_legend_handles_labels())
+    }
     figure.legend(found.values(), found.keys(), loc="upper center", bbox_to_anchor=(0.5, 0.0),
                   ncol=4, fontsize=8)
     headline(
@@ -319,209 +318,11 @@ def draw_bases(study):
     return figure
 
 
-def draw_error_over_time(study):
-    """eps_t(t): one panel per line, one curve per run."""
-    lines = {
-        name: [run for run in runs if len(run.curve("eps_t"))
-               ] for name, runs in study.lines.items()}
-    lines = {name: runs for name, runs in lines.items() if runs}
-    if not lines:
-        return None
-    figure, grid, columns = panels(len(lines), sharex=True, sharey=True)
-    check = study.companion("check")
-    positive = [
-        value for runs in lines.values() for run in runs for value in run.curve("eps_t")[5:]
-        if value > 0]
-    own = np.median(check.curve("eps_t")) if check and len(check.curve("eps_t")) else None
-    floor = max(min(positive), (own or 0) / 3, max(positive) * 1e-8)
-    for index, (axes, (name, runs)) in enumerate(zip(grid, lines.items())):
-        runs = sorted(runs, key=lambda run: run.number("vibration_error"))
-        for run, colour in zip(runs, shades(study.colour[name], len(runs))):
-            axes.semilogy(run.curve("error_time"), np.maximum(run.curve("eps_t"), floor / 2),
-                          linewidth=1, color=colour)
-        if check and len(check.curve("eps_t")):
-            axes.fill_between(check.curve("error_time"), floor / 2, check.curve("eps_t"),
-                              color="#d9d9d9", alpha=0.8, linewidth=0, zorder=0)
-        axes.set_title(name, color=study.colour[name], fontsize=9)
-        axes.set_xlim(*study.window()), axes.set_ylim(floor / 2, max(positive) * 2)
-        logarithmic(axes.yaxis, percent)
-        for run, below in ((runs[0], True), (runs[-1], False)) if len(runs) > 1 else ((runs[0],
-                                                                                       False), ):
-            end = run.curve("eps_t")[-max(1, len(run.curve("eps_t")) // 4):]
-            level = max(0.85 * end.min() if below else 1.15 * end.max(),
-                        floor * (4 if below else 1))
-            axes.text(study.window()[1], level,
-                      short(run.value) + " ", ha="right", va="top" if below else "bottom",
-                      fontsize=7.5, color=study.colour[name])
-        if index % columns == 0:
-            axes.set_ylabel("error eps_t")
-        if index >= len(lines) - columns:
-            axes.set_xlabel(label("time", "s"))
-    headline(
-        figure, "Error over time",
-        f"{study.scene()}; dark: the largest error of each method, grey: that of the reference itself"
-    )
-    return figure
-
-
-def representative(runs, enough=0.01):
-    """The fastest run of a line whose vibration error is at most 1 %, or else its most accurate one."""
-    good = [run for run in runs if run.number("vibration_error") <= enough]
-    return min(good, key=lambda run: run.number("cpu_per_simulated_s")) if good else min(
-        runs, key=lambda run: run.number("vibration_error"))
-
-
-def draw_bit_speed(study):
-    """Bit speed over time, one run of each line over the reference."""
-    reference = study.companion("reference")
-    if reference is None or not study.lines or not len(reference.curve("bit_time")):
-        return None
-    figure, grid, columns = panels(len(study.lines), height=1.9, sharex=True, sharey=True)
-    for index, (axes, (name, runs)) in enumerate(zip(grid, study.lines.items())):
-        run = representative(runs)
-        axes.plot(reference.curve("bit_time"), RPM * reference.curve("bit_speed"), color="#bdbdbd",
-                  linewidth=2.2)
-        axes.plot(run.curve("bit_time"), RPM * run.curve("bit_speed"), color=study.colour[name],
-                  linewidth=0.8)
-        axes.axvspan(*study.window(), color="#f2f2f2", zorder=0, linewidth=0)
-        axes.set_title(name + (f": {short(run.value)}" if run.value else ""),
-                       color=study.colour[name], fontsize=9)
-        axes.set_xlim(reference.curve("bit_time")[0], reference.curve("bit_time")[-1])
-        if index % columns == 0:
-            axes.set_ylabel(label("bit speed", "rpm"))
-        if index >= len(study.lines) - columns:
-            axes.set_xlabel(label("time", "s"))
-    headline(
-        figure, "Bit speed",
-        f"{study.scene()}; the fastest run of each method with vibration error up to 1 % (else its best) over the reference (grey); "
-        "shaded: window of errors")
-    return figure
-
-
-def draw_statistics(study):
-    """Contact duty, lateral motion and spectrum beyond the window."""
-    reference = study.companion("reference")
-    if reference is None or not len(
-            reference.curve("contact_duty")) or not study.lines or "profile" not in study.file:
-        return None
-    s = study.file["profile/s"][:]
-    rows = -(-len(study.lines) // 2)
-    figure = plt.figure(figsize=(11, 6 + 0.2 * rows), constrained_layout=True)
-    grid = figure.add_gridspec(2, 3, width_ratios=[1, 1, 2], height_ratios=[6, 0.2 * rows])
-    duty, rms, spectrum, key = (figure.add_subplot(place)
-                                for place in (grid[0, 0], grid[0, 1], grid[0, 2], grid[1, :]))
-    key.axis("off")
-    plots.profiles((duty, rms),
-                   (label("time in contact", "%"), label("lateral vibration", "mm rms")),
-                   (s[0], s[-1]))
-    duty.fill_betweenx(s, 100 * reference.curve("contact_duty"), step="mid", color=PALE,
-                       linewidth=0)
-    rms.fill_betweenx(s, 1e3 * reference.curve("lateral_rms"), color=PALE, linewidth=0)
-    if len(reference.curve("spectrum")) > 1:
-        spectrum.fill_between(
-            reference.curve("frequency")[1:],
-            reference.curve("spectrum")[1:], color=PALE, linewidth=0)
-    handles = []
-    for name, runs in study.lines.items():
-        run = representative(runs)
-        style = {
-            "color": study.colour[name], "linewidth": 1, "linestyle": "--" if run.reduced else "-"}
-        duty.plot(100 * run.curve("contact_duty"), s, **style)
-        handles += rms.plot(1e3 * run.curve("lateral_rms"), s,
-                            label=name + (f": {short(run.value)}" if run.value else ""), **style)
-        if len(run.curve("spectrum")) > 1:
-            spectrum.plot(run.curve("frequency")[1:], run.curve("spectrum")[1:], **style)
-    duty.set_xlim(0, 102), rms.set_xlim(left=0)
-    if len(reference.curve("spectrum")) > 1:
-        top = reference.curve("spectrum")[1:].max()
-        spectrum.set_xscale("log"), spectrum.set_yscale("log")
-        spectrum.set_ylim(1e-9 * top, 3 * top)
-        spectrum.set_xlim(reference.curve("frequency")[1], reference.curve("frequency")[-1])
-        logarithmic(spectrum.xaxis), logarithmic(spectrum.yaxis)
-        spectrum.set_xlabel(label("frequency", "Hz")), spectrum.set_ylabel(
-            label("lateral spectrum, mean of nodes", "m²/Hz"))
-    else:
-        spectrum.set_visible(False)
-    key.legend(handles=handles, loc="center", ncol=2, fontsize=8)
-    headline(
-        figure, f"Statistics beyond {study.window()[1]:g} s",
-        f"{study.scene()}; the fastest run of each method with vibration error up to 1 % (else its best), the reference in grey"
-    )
-    return figure
-
-
-def draw_static(study):
-    """Where every run starts from."""
-    if "profile" not in study.file:
-        return None
-    profile = {name: values[:] for name, values in study.file["profile"].items()}
-    s = profile["s"]
-    middle = 0.5 * (s[1:] + s[:-1])
-    figure, row = plt.subplots(1, 4, figsize=(11, 5.5), sharey=True, constrained_layout=True)
-    radial, contact, axial, torque = row
-    plots.profiles(row, [
-        label(*pair) for pair in (("lateral displacement", "mm"), ("contact force", "kN"),
-                                  ("axial force", "kN"), ("torque", "kN m"))], (s[0], s[-1]))
-    radial.fill_betweenx(s, 1e3 * profile["clearance"], step="mid", color="#ececec", linewidth=0)
-    radial.plot(1e3 * profile["radius"], s, color="black", linewidth=1.2)
-    scale = np.linalg.norm(profile["radius"]) or 1.0
-    away = {}
-    for run in study.methods:
-        start = run.curve("initial_radius")
-        if len(start) == len(s) and np.linalg.norm(start - profile["radius"]) > 1e-3 * scale:
-            away.setdefault(run.line, []).append((np.linalg.norm(start - profile["radius"]), run))
-    for name, runs in away.items():
-        run = max(runs, key=lambda pair: pair[0])[1]
-        radial.plot(1e3 * run.curve("initial_radius"), s, color=study.colour[name], linewidth=1,
-                    linestyle="--", label=f"start of {name}: {short(run.value)}")
-    if away:
-        figure.legend(loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, fontsize=8)
-    radial.set_xlim(0, 1150 * max(profile["radius"].max(), 1e-9))
-    contact.hlines(s, 0, profile["normal_force"] / 1e3, color=COLOURS[0], linewidth=1.2)
-    contact.set_xlim(left=0)
-    for axes, key, colour in ((axial, "axial_force", COLOURS[1]), (torque, "torque", COLOURS[2])):
-        axes.plot(profile[key] / 1e3, middle, color=colour, linewidth=1.4)
-        axes.axvline(0, color=GREY, linewidth=0.6)
-    headline(figure, "Static state (black) in its clearance (grey)", study.scene())
-    return figure
-
-
-def draw_reference(study):
-    """How far the reference can be trusted: growth of a small change, and distance to its check."""
-    curves = [(kind, study.companion(kind), text, colour) for kind, text, colour in (
-        ("check", "distance to the check run", COLOURS[0]),
-        ("sensitivity", f"growth of a change of {float(study.attribute('perturbation', 0)):.0e} m",
-         COLOURS[1]),
-    )]
-    curves = [entry for entry in curves if entry[1] is not None and len(entry[1].curve("growth"))]
-    if not curves:
-        return None
-    figure, axes = plt.subplots(figsize=(8.5, 4.8), constrained_layout=True)
-    axes.set_yscale("log")
-    for _, run, text, colour in curves:
-        time, growth = run.curve("growth_time"), run.curve("growth")
-        kept = growth > 0
-        axes.plot(time[kept], growth[kept], color=colour, linewidth=1)
-        at = int(0.62 * (np.count_nonzero(kept) - 1))
-        axes.annotate(text, (time[kept][at], growth[kept][at:at + max(1, at // 4)].max()),
-                      xytext=(0, 9), textcoords="offset points", ha="center", color=colour,
-                      fontweight="bold")
-    axes.axvspan(*study.window(), color="#f2f2f2", zorder=0, linewidth=0)
-    axes.text(study.window()[0], 1, " window of pointwise errors",
-              transform=axes.get_xaxis_transform(), va="top", fontsize=8, color="#666666",
-              style="italic")
-    logarithmic(axes.yaxis)
-    axes.set_xlim(time[0], time[-1])
-    axes.set_xlabel(label("time",
-                          "s")), axes.set_ylabel(label("largest lateral distance of a node", "m"))
-    headline(figure, "What the reference is worth", study.scene())
-    return figure
-
-
 PLOTS = {
     "speed": draw_speed, "bases": draw_bases, "modes": draw_modes,
     "error_over_time": draw_error_over_time, "bit_speed": draw_bit_speed,
-    "statistics": draw_statistics, "static": draw_static, "reference": draw_reference}
+    "statistics": draw_statistics, "static": draw_static, "reference": draw_reference
+}
 
 
 def draw_all(study, output, kinds):

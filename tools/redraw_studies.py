@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws figures of record of studies again, in the style of today, from the tables that the documents hold.
+"""Draws figures of record of studies again, in the style of today, from the tables that the
+documents hold.
 
     tools/redraw_studies.py [--output docs/figures] [--only speed_helical,...]
 
-speed_*.svg come from docs/tables/speed_*.csv, cms_variants_*.png from docs/tables/cms_variants_*.csv; nothing is measured again. Needs h5py,
-numpy and matplotlib.
+speed_*.svg come from docs/tables/speed_*.csv, cms_variants_*.png from
+docs/tables/cms_variants_*.csv; nothing is measured again. Needs h5py, numpy and matplotlib.
 """
 import argparse
 import csv
@@ -23,9 +24,8 @@ try:
     import plots
     from report import deck
 except ImportError as missing:
-    sys.exit(
-        f"{missing}: redraw_studies.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3)."
-    )
+    sys.exit(f"{missing}: redraw_studies.py needs h5py, numpy and matplotlib (Debian: python3-h5py "
+             "python3-matplotlib, then /usr/bin/python3).")
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 COLUMNS = ("line", "label", "kind", "model", "sweep", "status", "vibration_error",
@@ -33,7 +33,8 @@ COLUMNS = ("line", "label", "kind", "model", "sweep", "status", "vibration_error
            "setup_cpu", "reason")
 SPEED = {
     "helical": "study_helical_170m", "stress": "stress_170m", "vertical": "vertical_1000m",
-    "inclined": "inclined_1000m"}
+    "inclined": "inclined_1000m"
+}
 VARIANTS = {"helical": "cms_variants", "frame": "cms_variants_frame"}
 BASELINE = "RK4 adaptive, Tolerance 1e-2"
 
@@ -75,13 +76,14 @@ def study(name, rows, attributes):
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         with open(folder / "study.csv", "w", newline="", encoding="utf-8") as out:
-            csv.writer(out).writerows([
-                COLUMNS, *([row.get(column, "") for column in COLUMNS] for row in rows)])
+            csv.writer(out).writerows(
+                [COLUMNS, *([row.get(column, "") for column in COLUMNS] for row in rows)])
         with h5py.File(folder / "study.h5", "w") as file:
             file.attrs.update({
                 "deck_name": xml.fromstring(text).get("name", name),
                 "deck_text": text,
-                **attributes, })
+                **attributes,
+            })
             published(lists, file)
         return plot_study.Study(folder)
 
@@ -101,17 +103,20 @@ def speed(name):
         "status": "done" if row["vibration_error"] else "failed",
         "vibration_error": row["vibration_error"],
         "cpu_per_simulated_s": row["cpu_per_simulated_s [s]"], "cpu_spread": row["cpu_spread"],
-        "reason": row["remarks"]} for row in table]
+        "reason": row["remarks"]
+    } for row in table]
     machine = re.search(r"^Machine: (.*?), \d+ processors", page, re.M).group(1)
     return plot_study.draw_speed(
         study(
             SPEED[name], rows, {
                 "machine": machine, "baseline": BASELINE, "self_error": float(said.group(1)),
-                "window_begin": float(said.group(2)), "window_end": float(said.group(3))}))
+                "window_begin": float(said.group(2)), "window_end": float(said.group(3))
+            }))
 
 
 def variants(name):
-    """Of docs/tables/cms_variants_NAME.csv, and what the section of the page says of machine and steps."""
+    """Of docs/tables/cms_variants_NAME.csv, and what the section of the page says of machine and
+    steps."""
     page = (PROJECT / "docs/cms-variants.md").read_text(encoding="utf-8")
     section = page[page.index(f"<!-- {name} -->"):]
     section = section[:section.index("<!-- end -->")]
@@ -126,7 +131,8 @@ def variants(name):
             "model": "full" if line_of(label) == "Full" else "reduced",
             "status": "done" if error else "failed", "vibration_error": error,
             "cpu_per_simulated_s": row["cpu_per_simulated_s [s]"], "reduced_dofs": row["dofs"],
-            "frequency_error": row["frequency_error"], "setup_cpu": row["setup_cpu [s]"]})
+            "frequency_error": row["frequency_error"], "setup_cpu": row["setup_cpu [s]"]
+        })
     own = re.search(r"vibration error of (\S+) against RK4", " ".join(section.split()))
     _, lists = scene(VARIANTS[name])
     window = float(
@@ -136,14 +142,16 @@ def variants(name):
     return plot_study.draw_bases(
         study(
             VARIANTS[name], rows, {
-                "machine": re.search(r"^Machine: (.*?), \d+ cores", section,
-                                     re.M).group(1), "self_error": float(own.group(1)),
-                "frequencies": 20, "window_begin": 0.0, "window_end": window}))
+                "machine": re.search(
+                    r"^Machine: (.*?), \d+ cores", section, re.M).group(1), "self_error": float(
+                        own.group(1)), "frequencies": 20, "window_begin": 0.0, "window_end": window
+            }))
 
 
 FIGURES = {
     **{f"speed_{name}.svg": (speed, name) for name in SPEED},
-    **{f"cms_variants_{name}.png": (variants, name) for name in VARIANTS}}
+    **{f"cms_variants_{name}.png": (variants, name) for name in VARIANTS}
+}
 
 
 def main():

@@ -3,17 +3,21 @@
 """Runs the shipped decks with two versions of the program and compares everything they write.
 
     same_results.py OLD NEW [--end 0.2] [--only PATTERN] [--names names.json] [--json table.json]
-    same_results.py --write PAGE table.json ...   writes the tables of such files into the page, between its marks
+    same_results.py --write PAGE table.json ...   writes the tables of such files into the page,
+                                                  between its marks
 
-OLD and NEW are programs (tooljoint), each run in its own source tree (--old-tree, --new-tree; default: this one) because decks
-and their parameters may have been renamed between them. Every deck of xml/ and examples/ and every gold of tests/regression/ is
-run up to --end seconds of motion at its own fixed settings. All datasets of results.h5 and all numbers of summary.json are
-compared but for times and memory. A line per scene names the largest difference: relative to the largest entry of its dataset.
+OLD and NEW are programs (tooljoint), each run in its own source tree (--old-tree, --new-tree;
+default: this one) because decks and their parameters may have been renamed between them. Every deck
+of xml/ and examples/ and every gold of tests/regression/ is run up to --end seconds of motion at
+its own fixed settings. All datasets of results.h5 and all numbers of summary.json are compared but
+for times and memory. A line per scene names the largest difference: relative to the largest entry
+of its dataset.
 
-Allowed are 1e-10 for the static state, 1e-9 for the motion, 1 % of the counts of steps (--static, --motion, --steps).
-A deck both programs refuse as bad input (exit code 2: it needs a method of its own example, say) is not compared; any other
-failure counts as a difference, equal or not.
---names gives a JSON object {old dotted key or dataset: new one}. Exit code 0: every scene agrees; 1: one does not or fails.
+Allowed are 1e-10 for the static state, 1e-9 for the motion, 1 % of the counts of steps (--static,
+--motion, --steps). A deck both programs refuse as bad input (exit code 2: it needs a method of its
+own example, say) is not compared; any other failure counts as a difference, equal or not. --names
+gives a JSON object {old dotted key or dataset: new one}. Exit code 0: every scene agrees; 1: one
+does not or fails.
 """
 import argparse
 import json
@@ -57,7 +61,8 @@ def run(program, tree, deck, overrides, end, folder):
     moves = any(child.get("name") == "Transient" for child in ET.parse(tree / deck).getroot())
     for override in overrides + ([f"Transient/End Time={end}"] if moves else []):
         command += ["--set", override]
-    # a program of another tree would load the libraries of this one where both were built at the same path
+    # a program of another tree would load the libraries of this one where both were built at the
+    # same path
     own = {**os.environ, "LD_LIBRARY_PATH": str(pathlib.Path(program).resolve().parent)}
     done = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           text=True, check=False, env=own)
@@ -101,7 +106,8 @@ def datasets(file):
             if isinstance(item, h5py.Dataset) else None)
     return {
         name: value if isinstance(value, np.ndarray) else np.asarray(value)
-        for name, value in found.items()}
+        for name, value in found.items()
+    }
 
 
 def bound(name, options):
@@ -112,7 +118,8 @@ def bound(name, options):
 
 
 def compare(old, new, options, names):
-    """(largest difference of a kind to its bound, name, difference), and how many values were compared."""
+    """(largest difference of a kind to its bound, name, difference), and how many values were
+    compared."""
     worst, count = (0.0, "", 0.0), 0
     values = []
     summaries = [json.loads((folder / "summary.json").read_text()) for folder in (old, new)]
@@ -148,7 +155,8 @@ def cell(row):
         return ""
     if "exit" in row:
         return "refused by both" if row["exit"] == [
-            BAD_INPUT, BAD_INPUT] else f"exit {row['exit'][0]} / {row['exit'][1]}"
+            BAD_INPUT, BAD_INPUT
+        ] else f"exit {row['exit'][0]} / {row['exit'][1]}"
     if row["largest_difference"] == 0.0:
         return "bitwise the same"
     size = row["largest_difference"]
@@ -157,14 +165,16 @@ def cell(row):
 
 
 def written(page, tables):
-    """The page with the tables between its marks: a row for each scene, a column for each pair of programs."""
+    """The page with the tables between its marks: a row for each scene, a column for each pair of
+    programs."""
     before, rest = page.split(MARKS[0])
     _, after = rest.split(MARKS[1])
     names = list(dict.fromkeys(row["scene"] for table in tables for row in table["scenes"]))
     found = [{row["scene"]: row for row in table["scenes"]} for table in tables]
     lines = [
         "| scene | " + " | ".join(f"{table['old']} to {table['new']}" for table in tables) + " |",
-        "|---|" + "---|" * len(tables)]
+        "|---|" + "---|" * len(tables)
+    ]
     lines += [
         f"| {name} | " + " | ".join(cell(rows.get(name)) for rows in found) + " |" for name in names
     ]
@@ -210,7 +220,8 @@ def main():
                 run(options.old, options.old_tree.resolve(), deck, overrides, options.end,
                     str(folders[0])),
                 run(options.new, options.new_tree.resolve(), *news[name], options.end,
-                    str(folders[1]))]
+                    str(folders[1]))
+            ]
             if codes[0][0] != codes[1][0] or codes[0][0] != 0:
                 refused = codes[0][0] == codes[1][0] == BAD_INPUT
                 agree = agree and refused
@@ -223,19 +234,21 @@ def main():
         fits = ratio <= 1.0
         agree = agree and fits
         print(
-            f"{name:45} {count:>7} {'bitwise the same' if d == 0.0 else f'{d:.1e}':>19}  {where}{'' if fits else '  TOO LARGE'}",
-            flush=True)
+            f"{name:45} {count:>7} {'bitwise the same' if d == 0.0 else f'{d:.1e}':>19}  "
+            f"{where}{'' if fits else '  TOO LARGE'}", flush=True)
         table.append({
             "scene": name, "values": count,
             "largest_difference": d if math.isfinite(d) else "missing", "where": where,
-            "agrees": fits})
+            "agrees": fits
+        })
     if not table:
         print("No scene was compared.")
         return 1
     if options.json:
         whole = {
             "old": version(options.old), "new": version(options.new), "end": options.end,
-            "scenes": table}
+            "scenes": table
+        }
         options.json.write_text(json.dumps(whole, indent=1) + "\n")
     return 0 if agree else 1
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of docs/scale.md, drawn from its tables: time and memory against dofs, ranks and rows. Without a measurement; tools/scale.py does the same."""
+"""Figures of docs/scale.md, drawn from its tables: time and memory against dofs, ranks and rows.
+Without a measurement; tools/scale.py does the same."""
 import pathlib
 import re
 import sys
@@ -12,18 +13,21 @@ NAMES = {
     "scale_solids": "Time and memory of large parts against their dofs",
     "scale_strings": "Time of static states against their dofs",
     "scale_ranks": "Time, efficiency and memory against the number of ranks",
-    "scale_rows": "Rows per hour and time of a plan"}
+    "scale_rows": "Rows per hour and time of a plan"
+}
 
 
 def tables(text):
-    """Tables of a document, each as a list of rows {column: text}; columns of one name are numbered from the second on."""
+    """Tables of a document, each as a list of rows {column: text}; columns of one name are numbered
+    from the second on."""
     found = []
     for block in re.findall(r"(?:^\|.*\n)+", text + "\n", re.M):
         head, _, *lines = [[cell.strip() for cell in line.strip().strip("|").split("|")]
                            for line in block.splitlines()]
         head = [
             name if head.index(name) == i else f"{name} {head[:i].count(name) + 1}"
-            for i, name in enumerate(head)]
+            for i, name in enumerate(head)
+        ]
         found.append([dict(zip(head, line)) for line in lines])
     return found
 

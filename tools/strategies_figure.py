@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure of docs/strategies.md, drawn from its table: CPU time without a strategy over that with all. Without a measurement; target `strategies` draws it, too."""
+"""Figure of docs/strategies.md, drawn from its table: CPU time without a strategy over that with
+all. Without a measurement; target `strategies` draws it, too."""
 import pathlib
 import re
 import sys
@@ -17,7 +18,8 @@ def kind(cell):
     """What a run without the strategy is; None where the case does not use it."""
     if cell in ("-", ""):
         return None
-    return "refused" if cell == "refused" else "motion differs" if "differs" in cell else "same motion"
+    return ("refused"
+            if cell == "refused" else "motion differs" if "differs" in cell else "same motion")
 
 
 def draw(text):

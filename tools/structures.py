@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Test structures as part files: beams, frames, solids and rotors assembled with scipy, knowing nothing of the program.
+"""Test structures as part files: beams, frames, solids and rotors assembled with scipy, knowing
+nothing of the program.
 
-Every structure is a `Structure`: sparse M, C, K, labels (node from 1, component) and positions. SI units.
+Every structure is a `Structure`: sparse M, C, K, labels (node from 1, component) and positions. SI
+units.
 """
 import pathlib
 
@@ -56,12 +58,14 @@ def _plane_bending(E, I, rho, A, l):
         [156, 22 * l, 54, -13 * l],
         [22 * l, 4 * l * l, 13 * l, -3 * l * l],
         [54, 13 * l, 156, -22 * l],
-        [-13 * l, -3 * l * l, -22 * l, 4 * l * l], ])
+        [-13 * l, -3 * l * l, -22 * l, 4 * l * l],
+    ])
     return k, m
 
 
 def beam_element(l, radius, E, nu, rho):
-    """Euler-Bernoulli element of a round bar along its local z: K, M (consistent) and G of unit speed about z (skew, rotary inertia of the disc kind)."""
+    """Euler-Bernoulli element of a round bar along its local z: K, M (consistent) and G of unit
+    speed about z (skew, rotary inertia of the disc kind)."""
     A, I = np.pi * radius**2, np.pi * radius**4 / 4
     K, M, G = np.zeros((12, 12)), np.zeros((12, 12)), np.zeros((12, 12))
     k, m = _plane_bending(E, I, rho, A, l)
@@ -85,7 +89,8 @@ def beam_element(l, radius, E, nu, rho):
 
 
 def members(lines, radius, material=None, speed=0.0):
-    """Round bars between points: `lines` is a list of (node, node) on `points`; rotation by the smallest turn from z."""
+    """Round bars between points: `lines` is a list of (node, node) on `points`; rotation by the
+    smallest turn from z."""
     material = material or STEEL
     points, pairs = lines
     points = np.asarray(points, float)
@@ -109,7 +114,8 @@ def members(lines, radius, material=None, speed=0.0):
     matrix = {
         name: sparse.csr_matrix(
             (np.concatenate(v), (np.concatenate(rows), np.concatenate(columns))), (n, n))
-        for name, v in values.items()}
+        for name, v in values.items()
+    }
     symmetric = lambda A: (A + A.T) / 2
     return Structure(symmetric(matrix["M"]), symmetric(matrix["K"]),
                      speed * matrix["G"] if speed else None, positions=points)
@@ -209,12 +215,14 @@ def solid(nx, ny, nz, size=(1.0, 1.0, 4.0), material=None):
 
 def deck(path, parts, joints=(), reduction=None):
     """`parts`: name -> file; `reduction`: XML inside the list Reduction."""
-    imported = "".join(
-        f'<ParameterList name="{name}"><Parameter name="File" type="string" value="{file}"/></ParameterList>'
-        for name, file in parts.items())
-    joined = f'<Parameter name="Joints" type="Array(string)" value="{{{", ".join(joints)}}}"/>' if joints else ""
-    reduced = f'<ParameterList name="Reduction">{reduction}</ParameterList>' if reduction is not None else ""
+    imported = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" '
+                       f'value="{file}"/></ParameterList>' for name, file in parts.items())
+    joined = ('<Parameter name="Joints" type="Array(string)" '
+              f'value="{{{", ".join(joints)}}}"/>') if joints else ""
+    reduced = (f'<ParameterList name="Reduction">{reduction}</ParameterList>'
+               ) if reduction is not None else ""
     pathlib.Path(path).write_text(
-        f'<ParameterList name="test"><ParameterList name="Parts"><ParameterList name="Imported">{imported}</ParameterList>{joined}'
-        f'</ParameterList>{reduced}</ParameterList>', encoding="utf-8")
+        '<ParameterList name="test"><ParameterList name="Parts"><ParameterList '
+        f'name="Imported">{imported}</ParameterList>{joined}</ParameterList>{reduced}</'
+        'ParameterList>', encoding="utf-8")
     return path

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A block of hexahedra as a part: make_block.py NX NY NZ [--size LX LY LZ] [--joined N] [--out FILE]
+"""A block of hexahedra as a part.
 
-Trilinear elements with eight nodes, 2 x 2 x 2 points of Gauss, consistent mass, steel. The set `root` holds the
-nodes of the end x = 0, the set `tip` N nodes of the other end (all unless given), spread evenly over it; with
-N = -1 there is no such set.
+    make_block.py NX NY NZ [--size LX LY LZ] [--joined N] [--out FILE]
+
+Trilinear elements with eight nodes, 2 x 2 x 2 points of Gauss, consistent mass, steel. The set
+`root` holds the nodes of the end x = 0, the set `tip` N nodes of the other end (all unless given),
+spread evenly over it; with N = -1 there is no such set.
 """
 import argparse
 
@@ -29,7 +31,8 @@ def element(h):
         shape = one.prod(axis=1)
         slope = np.column_stack([
             CORNERS[:, a] / 2 * one[:, (a + 1) % 3] * one[:, (a + 2) % 3] * 2 / h[a]
-            for a in range(3)])
+            for a in range(3)
+        ])
         B = np.zeros((6, 24))
         for i, (x, y, z) in enumerate(slope):
             B[:, 3 * i:3 * i + 3] = [[x, 0, 0], [0, y, 0], [0, 0, z], [y, x, 0], [0, z, y],
@@ -51,7 +54,8 @@ def assemble(counts, size):
     n = 3 * int(np.prod(nodes))
     both = [
         sparse.csr_matrix((np.tile(A.ravel(), len(corner)), (row, column)), shape=(n, n))
-        for A in (K, M)]
+        for A in (K, M)
+    ]
     for A in both:
         A.sum_duplicates()
     both = [((A + A.T) * 0.5).tocoo() for A in both]  # equal triangles to the last bit

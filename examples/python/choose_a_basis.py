@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Choose a basis: how many coordinates does each reduction method need for the lowest ten frequencies of a beam of three parts, and does the
-error estimate, which does not know the full model, tell the same? A method written here in a few lines takes part.
+"""Choose a basis: how many coordinates does each reduction method need for the lowest ten
+frequencies of a beam of three parts, and does the error estimate, which does not know the full
+model, tell the same? A method written here in a few lines takes part.
 """
 # %% Definitions
 import common  # beside this script
@@ -13,7 +14,8 @@ EA, EI, MASS = 4.0e8, 6.0e5, 30.0  # N, N m2, kg/m
 
 @tj.basis("Inverse Steps")
 def inverse_steps(part, count, steps=2):
-    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko, Martinsson, Tropp 2011)."""
+    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko,
+    Martinsson, Tropp 2011)."""
     vectors = np.random.default_rng(1).standard_normal((len(part.interior), count + 4))
     for step in range(steps):
         vectors = np.linalg.qr(part.solve_interior(part.interior_mass @ vectors))[0]

@@ -41,20 +41,25 @@ def line(begin, end):
 
 
 def beam(length, elements, EA, EI, mass, c=1.0, s=0.0):
-    """K and M of plane Euler-Bernoulli elements (u, v, theta) in axes in which the beam has the direction (c, s)."""
+    """K and M of plane Euler-Bernoulli elements (u, v, theta) in axes in which the beam has the
+    direction (c, s)."""
     l = length / elements
     K, M = np.zeros((6, 6)), np.zeros((6, 6))
     axial, bending = np.ix_([0, 3], [0, 3]), np.ix_([1, 2, 4, 5], [1, 2, 4, 5])
     K[axial] = EA / l * np.array([[1, -1], [-1, 1]])
     M[axial] = mass * l / 6 * np.array([[2, 1], [1, 2]])
-    K[bending] = EI / l**3 * np.array([[12, 6 * l, -12, 6 * l], [
-        6 * l, 4 * l * l, -6 * l, 2 * l * l], [-12, -6 * l, 12, -6 * l],
-                                       [6 * l, 2 * l * l, -6 * l, 4 * l * l]])
+    K[bending] = EI / l**3 * np.array([
+        [12, 6 * l, -12, 6 * l],
+        [6 * l, 4 * l * l, -6 * l, 2 * l * l],
+        [-12, -6 * l, 12, -6 * l],
+        [6 * l, 2 * l * l, -6 * l, 4 * l * l],
+    ])
     M[bending] = mass * l / 420 * np.array([
         [156, 22 * l, 54, -13 * l],
         [22 * l, 4 * l * l, 13 * l, -3 * l * l],
         [54, 13 * l, 156, -22 * l],
-        [-13 * l, -3 * l * l, -22 * l, 4 * l * l], ])
+        [-13 * l, -3 * l * l, -22 * l, 4 * l * l],
+    ])
     turn = np.kron(np.eye(2), [[c, s, 0], [-s, c, 0], [0, 0, 1]])
     return tuple(
         assemble([(turn.T @ each @ turn, np.arange(3 * e, 3 * e + 6))

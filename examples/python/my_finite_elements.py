@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""My finite elements: a bracket of bilinear plane-stress elements, assembled here with numpy and scipy, is cut into two parts and reduced.
+"""My finite elements: a bracket of bilinear plane-stress elements, assembled here with numpy and
+scipy, is cut into two parts and reduced.
 
-Its tip answers a harmonic force; the reduced model is compared with the full one over the frequency, and with scipy alone at some of them.
+Its tip answers a harmonic force; the reduced model is compared with the full one over the
+frequency, and with scipy alone at some of them.
 """
 # %% Definitions
 import common  # beside this script
@@ -25,9 +27,8 @@ def element(side):
         shape = (1 + corners * point).prod(axis=1) / 4
         slope = corners * (1 + corners * point)[:, ::-1] / 4 * 2 / side  # d shape / d(x, y)
         B, N = np.zeros((3, 8)), np.kron(shape, np.eye(2))
-        B[0, ::2], B[1, 1::2], B[2, ::2], B[2, 1::2] = slope[:, 0], slope[:, 1], slope[:,
-                                                                                       1], slope[:,
-                                                                                                 0]
+        B[0, ::2], B[1, 1::2] = slope.T
+        B[2, ::2], B[2, 1::2] = slope[:, 1], slope[:, 0]
         weight = THICKNESS * side**2 / 4
         K += weight * B.T @ D @ B
         M += weight * DENSITY * N.T @ N
@@ -46,12 +47,14 @@ def mesh(per_arm):
 
 
 def part(name, elements, nodes, side, joined, tip=-1):
-    """The part of these elements, clamped at the top of the upright arm; the node `tip` is retained."""
+    """The part of these elements, clamped at the top of the upright arm; the node `tip` is
+    retained."""
     own = np.unique(elements)
     place = {node: n for n, node in enumerate(own)}
     dofs = [
         np.array([[2 * place[node], 2 * place[node] + 1] for node in each]).ravel()
-        for each in elements]
+        for each in elements
+    ]
     K, M = (common.assemble([(matrix, each) for each in dofs], 2 * len(own))
             for matrix in element(side))
     free = np.repeat(nodes[own, 1] < SIZE - 1e-9, 2)
@@ -67,7 +70,8 @@ def response(model, tip, frequencies):
     force = np.eye(len(model))[tip]
     return np.array([
         scipy.sparse.linalg.spsolve((K + 1j * w * C - w**2 * M).tocsc(), force)[tip]
-        for w in 2 * np.pi * frequencies])
+        for w in 2 * np.pi * frequencies
+    ])
 
 
 # %% Mesh and parts
@@ -79,7 +83,8 @@ tip = int(np.argmax(nodes[:, 0] + nodes[:, 1] *
                     (nodes[:, 0] > SIZE - 1e-9)))  # the upper corner of the foot's end
 parts = [
     part("upright", elements[upright], nodes, side, joined),
-    part("foot", elements[~upright], nodes, side, joined, tip)]
+    part("foot", elements[~upright], nodes, side, joined, tip)
+]
 
 # %% Full and reduced
 full, reduced = tj.couple(parts), tj.synthesise(parts, "Craig-Bampton", cut_off_frequency="30 kHz")
@@ -89,16 +94,16 @@ print(
 modes = tj.modes(full, 6)
 rows = tj.compare_modes(reduced, 6)
 for row, whole in zip(rows, modes.frequency):
-    print(
-        f"{whole:10.2f} Hz   error {row['error']:8.1e}   estimate {row['estimate']:8.1e}   MAC {row['mac']:.6f}"
-    )
+    print(f"{whole:10.2f} Hz   error {row['error']:8.1e}   estimate {row['estimate']:8.1e}   MAC "
+          f"{row['mac']:.6f}")
 assert 0 <= max(row["error"] for row in rows) < 2e-3
 
 # %% Frequency response
 frequencies = np.linspace(50, 1.2 * modes.frequency[3], 60 if options.short else 300)
 answers = {
     name: response(model, model.position(tip + 1, "v"), frequencies)
-    for name, model in (("full", full), ("reduced", reduced.model))}
+    for name, model in (("full", full), ("reduced", reduced.model))
+}
 error = abs(answers["reduced"] - answers["full"]).max() / abs(answers["full"]).max()
 print(f"largest error of the response: {error:.1e} of its largest value")
 assert error < 0.05

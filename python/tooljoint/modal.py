@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 
 
 class Modes:
-    """Modes of a model: `frequency` [Hz] (negative where omega^2 is), `shapes` (dofs x modes), `residuals` (relative).
-    Damped ones also have `values`, s [1/s], and `damping`, the damping ratios; their shapes are complex.
+    """Modes of a model: `frequency` [Hz] (negative where omega^2 is), `shapes` (dofs x modes),
+    `residuals` (relative). Damped ones also have `values`, s [1/s], and `damping`, the damping
+    ratios; their shapes are complex.
     """
     def __init__(self, frequency: ArrayLike, shapes: np.ndarray, residuals: np.ndarray,
                  values: np.ndarray | None = None):
@@ -38,11 +39,13 @@ class Modes:
         return len(self.frequency)
 
     def __repr__(self):
-        return f"<Modes: {len(self)}, {', '.join(f'{one:.6g}' for one in self.frequency[:5])}{', ...' if len(self) > 5 else ''} Hz>"
+        first = ", ".join(f"{one:.6g}" for one in self.frequency[:5])
+        return f"<Modes: {len(self)}, {first}{', ...' if len(self) > 5 else ''} Hz>"
 
 
 def modes(of: HasModel, count: int) -> Modes:
-    """The `count` lowest undamped modes of a model, a part, a reduced part or a synthesis, closed contacts linear. UsageError, ModelError.
+    """The `count` lowest undamped modes of a model, a part, a reduced part or a synthesis, closed
+    contacts linear. UsageError, ModelError.
 
     >>> import numpy as np, tooljoint as tj
     >>> mass = tj.part("mass", [[1.0]], [[(2 * np.pi) ** 2]])
@@ -55,7 +58,8 @@ def modes(of: HasModel, count: int) -> Modes:
 
 
 def damped_modes(of: HasModel, count: int, t: float = 0.0) -> Modes:
-    """The `count` damped modes of smallest |s|, one of each conjugate pair, with the matrices of the time t.
+    """The `count` damped modes of smallest |s|, one of each conjugate pair, with the matrices of
+    the time t.
 
     >>> import numpy as np, tooljoint as tj
     >>> mass = tj.part("mass", [[1.0]], [[100.0]], damping=[[2.0]])
@@ -69,7 +73,8 @@ def damped_modes(of: HasModel, count: int, t: float = 0.0) -> Modes:
 
 
 def mac(a: ArrayLike, b: ArrayLike, mass: MatrixLike) -> np.ndarray:
-    """Modal assurance criterion of the columns of two arrays of shapes, weighted with the mass matrix: columns of a x columns of b.
+    """Modal assurance criterion of the columns of two arrays of shapes, weighted with the mass
+    matrix: columns of a x columns of b.
 
     >>> import numpy as np
     >>> mac(np.eye(2), np.array([[1.0, 1.0], [0.0, 1.0]]), np.eye(2)).round(3).tolist()
@@ -86,20 +91,23 @@ def mac(a: ArrayLike, b: ArrayLike, mass: MatrixLike) -> np.ndarray:
 
 def compare_modes(synthesis: _core.Synthesis, count: int, full: HasModel | None = None,
                   t: float | None = None) -> list[dict[str, Any]]:
-    """Modes of the full model, each with the coupled mode of its shape: a list of dicts with full_hz, coupled_hz, mac, error (relative,
-    of the frequency) and estimate (of the error, without the full model; None where the basis has none); None where no coupled mode
-    corresponds. full: the model to compare with; by default the unreduced parts, coupled. t: compare damped modes at that time instead.
+    """Modes of the full model, each with the coupled mode of its shape: a list of dicts with
+    full_hz, coupled_hz, mac, error (relative, of the frequency) and estimate (of the error, without
+    the full model; None where the basis has none); None where no coupled mode corresponds. full:
+    the model to compare with; by default the unreduced parts, coupled. t: compare damped modes at
+    that time instead.
     """
     call = "compare_modes"
     time = None if t is None else real(t, call, "t")
-    return _core.compare_modes(one_of(synthesis, ("Synthesis", ), call, "synthesis"),
+    return _core.compare_modes(one_of(synthesis, ("Synthesis",), call, "synthesis"),
                                whole(count, call, "count"), time,
                                None if full is None else model_of(full, call))
 
 
 def estimate_frequencies(synthesis: _core.Synthesis, count: int) -> list[dict[str, Any]]:
-    """Estimated relative errors of the lowest coupled frequencies, without the full model: a list of dicts with frequency_hz, error,
-    by_part (what the truncated modes of each part contribute) and definite (False: modes are missing below this frequency)."""
+    """Estimated relative errors of the lowest coupled frequencies, without the full model: a list
+    of dicts with frequency_hz, error, by_part (what the truncated modes of each part contribute)
+    and definite (False: modes are missing below this frequency)."""
     call = "estimate_frequencies"
-    return _core.estimate_frequencies(one_of(synthesis, ("Synthesis", ), call, "synthesis"),
+    return _core.estimate_frequencies(one_of(synthesis, ("Synthesis",), call, "synthesis"),
                                       whole(count, call, "count"))

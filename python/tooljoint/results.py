@@ -18,8 +18,10 @@ FILES = ("study.h5", "results.h5", "map.h5", "campbell.h5", "response.h5", "torq
 
 
 class Results:
-    """The folder of a run or of an analysis. `results["transient/displacement"]` is a dataset of its HDF5 file (results.h5, campbell.h5), an array with unit and long_name; `summary`
-    is summary.json as a dict; `table("motion.csv")` are the rows of a table.
+    """The folder of a run or of an analysis.
+    `results["transient/displacement"]` is a dataset of its HDF5 file (results.h5, campbell.h5), an
+    array with unit and long_name; `summary` is summary.json as a dict; `table("motion.csv")` are
+    the rows of a table.
 
     FileError for a folder that holds no results, or a dataset that is not there.
     """
@@ -29,9 +31,8 @@ class Results:
         try:
             self.summary = json.loads(file.read_text(encoding="utf-8"))
         except OSError as error:
-            raise FileError(
-                f"The results folder {folder} cannot be read: {error.strerror}: {file}. Give the folder of a finished run."
-            ) from error
+            raise FileError(f"The results folder {folder} cannot be read: {error.strerror}: "
+                            f"{file}. Give the folder of a finished run.") from error
         except ValueError as error:
             raise FileError(f"{file} is no summary of a run: {error}.") from error
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks `tooljoint buckling` through the program: limits, half waves, helices and contact against closed forms, its tables, refusals, ranks.
+"""Checks `tooljoint buckling` through the program: limits, half waves, helices and contact against
+closed forms, its tables, refusals, ranks.
 
     check_buckling.py PROGRAM MPIEXEC SOURCES
 """
@@ -14,7 +15,8 @@ import h5py
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
-from pipes import AREA, CLEARANCE, GRAVITY, RIGIDITY, WEIGHT, YOUNG, deck, hanging_beam, rows, shape_contact  # noqa: E402
+from pipes import (AREA, CLEARANCE, GRAVITY, RIGIDITY, WEIGHT, YOUNG, deck, hanging_beam, rows,
+                   shape_contact)  # noqa: E402
 from screens import expect_screen  # noqa: E402
 
 SOURCES = pathlib.Path(sys.argv[3])
@@ -46,18 +48,21 @@ def near(what, value, expected, tolerance):
 
 
 def on_the_wall(what, folder, found, length, inclination=90.0):
-    """Contact of buckled states: 0.4 mm of penetration, 1 % of r, and differences of the shape over 0.5 m, a twentieth of a half wave, stay below 4 %."""
+    """Contact of buckled states: 0.4 mm of penetration, 1 % of r, and differences of the shape over
+    0.5 m, a twentieth of a half wave, stay below 4 %."""
     buckled = [i for i, row in enumerate(found) if row["half_waves"] >= 3]
     apart = max(
         abs(found[i]["contact_force"] / force - 1)
         for i, force in zip(buckled, shape_contact(folder, buckled, length, inclination)))
     expect(
-        f"{what}: contact of {len(buckled)} buckled states by the equilibrium of their shapes, within {apart:.1e}",
+        f"{what}: contact of {len(buckled)} buckled states by the equilibrium of their shapes, "
+        f"within {apart:.1e}",
         len(buckled) > 5 and apart < 4e-2)
 
 
 def euler():
-    """A weightless pipe of 20 m: Euler's load, one contact up to 4 of them (Timoshenko and Gere, 1.11), and then out of the plane, since beyond it would lie flat on the wall."""
+    """A weightless pipe of 20 m: Euler's load, one contact up to 4 of them (Timoshenko and Gere,
+    1.11), and then out of the plane, since beyond it would lie flat on the wall."""
     length = 20.0
     load = RIGIDITY * (math.pi / length)**2
     found, said = run(deck("euler", length, 40, 6 * load, gravity=0.0), "Buckling/Crookedness=0.01",
@@ -75,7 +80,8 @@ def euler():
         if row["contact_nodes"] == 0:
             expect(f"no contact at {ratio:.3f} of Euler's load", ratio < 1.0)
         elif 1.3 < ratio < 3.0:
-            # the deflection r by a force N in the middle, N = 4 u F r/(L (u - tan u)), u = L/2 sqrt(F/E I)
+            # the deflection r by a force N in the middle, N = 4 u F r/(L (u - tan u)), u = L/2
+            # sqrt(F/E I)
             u = length / 2 * math.sqrt(row["weight_on_bit"] / RIGIDITY)
             near(f"contact force at {ratio:.2f} of Euler's load", row["total_contact_force"],
                  4 * u * row["weight_on_bit"] * CLEARANCE / (length * (u - math.tan(u))), 1e-2)
@@ -87,7 +93,9 @@ def euler():
 
 
 def helix():
-    """A weightless pipe of 60 m winds: pitch, contact and shortening of Lubinski, Althouse and Logan (1962). The ends reach less far into the middle half the shorter the pitch is, a fifth of it at last."""
+    """A weightless pipe of 60 m winds: pitch, contact and shortening of Lubinski, Althouse and
+    Logan (1962). The ends reach less far into the middle half the shorter the pitch is, a fifth of
+    it at last."""
     found, _ = run(deck("helix", 60.0, 120, 3e5, gravity=0.0))
     row = found[-1]
     force = row["compression"]
@@ -102,9 +110,11 @@ def helix():
         formula = {
             "contact_force": CLEARANCE * force**2 / (4 * RIGIDITY),
             "strain": CLEARANCE**2 * force / (4 * RIGIDITY),
-            "pitch": math.sqrt(8 * math.pi**2 * RIGIDITY / force)}[name]
+            "pitch": math.sqrt(8 * math.pi**2 * RIGIDITY / force)
+        }[name]
         near(f"helical_{name} of the table", row[f"helical_{name}"], formula, 1e-6)
-    # the bit moves by F L/(E S) and by the shortening; a step of the table is a small part of the path
+    # the bit moves by F L/(E S) and by the shortening; a step of the table is a small part of the
+    # path
     for state in found:
         near("advance of the bit", -state["bit_advance"], state["weight_on_bit"] * 60.0 /
              (YOUNG * AREA) + state["shortening"], 1e-6) if state["weight_on_bit"] else None
@@ -116,14 +126,16 @@ def helix():
 
 
 def horizontal():
-    """A pipe of 100 m in a horizontal hole: Dawson and Paslay (1984), the half wave, and the slope of the sinusoid of Mitchell (1997)."""
+    """A pipe of 100 m in a horizontal hole: Dawson and Paslay (1984), the half wave, and the slope
+    of the sinusoid of Mitchell (1997)."""
     length, critical = 100.0, 2 * math.sqrt(RIGIDITY * WEIGHT / CLEARANCE)
     found, said = run(deck("horizontal", length, 200, 1.6 * critical, inclination=90.0),
                       "Buckling/Largest Step=0.02")
     near("2 sqrt(E I w/r) in the summary", said["theory"]["sinusoidal"], critical, 1e-6)
     near("2 sqrt(2) sqrt(E I w/r) in the summary", said["theory"]["helical"],
          math.sqrt(2) * critical, 1e-6)
-    # the hinges hold the ends on the axis, a clearance above where the pipe lies: a tenth of the length is off the wall
+    # the hinges hold the ends on the axis, a clearance above where the pipe lies: a tenth of the
+    # length is off the wall
     near("first buckling", said["limit"], critical, 2.5e-2)
     # a torque leads it onto the sinusoid without a negative pivot
     _, twisted = run(deck("twisted", length, 200, 1.2 * critical, inclination=90.0),
@@ -137,7 +149,8 @@ def horizontal():
         near("not buckled, the wall bears the weight", row["contact_force"], WEIGHT, 5e-3)
     expect("and the table calls it so", all(row["half_waves"] == 0 for row in before),
            [row["half_waves"] for row in before])
-    # Mitchell (SPE Drilling & Completion 14, 1999, eq. 7): largest slope of the angle 1.1227/sqrt(2 E I) F^0.04 (F - F_p)^0.46
+    # Mitchell (SPE Drilling & Completion 14, 1999, eq. 7): largest slope of the angle 1.1227/sqrt(2
+    # E I) F^0.04 (F - F_p)^0.46
     import h5py  # noqa: PLC0415
     with h5py.File("out_horizontal/buckling.h5") as file:
         depth, high, right = file["states/depth"][:], file["states/deflection_high"][-1], file[
@@ -145,7 +158,8 @@ def horizontal():
     angle = [math.atan2(y, -x) for x, y in zip(high, right)]
     slopes = [
         abs(b - a) / (t - s) for a, b, s, t in zip(angle, angle[1:], depth, depth[1:])
-        if 0.25 * length < s < 0.75 * length]
+        if 0.25 * length < s < 0.75 * length
+    ]
     on_the_wall("horizontal", "out_horizontal", found, length)
     force = found[-1]["compression"]
     near("largest slope of the angle", max(slopes),
@@ -153,7 +167,8 @@ def horizontal():
 
 
 def curved():
-    """100 m in a hole that builds with a radius of 600 m: the wall bears w + F/R (He and Kyllingstad 1995), F^2 = 4 E I/r (w sin + F/R), and without weight F = 4 E I/(r R)."""
+    """100 m in a hole that builds with a radius of 600 m: the wall bears w + F/R (He and
+    Kyllingstad 1995), F^2 = 4 E I/r (w sin + F/R), and without weight F = 4 E I/(r R)."""
     radius = 600.0
     bend = 4 * RIGIDITY / (CLEARANCE * radius)
     for gravity in (0.0, GRAVITY):
@@ -167,13 +182,15 @@ def curved():
 
 
 def transition():
-    """60 deg, 100 m: under a growing load the pipe stays sinusoidal well beyond the load of a helix, to 2.8 times the first buckling (Mitchell 1997), and then jumps."""
+    """60 deg, 100 m: under a growing load the pipe stays sinusoidal well beyond the load of a
+    helix, to 2.8 times the first buckling (Mitchell 1997), and then jumps."""
     critical = 2 * math.sqrt(RIGIDITY * WEIGHT * math.sin(math.radians(60)) / CLEARANCE)
     found, said = run(deck("transition", 100.0, 200, 3.1e5, inclination=60.0))
     jumps = [one["weight_on_bit"] for one in said.get("jumps", [])]
     expect(f"the string jumps, under {jumps}", bool(jumps) and found[-1]["branch"] == len(jumps))
     last = [row for row in found if row["branch"] == 0][-1]
-    # what is buckled half a wave longer or shorter turns over a few per cent of the load earlier or later
+    # what is buckled half a wave longer or shorter turns over a few per cent of the load earlier or
+    # later
     near("compression of the last sinusoidal state over the first buckling",
          last["compression"] / critical, 2.8, 0.1)
     expect(
@@ -188,8 +205,9 @@ def transition():
 
 
 def vertical():
-    """100 m between hinges, vertical: the least root of the beam E I u_ssss + (F(s) u_s)_s = 0, F = W - w (L - s), by 200 elements of its own; 1.98 (E I w^2)^(1/3) at the
-    bit, and not the 2.55 of a long string (Wu and Juvkam-Wold 1992), whose ends are held otherwise."""
+    """100 m between hinges, vertical: the least root of the beam E I u_ssss + (F(s) u_s)_s = 0, F =
+    W - w (L - s), by 200 elements of its own; 1.98 (E I w^2)^(1/3) at the bit, and not the 2.55 of
+    a long string (Wu and Juvkam-Wold 1992), whose ends are held otherwise."""
     length, elements, unit = 100.0, 200, (RIGIDITY * WEIGHT**2)**(1 / 3)
     truth = hanging_beam(length, elements)
     _, said = run(deck("vertical", length, elements, 1.05 * truth))
@@ -199,8 +217,9 @@ def vertical():
 
 
 def unloaded():
-    """60 deg, 60 m: the helix into which the pipe jumps at more than 2.8 times the first buckling stays under less weight, down to sqrt(2) times it (Chen, Lin and Cheatham
-    1990). The hinges, each of which lifts half a turn off the wall, take it apart a tenth earlier at most."""
+    """60 deg, 60 m: the helix into which the pipe jumps at more than 2.8 times the first buckling
+    stays under less weight, down to sqrt(2) times it (Chen, Lin and Cheatham 1990). The hinges,
+    each of which lifts half a turn off the wall, take it apart a tenth earlier at most."""
     critical = 2 * math.sqrt(RIGIDITY * WEIGHT * math.sin(math.radians(60)) / CLEARANCE)
     found, _ = run(deck("unloaded", 60.0, 120, 4 * critical, inclination=60.0),
                    f"Buckling/Unload To={1.1 * critical} N")
@@ -255,14 +274,21 @@ def documented():
     section = section[:section.index("It jumps to helices")]
     table = [
         line.split("|")[1:-1] for line in section.splitlines()
-        if line.startswith("| ") and line[2].isdigit()]
+        if line.startswith("| ") and line[2].isdigit()
+    ]
     states, _ = run(str(root / "xml/buckling_100m.xml"), folder="documented")
     expect("the document has six states", len(table) == 6, table)
     expect("and says how many there are", f"Of its {len(states)} states:"
            in " ".join(section.split()), len(states))
-    columns = (("weight_on_bit", 1e-3), ("bit_advance", 1e3), ("half_waves", 1),
-               ("contact_force", 1), ("helical_contact_force", 1), ("strain",
-                                                                    1e6), ("helical_strain", 1e6))
+    columns = (
+        ("weight_on_bit", 1e-3),
+        ("bit_advance", 1e3),
+        ("half_waves", 1),
+        ("contact_force", 1),
+        ("helical_contact_force", 1),
+        ("strain", 1e6),
+        ("helical_strain", 1e6),
+    )
     for cells in table:
         shown = [cell.split(",")[0].strip() for cell in cells]
         state = min(
@@ -277,8 +303,9 @@ def documented():
 
 
 def slid(file, state):
-    """Almost without friction the stiff string of torque-drag slides to the state of the path, 2.6 times its first buckling load. The path has a crookedness of 2 % of the
-    clearance, which the stiff string has not."""
+    """Almost without friction the stiff string of torque-drag slides to the state of the path, 2.6
+    times its first buckling load. The path has a crookedness of 2 % of the clearance, which the
+    stiff string has not."""
     settings = ("Contact/Friction/Static=1e-4", "Contact/Friction/Dynamic=1e-4",
                 f"Loads/Weight On Bit={state['weight_on_bit']}", "Torque and Drag/Count=1",
                 "Torque and Drag/Operations={Drill sliding}")
@@ -333,12 +360,15 @@ def refusals():
 
 
 def buckled_runs():
-    """A horizontal pipe that turns, pushed past its buckling load: the stages of its static state do not converge, and it slides to a state in
-    balance; harder still, friction drives it round the hole, and the run says so and what helps."""
+    """A horizontal pipe that turns, pushed past its buckling load: the stages of its static state
+    do not converge, and it slides to a state in balance; harder still, friction drives it round the
+    hole, and the run says so and what helps."""
     survey = pathlib.Path("horizontal.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 90, 0\n2000, 90, 0\n", encoding="utf-8")
-    pipe = '<ParameterList name="pipe"><Parameter name="Length" type="double" value="100"/><Parameter name="Elements" type="int" value="100"/>' \
-        '<Parameter name="Outer Radius" type="double" value="0.0635"/><Parameter name="Inner Radius" type="double" value="0.0543"/></ParameterList>'
+    pipe = ('<ParameterList name="pipe"><Parameter name="Length" type="double" value="100"/>'
+            '<Parameter name="Elements" type="int" value="100"/><Parameter name="Outer Radius" '
+            'type="double" value="0.0635"/><Parameter name="Inner Radius" type="double" '
+            'value="0.0543"/></ParameterList>')
     text = (SOURCES / "xml/build_hold_1400m.xml").read_text(encoding="utf-8")
     pathlib.Path("hundred.xml").write_text(
         text.replace('<ParameterList name="Components">',
@@ -349,7 +379,8 @@ def buckled_runs():
         words = [
             "run", "hundred.xml", "--without", "Reduction", "--without", "Substructures",
             "--output",
-            str(folder)]
+            str(folder)
+        ]
         for setting in ("Well/Trajectory=Survey", f"Well/Survey/File={survey}",
                         "Drillstring/Assembly={pipe}", "Transient/End Time=0.002 s",
                         "Output/Report=false", f"Loads/Weight On Bit={weight} kN", *settings):
@@ -358,7 +389,7 @@ def buckled_runs():
         done = tooljoint(*words)
         return done, json.loads((folder / "summary.json").read_text(encoding="utf-8"))["static"]
 
-    for weight, settings in ((220, ()), (350, ("Static/Friction=None", ))):
+    for weight, settings in ((220, ()), (350, ("Static/Friction=None",))):
         done, static = pushed(weight, *settings)
         expect(f"{weight} kN {settings}: a state of rest", done.returncode == 0
                and static["residual"] < 1e-8, done.stderr)

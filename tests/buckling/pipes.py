@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pipes between hinges for `tooljoint buckling`, and what the wall bears by theory: of check_buckling.py and of docs/validation.md."""
+"""Pipes between hinges for `tooljoint buckling`, and what the wall bears by theory: of
+check_buckling.py and of docs/validation.md."""
 import csv
 import math
 import pathlib
@@ -26,7 +27,8 @@ def listed(name, *content):
 
 def deck(name, length, elements, last, inclination=0.0, gravity=GRAVITY, bit="u v", contact=True,
          radius=None):
-    """A uniform pipe between hinges in a straight hole, or in one that builds with this radius up to this inclination at the bit."""
+    """A uniform pipe between hinges in a straight hole, or in one that builds with this radius up
+    to this inclination at the bit."""
     shape = listed("Vertical", parameter("Length", f"{length} m"),
                    parameter("Inclination", f"{inclination} deg"))
     if radius:
@@ -61,9 +63,10 @@ def rows(folder, table="buckling.csv"):
 
 
 def shape_contact(folder, states, length, inclination=90.0):
-    """Contact force per length of the middle half by the equilibrium of a pipe on its wall that winds by the angle a(s) from the low side (R. F. Mitchell, SPE Drilling &
-    Completion 12, 1997): n = r (F b^2 + E I (3 c^2 + 4 b dc/ds - b^4)) + w cos a with b = da/ds, c = db/ds; the mean is r (F b^2 - E I (c^2 + b^4)) + w cos a and what
-    4 E I r b c is at the ends."""
+    """Contact force per length of the middle half by the equilibrium of a pipe on its wall that
+    winds by the angle a(s) from the low side (R. F. Mitchell, SPE Drilling & Completion 12, 1997):
+    n = r (F b^2 + E I (3 c^2 + 4 b dc/ds - b^4)) + w cos a with b = da/ds, c = db/ds; the mean is r
+    (F b^2 - E I (c^2 + b^4)) + w cos a and what 4 E I r b c is at the ends."""
     with h5py.File(f"{folder}/buckling.h5") as file:
         depth, high, right, weights = (file[name][:]
                                        for name in ("states/depth", "states/deflection_high",
@@ -89,11 +92,12 @@ def shape_contact(folder, states, length, inclination=90.0):
 
 
 def hanging_beam(length, elements):
-    """Least weight on bit W [N] at which a vertical beam between hinges buckles: E I u_ssss + ((W - w (L - s)) u_s)_s = 0, cubic elements of its own."""
+    """Least weight on bit W [N] at which a vertical beam between hinges buckles: E I u_ssss + ((W -
+    w (L - s)) u_s)_s = 0, cubic elements of its own."""
     h = length / elements
-    bending = RIGIDITY / h**3 * np.array([[
-        12, 6 * h, -12, 6 * h], [6 * h, 4 * h**2, -6 * h, 2 * h**2], [-12, -6 * h, 12, -6 * h],
-                                          [6 * h, 2 * h**2, -6 * h, 4 * h**2]])
+    bending = RIGIDITY / h**3 * np.array(
+        [[12, 6 * h, -12, 6 * h], [6 * h, 4 * h**2, -6 * h, 2 * h**2], [-12, -6 * h, 12, -6 * h],
+         [6 * h, 2 * h**2, -6 * h, 4 * h**2]])
     slope = np.array([[36, 3 * h, -36, 3 * h], [3 * h, 4 * h**2, -3 * h, -h**2],
                       [-36, -3 * h, 36, -3 * h], [3 * h, -h**2, -3 * h, 4 * h**2]]) / (30 * h)
     places, hanging, pushed = [], [], []

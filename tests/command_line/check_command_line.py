@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line as a person meets it: check_command_line.py PROGRAM MPIEXEC DECK PARTS_DECK PLOTTER
+"""The command line as a person meets it.
 
-Help of every command, words that are no command, what `compare` says of two runs of DECK, and the pictures that PLOTTER draws of runs of a string and
-of PARTS_DECK.
+    check_command_line.py PROGRAM MPIEXEC DECK PARTS_DECK PLOTTER
+
+Help of every command, words that are no command, what `compare` says of two runs of DECK, and the
+pictures that PLOTTER draws of runs of a string and of PARTS_DECK.
 """
 import argparse
 import csv
@@ -27,7 +29,8 @@ HEADINGS = {
     "To begin:": ("doc", "new", "template"),
     "Runs:": ("check", "map", "run", "study"),
     "Analyses:": ("bha", "buckling", "campbell", "modes", "response", "torque-drag"),
-    "Results and parts:": ("compare", "export", "paraview", "report"), }
+    "Results and parts:": ("compare", "export", "paraview", "report"),
+}
 COMMANDS = [command for commands in HEADINGS.values() for command in commands]
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 
@@ -40,8 +43,8 @@ def narrow(what, done):
 
 def help_is_our_own():
     for arguments in ([], *([command] for command in COMMANDS)):
-        for ranks in (1, 2) if arguments in ([], ["run"]) else (1, ):
-            for flag in ("--help", "-h") if arguments in ([], ["run"]) else ("--help", ):
+        for ranks in (1, 2) if arguments in ([], ["run"]) else (1,):
+            for flag in ("--help", "-h") if arguments in ([], ["run"]) else ("--help",):
                 done = tooljoint(*arguments, flag, ranks=ranks)
                 name = " ".join(["tooljoint", *arguments, flag])
                 expect(f"{name}, {ranks} rank(s): exit code 0, nothing on stderr",
@@ -58,7 +61,8 @@ def help_is_our_own():
     found = re.findall(r"^(?:  ([a-z][a-z-]*) |(\S.*:)$)", whole, re.M)
     wanted = [
         "Options:",
-        *(word for heading, commands in HEADINGS.items() for word in (heading, *commands))]
+        *(word for heading, commands in HEADINGS.items() for word in (heading, *commands))
+    ]
     expect("the program's help names every command below its heading",
            [command or heading for command, heading in found] == wanted, whole)
 
@@ -108,7 +112,8 @@ def comparisons(times):
     expect("compare --json prints JSON and nothing else",
            found["window"] == {"begin": whole[0], "end": whole[-1],
                                "samples": len(whole)}, asked.stdout)
-    line = f"eps_t max {found['eps_t']['max']:.4e} mean {found['eps_t']['mean']:.4e}, eps_n max {found['eps_n']['max']:.4e}, vibration error {found['vibration_error']:.4e}"
+    line = (f"eps_t max {found['eps_t']['max']:.4e} mean {found['eps_t']['mean']:.4e}, eps_n max "
+            f"{found['eps_n']['max']:.4e}, vibration error {found['vibration_error']:.4e}")
     expect("with the numbers of the line for people", line in " ".join(said.stdout.split())
            and found["vibration_error"] > 0, f"{line}\n{said.stdout}")
     inner = [t for t in whole if 0.05 - 1e-9 <= t <= 0.12 + 1e-9]
@@ -145,9 +150,8 @@ def comparisons(times):
           "7"], 1, f"full holds 0 samples (it ends at {whole[-1]:g} s)"),
         (["reduced", "full", "--from", "0.1", "--to",
           "0.05"], 1, "--to 0.05 is before --from 0.1."),
-        (["brief", "full"], 1,
-         f"brief holds {len(times['brief'])} samples from 0 to 0.1 s and full holds {len(whole)} samples from 0 to 0.2 s"
-         ),
+        (["brief", "full"], 1, f"brief holds {len(times['brief'])} samples from 0 to 0.1 s and "
+         f"full holds {len(whole)} samples from 0 to 0.2 s"),
         (["reduced", "nowhere"], 5, "nowhere"),
         (["reduced", "parts"], 1, "hold the motion of different scenes"),
         (["reduced", "moved"], 1, "their nodes stand up to 5 % of their extent apart"),
@@ -169,7 +173,8 @@ def pictures():
     runs = {
         "parts": (PARTS_DECK, ["--set", "Transient/End Time=0.2"]),
         "resting parts": (PARTS_DECK, ["--without", "Transient"]),
-        "full": (DECK, None), }
+        "full": (DECK, None),
+    }
     for folder, (deck, arguments) in runs.items():
         if arguments is not None:
             done = tooljoint("run", deck, "--output", folder, *arguments)
@@ -198,7 +203,8 @@ def reports():
 
 
 def versions():
-    """The comparison of two programs and its table, with one program beside itself: summaries of the runs full and brief."""
+    """The comparison of two programs and its table, with one program beside itself: summaries of
+    the runs full and brief."""
     options = argparse.Namespace(static=1e-10, motion=1e-9, steps=0.01)
     (_, _, none), _ = same_results.compare(pathlib.Path("full"), pathlib.Path("full"), options, {})
     (ratio, where, size), count = same_results.compare(pathlib.Path("full"), pathlib.Path("brief"),
@@ -208,7 +214,8 @@ def versions():
     rows = [
         {"scene": "a", "largest_difference": none, "where": "", "agrees": True},
         {"scene": "b", "largest_difference": size, "where": where, "agrees": False},
-        {"scene": "c", "exit": [2, 2]}, ]
+        {"scene": "c", "exit": [2, 2]},
+    ]
     here = same_results.version(PROGRAM)
     page = same_results.written(
         "before\n" + "\nold\n".join(same_results.MARKS) + "\nafter",

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of the documents: check_commands.py PROGRAM PROJECT CTEST BUILD
 
-Blocks `sh` of the user's pages run line by line in a folder that looks like the project; motions and studies are made short on the way, so that all
-words are tried. Of the commands of docs/validation.md that differ in numbers alone one is run, static states as they stand, and the decks and overrides
-of the others are read. Of all other commands in the pages, in blocks and within lines, the command, its options, decks, tools and targets must exist,
-and the tests of this build that a page names. README.md, the tutorials, docs/first-report.md and docs/python.md have
-tests of their own, which run them word for word.
+Blocks `sh` of the user's pages run line by line in a folder that looks like the project; motions
+and studies are made short on the way, so that all words are tried. Of the commands of
+docs/validation.md that differ in numbers alone one is run, static states as they stand, and the
+decks and overrides of the others are read. Of all other commands in the pages, in blocks and within
+lines, the command, its options, decks, tools and targets must exist, and the tests of this build
+that a page names. README.md, the tutorials, docs/first-report.md and docs/python.md have tests of
+their own, which run them word for word.
 """
 import functools
 import json
@@ -26,21 +28,24 @@ CTEST, BUILD = sys.argv[3:5]
 RUN = (*[
     f"docs/guide/{page}.md"
     for page in ("torque-drag", "buckling", "bottom-hole-assembly", "bit-and-top-drive",
-                 "critical-speeds", "figures-of-merit", "measured-logs", "maps")], "docs/report.md",
-       "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md",
+                 "critical-speeds", "figures-of-merit", "measured-logs", "maps")
+], "docs/report.md", "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md",
        "docs/guide/coupling.md", "docs/guide/troubleshooting.md", "docs/guide/studies.md")
 VALIDATION = "docs/validation.md"
 SHORT = {
     "run": ["Transient/End Time=0.02"],
     "study": [
-        "Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"],
+        "Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"
+    ],
     "map": [
         "Transient/End Time=0.02", "Map/Pictures=false", "Map/Grid/speed/Count=2",
-        "Map/Grid/weight on bit/Values={10 kN, 20 kN}"],
+        "Map/Grid/weight on bit/Values={10 kN, 20 kN}"
+    ],
     "bha": ["Bottom-Hole Assembly/Tool Face={0 deg}"],
     "torque-drag": ["Torque and Drag/Count=1", "Torque and Drag/Operations={Drill rotating}"],
     "campbell": ["Campbell/Points=2", "Campbell/Modes=2"],
-    "response": ["Response/Points=3"], }
+    "response": ["Response/Points=3"],
+}
 MAPPED = {}  # deck: folder
 COMPARED = ["Transient/End Time=1", "Measured Log/Begin=0 s",
             "Measured Log/End=0.9 s"]  # of a motion with a log, which needs samples
@@ -48,8 +53,9 @@ OPTIONS_OF_DECKS = ("--set", "--without")
 PLACES = re.compile(r"\b(DECK|DIR|FILE|NAME|[A-Z]{2,})\b")
 
 
-def blocks(page, kinds=("sh", )):
-    """Commands in the blocks of a page, lines that go on joined, and the text of the block before each."""
+def blocks(page, kinds=("sh",)):
+    """Commands in the blocks of a page, lines that go on joined, and the text of the block before
+    each."""
     text, before, found = (PROJECT / page).read_text(encoding="utf-8"), "", []
     for kind, body in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S):
         if kind in kinds:
@@ -88,12 +94,14 @@ def shortened(words):
         encoding="utf-8")
     return [
         *words,
-        *(word for text in (COMPARED if compared else SHORT[words[1]]) for word in ("--set", text))]
+        *(word for text in (COMPARED if compared else SHORT[words[1]]) for word in ("--set", text))
+    ]
 
 
 def run_pages(folder):
     environment = {
-        **os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "TOOLJOINT_REPORT": "off"}
+        **os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "TOOLJOINT_REPORT": "off"
+    }
     for page in RUN:
         for line, before in blocks(page):
             words = words_of(line)
@@ -111,7 +119,8 @@ def run_pages(folder):
 
 
 def run_validation(folder):
-    """One of the commands that differ in numbers alone is run; of the others, decks and overrides are read."""
+    """One of the commands that differ in numbers alone is run; of the others, decks and overrides
+    are read."""
     seen, alike, ran = set(), set(), 0
     for line, _ in blocks(VALIDATION, ("sh", "")):
         words = words_of(line)
@@ -173,7 +182,8 @@ def targets():
     files = [
         PROJECT / "CMakeLists.txt", *PROJECT.glob("cmake/*.cmake"),
         *PROJECT.glob("tests/**/CMakeLists.txt"), *PROJECT.glob("python/**/CMakeLists.txt"),
-        *PROJECT.glob("docs/CMakeLists.txt")]
+        *PROJECT.glob("docs/CMakeLists.txt")
+    ]
     text = "\n".join(path.read_text(encoding="utf-8") for path in files)
     return set(
         re.findall(
@@ -184,7 +194,8 @@ def targets():
 def pages():
     found = [
         *PROJECT.glob("docs/*.md"), *PROJECT.glob("docs/guide/*.md"),
-        *PROJECT.glob("examples/*/README.md"), PROJECT / "README.md", PROJECT / "CONTRIBUTING.md"]
+        *PROJECT.glob("examples/*/README.md"), PROJECT / "README.md", PROJECT / "CONTRIBUTING.md"
+    ]
     return [page for page in sorted(found) if page.name not in ("parameters.md", "CHANGELOG.md")]
 
 
@@ -192,12 +203,15 @@ def check_words():
     known, count = targets(), 0
     for page in pages():
         text, name = page.read_text(encoding="utf-8"), str(page.relative_to(PROJECT))
-        begins = r"(?:mpirun -np \S+ |mpiexec -n \S+ )?(?:tooljoint|build/release/tooljoint|tools/\w+\.py|python3 tests/|cmake --build)\b"
+        begins = (r"(?:mpirun -np \S+ |mpiexec -n \S+ "
+                  r")?(?:tooljoint|build/release/tooljoint|tools/\w+\.py|python3 tests/|cmake "
+                  r"--build)\b")
         commands = set(re.findall(rf"`({begins}[^`\n]*)`", text))
         commands |= {
             line.strip()
             for line in re.findall(rf"^(?:    )?({begins}.*)$", text.replace("\\\n", " "), re.M)
-            if not line.endswith(".")}
+            if not line.endswith(".")
+        }
         for command in sorted(commands):
             spelled(command, name, known)
         count += len(commands)
@@ -207,10 +221,12 @@ def check_words():
     written = {
         tool.stem for tool in PROJECT.glob("tools/*.py") if re.search(
             r"writes? docs/|rewrites (the tables|tables and figures) of docs/|rewrites docs/",
-            tool.read_text(encoding="utf-8"))}
+            tool.read_text(encoding="utf-8"))
+    }
     absent = [
         name for name in written | {"docs-pictures", "update-docs", "hard-cases", "strategies"}
-        if not re.search(rf"[( ]({name}|{name.replace('_', '-')})[ )]", made)]
+        if not re.search(rf"[( ]({name}|{name.replace('_', '-')})[ )]", made)
+    ]
     expect("the target records makes what tools write into docs/",
            len(written) > 4 and not absent, f"{absent} {sorted(written)}")
 
@@ -220,8 +236,8 @@ def draw_map(folder):
     changes = [word for text in SHORT["map"] if "Pictures" not in text for word in ("--set", text)]
     done = subprocess.run([
         PROJECT / "tools/maps.py", "--program", PROGRAM, "--work", folder / "maps", "--figures",
-        folder, "--only", "map_helical_170m", *changes],
-                          env={**os.environ, "TOOLJOINT_REPORT": "off"}, stdout=subprocess.PIPE,
+        folder, "--only", "map_helical_170m", *changes
+    ], env={**os.environ, "TOOLJOINT_REPORT": "off"}, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, text=True, check=False)
     drawn = (folder / "map_helical_170m.svg").read_text(
         encoding="utf-8") if done.returncode == 0 else ""
@@ -230,13 +246,15 @@ def draw_map(folder):
 
 
 def check_tests():
-    """Each pattern of `ctest -R` fits a test of this build, or one that the build has with more packages; each label of `-L` has tests."""
+    """Each pattern of `ctest -R` fits a test of this build, or one that the build has with more
+    packages; each label of `-L` has tests."""
     listed = json.loads(
         subprocess.run([CTEST, "--test-dir", BUILD, "--show-only=json-v1"], stdout=subprocess.PIPE,
                        text=True, check=True).stdout)["tests"]
     labels = {
         label for test in listed for entry in test.get("properties", ())
-        if entry["name"] == "LABELS" for label in entry["value"]}
+        if entry["name"] == "LABELS" for label in entry["value"]
+    }
     names = {test["name"] for test in listed} | set(
         re.findall(r"tooljoint_add_test\(([\w.]+) ",
                    (PROJECT / "tests/CMakeLists.txt").read_text(encoding="utf-8")))

@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The first scene a user sees: tools/first_run.py runs, its figures agree with a calculation by hand, and reduction pays.
+"""The first scene a user sees: tools/first_run.py runs, its figures agree with a calculation by
+hand, and reduction pays.
 
     check_first_run.py PROGRAM PROJECT
 
-By hand, with w the weight in mud per metre, Z the vertical depth, N the contact force, R its lever arm and mu(v) the friction curve
-(Nguyen et al. 2020, eq. 9) at the sliding speed v = Omega R:
+By hand, with w the weight in mud per metre, Z the vertical depth, N the contact force, R its lever
+arm and mu(v) the friction curve (Nguyen et al. 2020, eq. 9) at the sliding speed v = Omega R:
 
-    hook load = sum w dZ - weight on bit                 friction acts around the hole, so none of it along
+    hook load = sum w dZ - weight on bit
+    (friction acts around the hole, so none of it along)
     torque    = torque on bit + sum mu(Omega R) N R
 
-The first neglects that the top element carries the mean of its ends and the bending of the string: 0.1 %. The second is exact: 0.1 %.
+The first neglects that the top element carries the mean of its ends and the bending of the string:
+0.1 %. The second is exact: 0.1 %.
 """
 import json
 import math
@@ -68,7 +71,8 @@ def main():
     check("largest side force [N]", found["side_force"]["value"],
           force.max() * (1 - 1e-9),
           force.max() * (1 + 1e-9))
-    # What reduction is for. CPU times vary by a fifth or so on a busy machine; 3.5 was measured on an idle one.
+    # What reduction is for. CPU times vary by a fifth or so on a busy machine; 3.5 was measured on
+    # an idle one.
     check("dofs left", found["dofs"]["reduced"] / found["dofs"]["full"], 0.0, 0.2)
     check("vibration error", found["vibration_error"], 1e-6, 0.01)
     check("speed-up", found["speed_up"], 1.5, 20)

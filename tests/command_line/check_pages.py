@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Manual pages and completions against the help of the program: check_pages.py PROGRAM PAGES
 
-PAGES is the folder the build has written them to. What the help of a command names stands in its page, in the page of the program and in
-both completions, and no page has anything else. Pages are set by man, and the zsh function is read by zsh, where these are installed.
-Parameters that the manual shows first are in a deck, an example or a tool.
+PAGES is the folder the build has written them to. What the help of a command names stands in its
+page, in the page of the program and in both completions, and no page has anything else. Pages are
+set by man, and the zsh function is read by zsh, where these are installed. Parameters that the
+manual shows first are in a deck, an example or a tool.
 """
 import functools
 import json
@@ -43,7 +44,8 @@ def spelled(text):
     """Options that head an entry of a page."""
     return {
         name for line in re.findall(r"^\.TP\n(-.*)$", text, re.M)
-        for name in re.findall(r"(?<![\w-])--?[\w-]+", line)}
+        for name in re.findall(r"(?<![\w-])--?[\w-]+", line)
+    }
 
 
 def manual(names):
@@ -66,11 +68,10 @@ def manual(names):
         expect(f"exit code {code} stands in the page", f".TP\n{code}\n" in whole)
     if shutil.which("man"):
         for path in (PAGES / "man/man1").iterdir():
-            set_by_man = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l",
-                                         str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                        text=True, check=False, env={
-                                            "MANWIDTH": "100", "PATH": "/usr/bin:/bin",
-                                            "LC_ALL": "C.UTF-8"})
+            set_by_man = subprocess.run(
+                ["man", "--warnings", "-E", "UTF-8", "-l",
+                 str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False,
+                env={"MANWIDTH": "100", "PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8"})
             expect(
                 f"{path.name}: man sets it without a warning", set_by_man.returncode == 0
                 and set_by_man.stderr == "" and "EXIT STATUS" in set_by_man.stdout,
@@ -84,8 +85,8 @@ def completed(*words):
         'printf "%s\\n" "${COMPREPLY[@]}"')
     done = subprocess.run([
         "bash", "-c", script, "bash",
-        str(PAGES / "bash-completion/completions/tooljoint"), "tooljoint", *words],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        str(PAGES / "bash-completion/completions/tooljoint"), "tooljoint", *words
+    ], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     expect(f"bash: tooljoint {' '.join(words)}: no error", done.stderr == "", done.stderr)
     return done.stdout.split("\n")[:-1]
 
@@ -148,21 +149,25 @@ def walked(described, path):
 
 
 def levels():
-    """A parameter that no deck, example or tool shows is for experts, unless a user of its list must give it."""
+    """A parameter that no deck, example or tool shows is for experts, unless a user of its list
+    must give it."""
     needed = {
         "Top Drive/Tuning Frequency",
-        *(f"Coupling/{kind}/*/Second" for kind in ("Springs", "Stops", "Sliders", "Point Laws"))}
+        *(f"Coupling/{kind}/*/Second" for kind in ("Springs", "Stops", "Sliders", "Point Laws"))
+    }
     files = [
         file for folder in ("xml", "examples", "tools", "python")
         for file in (PROJECT / folder).rglob("*")
-        if file.suffix in (".xml", ".py", ".cpp", ".md", ".sh")]
+        if file.suffix in (".xml", ".py", ".cpp", ".md", ".sh")
+    ]
     shown = "\n".join(file.read_text(encoding="utf-8") for file in files)
     lists = json.loads(tooljoint("doc", "--format", "json").stdout)
     basic = [(f"{path}{parameter['name']}".partition("/")[2], parameter) for one in lists
              for path, parameter in walked(one, f"{one['name']}/") if parameter["level"] == "basic"]
     hidden = sorted({
         path for path, parameter in basic if not parameter["required"]
-        and not re.search(rf"[\"'/]{re.escape(parameter['name'])}[\"'=]", shown)} - needed)
+        and not re.search(rf"[\"'/]{re.escape(parameter['name'])}[\"'=]", shown)
+    } - needed)
     expect("basic parameters are shown", len(basic) > 300 and not hidden, f"{len(basic)} {hidden}")
 
 

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of documents word for word: check_readme.py PROGRAM PROJECT [PAGE]
 
-Without PAGE the block "Go on" of README.md; with one, a tutorial: its blocks `sh`, one after the other in one shell. Each line of its blocks `text`
-must stand in what the commands before it have printed.
+Without PAGE the block "Go on" of README.md; with one, a tutorial: its blocks `sh`, one after the
+other in one shell. Each line of its blocks `text` must stand in what the commands before it have
+printed.
 
-They run in a scratch folder that looks like the project. What stands there as build/release/tooljoint hands its arguments to PROGRAM; motions, maps
-and studies, which take minutes, are made shorter on the way, so that all words are tried and the test takes seconds. Tutorials show numbers
-of the whole motions.
+They run in a scratch folder that looks like the project. What stands there as
+build/release/tooljoint hands its arguments to PROGRAM; motions, maps and studies, which take
+minutes, are made shorter on the way, so that all words are tried and the test takes seconds.
+Tutorials show numbers of the whole motions.
 """
 import json
 import pathlib
@@ -24,15 +26,18 @@ from pictured import compare  # noqa: E402
 PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 SHORT = {
     "study": [
-        "Study/End Time=0.03", "Study/Window=0.015", "Study/Repeats=1", "Study/Pictures=false"],
+        "Study/End Time=0.03", "Study/Window=0.015", "Study/Repeats=1", "Study/Pictures=false"
+    ],
     "run": ["Transient/End Time=1"],
-    "map": ["Transient/End Time=0.1", "Map/Grid/speed/Count=2"], }
+    "map": ["Transient/End Time=0.1", "Map/Grid/speed/Count=2"],
+}
 
 # Pictures of reports -> the reports of the page that they show
 PICTURED = {
     "docs/tutorial-first-string.md": dict.fromkeys(("tutorial_report.png", "report_string.png"),
                                                    "results/first/report.html"),
-    "docs/tutorial-own-parts.md": {"tutorial_parts.png": "results/parts/report.html"}, }
+    "docs/tutorial-own-parts.md": {"tutorial_parts.png": "results/parts/report.html"},
+}
 
 
 def block():
@@ -43,7 +48,8 @@ def block():
 
 
 def stage(folder, settings):
-    """A folder that looks like the project to the block; `settings` of commands, which its program adds."""
+    """A folder that looks like the project to the block; `settings` of commands, which its program
+    adds."""
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "build/release").mkdir(parents=True)
     for name in ("tools", "xml"):
@@ -92,7 +98,8 @@ def check_readme(folder):
 
 
 def check_page(folder, page):
-    """The blocks of a tutorial. A mark in the output tells what the commands before a block of text have printed."""
+    """The blocks of a tutorial.
+    A mark in the output tells what the commands before a block of text have printed."""
     blocks = re.findall(r"^```(sh|text)\n(.*?)^```$", (PROJECT / page).read_text(encoding="utf-8"),
                         re.M | re.S)
     commands = [text for kind, text in blocks if kind == "sh"]
@@ -105,9 +112,9 @@ def check_page(folder, page):
     count = len(re.findall(r"^@@ \d+$", done.stdout, re.M))
     expect(
         "every command of the page succeeds", commands and done.returncode == 0
-        and count == len(commands),
-        f"({done.returncode}) ended in: {commands[min(count, len(commands) - 1)] if commands else 'no block'}\n{done.stdout[-1500:]}"
-    )
+        and count == len(commands), f"({done.returncode}) ended in: "
+        f"{commands[min(count, len(commands) - 1)] if commands else 'no block'}\n"
+        f"{done.stdout[-1500:]}")
     ran, shown = 0, 0
     for kind, text in blocks:
         if kind == "sh":

@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Templates and new folders are decks that check and run as they are: check_templates.py PROGRAM MPIEXEC"""
+"""Templates and new folders are decks that check and run as they are.
+
+    check_templates.py PROGRAM MPIEXEC
+"""
 import csv
 import json
 import math
@@ -45,7 +48,8 @@ def runs(deck, *settings):
 
 
 def tvd(stations):
-    """Vertical depth of the last station by minimum curvature: MD/2 (cos I1 + cos I2) 2/b tan b/2 for a bend b."""
+    """Vertical depth of the last station by minimum curvature: MD/2 (cos I1 + cos I2) 2/b tan b/2
+    for a bend b."""
     depth = 0.0
     rows = [stations[i:i + 3] for i in range(0, len(stations), 3)]
     for (a, i, z), (b, j, y) in zip(rows, rows[1:]):
@@ -59,7 +63,8 @@ def tvd(stations):
 
 
 def wells():
-    """`template well` and the deck of `new` are one well; its hook load is that of torque and drag."""
+    """`template well` and the deck of `new` are one well; its hook load is that of torque and
+    drag."""
     text = printed("well.xml", "well")
     expect("template well: a page, of tubulars of the library", "fill*5 in stand" in text
            and len(text.splitlines()) < 70, str(len(text.splitlines())))
@@ -101,7 +106,8 @@ def wells():
     deepest = max(float(row["bit_depth"]) for row in rows)
     drilling = [
         float(row["hook_load"]) for row in rows
-        if float(row["bit_depth"]) == deepest and row["operation"] == "Drill rotating"]
+        if float(row["bit_depth"]) == deepest and row["operation"] == "Drill rotating"
+    ]
     expect("the hook load is that of torque and drag within 1 %", done.returncode == 0
            and len(drilling) == 1 and abs(loads[0] / drilling[0] - 1) < 0.01, f"{loads} {drilling}")
 
@@ -150,9 +156,8 @@ def parts():
         and pathlib.Path("file_modes/modes.csv").read_text()
         == pathlib.Path("parts_modes/modes.csv").read_text(), named.stderr)
     beside = tooljoint(
-        "check", "parts.xml", "--set",
-        'Parts/Imported/first/File={"format": "tooljoint part 1", "components": ["u"], "dofs": [[1, "u"]], "mass": "M.mtx", "stiffness": [[1]]}'
-    )
+        "check", "parts.xml", "--set", 'Parts/Imported/first/File={"format": "tooljoint part 1", '
+        '"components": ["u"], "dofs": [[1, "u"]], "mass": "M.mtx", "stiffness": [[1]]}')
     expect(
         "parts: a part in the deck has no files beside it", beside.returncode == 2
         and 'names the file "M.mtx", but stands in no folder' in beside.stderr, beside.stderr)
@@ -160,9 +165,10 @@ def parts():
     frequencies, vectors = (text.find(word) for text, word in ((done.stdout, "full [Hz]"),
                                                                (asked.stdout, "|Phi'M Phi - I|")))
     expect(
-        "parts: frequencies come first, the vectors of the bases behind them where they are asked for",
-        0 < frequencies < done.stdout.find("RK4 step") and "|Phi'M Phi - I|" not in done.stdout
-        and vectors > asked.stdout.find("full [Hz]") > 0, asked.stdout[-600:])
+        "parts: frequencies come first, the vectors of the bases behind them where they are asked "
+        "for", 0 < frequencies < done.stdout.find("RK4 step")
+        and "|Phi'M Phi - I|" not in done.stdout and vectors > asked.stdout.find("full [Hz]") > 0,
+        asked.stdout[-600:])
 
 
 def study():
@@ -176,8 +182,8 @@ def study():
     expect(
         "study.xml: six rows, all done, errors below 5 %", done.returncode == 0 and len(rows) == 6
         and all(row["status"] == "done" and row["vibration_error"] < 0.05 for row in rows),
-        f"{[(row['label'], row['status'], row['vibration_error']) for row in rows]} {done.stderr[-300:]}"
-    )
+        f"{[(row['label'], row['status'], row['vibration_error']) for row in rows]} "
+        f"{done.stderr[-300:]}")
 
 
 def scenes():

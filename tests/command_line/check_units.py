@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Printed results in units of the field: check_units.py PROGRAM MPIEXEC SOURCES
 
-Commands run twice, with and without --units field. Their lines are the same words with the same quantities: each number, times the exact value of
-its unit, is that of the other line within the digits of both. Files are the same to the byte.
+Commands run twice, with and without --units field. Their lines are the same words with the same
+quantities: each number, times the exact value of its unit, is that of the other line within the
+digits of both. Files are the same to the byte.
 """
 import csv
 import json
@@ -16,12 +17,14 @@ from checks import expect, finish, tooljoint  # noqa: E402
 
 SOURCES = pathlib.Path(sys.argv[3])
 SCENE = str(SOURCES / "tests/effects/scene.xml")
-FOOT, INCH, POUND, GRAVITY = 0.3048, 0.0254, 0.45359237, 9.80665  # exact (NIST SP 811, appendix B.8)
+# exact (NIST SP 811, appendix B.8)
+FOOT, INCH, POUND, GRAVITY = 0.3048, 0.0254, 0.45359237, 9.80665
 POUND_FORCE = POUND * GRAVITY  # 4.4482216152605 N
 SI = {
     "kN m": 1e3, "N m": 1.0, "kN/m": 1e3, "N/m": 1.0, "kN": 1e3, "N": 1.0, "m/s2": 1.0, "m/s": 1.0,
     "mm": 1e-3, "m": 1.0, "MPa": 1e6, "deg/30 m": 1 / 30, "kg m2": 1.0, "N m s/rad": 1.0,
-    "N m/rad": 1.0, "m/N": 1.0, "rad/N": 1.0}
+    "N m/rad": 1.0, "m/N": 1.0, "rad/N": 1.0
+}
 FIELD = {
     "kN m": ("kft-lbf", 1e3 * FOOT * POUND_FORCE),
     "N m": ("ft-lbf", FOOT * POUND_FORCE),
@@ -39,15 +42,17 @@ FIELD = {
     "N m s/rad": ("ft-lbf s/rad", FOOT * POUND_FORCE),
     "N m/rad": ("ft-lbf/rad", FOOT * POUND_FORCE),
     "m/N": ("ft/lbf", FOOT / POUND_FORCE),
-    "rad/N": ("rad/lbf", 1 / POUND_FORCE), }
+    "rad/N": ("rad/lbf", 1 / POUND_FORCE),
+}
 NUMBER = r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 
 
 def quantities(text, units):
-    """(number as written, unit) of a text, and its words without numbers; the program breaks lines at 100 columns."""
+    """(number as written, unit) of a text, and its words without numbers; the program breaks lines
+    at 100 columns."""
     pattern = re.compile(
-        f"({NUMBER}) ({'|'.join(map(re.escape, sorted(units, key=len, reverse=True)))})(?![\\w/]| the list)"
-    )
+        f"({NUMBER}) ({'|'.join(map(re.escape, sorted(units, key=len, reverse=True)))})(?![\\w/]| "
+        "the list)")
     text = " ".join(" ".join(
         line for line in text.splitlines()
         if not line.startswith("time")).split())  # without the seconds of this machine
@@ -77,17 +82,20 @@ def same_words(what, usual, field, at_least):
     faults = [
         f"{number} {unit} is not {other} {name}"
         for (number, unit), (other, name) in zip(found, converted)
-        if FIELD[unit][0] != name or not agree(number, other, SI[unit], FIELD[unit][1])]
+        if FIELD[unit][0] != name or not agree(number, other, SI[unit], FIELD[unit][1])
+    ]
     expect(f"{what}: {len(found)} quantities, each with the exact factor", not faults
            and len(found) == len(converted) and len(found) >= at_least, "; ".join(faults[:4]))
 
 
 def both(command, deck, *arguments, at_least, files=(), begin="", end=None):
-    """Runs the command in both systems, with results in the folders usual and field; compares what it prints from `begin` on, up to `end`, and its files."""
+    """Runs the command in both systems, with results in the folders usual and field; compares what
+    it prints from `begin` on, up to `end`, and its files."""
     out = [
         tooljoint(command, deck, *arguments,
                   *(["--output", folder] if command not in ("check", "modes") else []), *units)
-        for folder, units in (("usual", []), ("field", ["--units", "field"]))]
+        for folder, units in (("usual", []), ("field", ["--units", "field"]))
+    ]
     what = " ".join([command, pathlib.Path(deck).stem, *arguments[1::2]])
     expect(f"{what}: both end well", all(one.returncode == 0 for one in out),
            out[0].stderr[-300:] + out[1].stderr[-300:])
@@ -96,7 +104,8 @@ def both(command, deck, *arguments, at_least, files=(), begin="", end=None):
            and note not in out[0].stdout, out[1].stdout[-200:])
     texts = [
         text[text.index(begin):text.index(end) if end else None]
-        for text in (out[0].stdout.replace("usual", "field"), out[1].stdout.replace(note, ""))]
+        for text in (out[0].stdout.replace("usual", "field"), out[1].stdout.replace(note, ""))
+    ]
     same_words(what, *texts, at_least)
     same_words(f"{what}, warnings", out[0].stderr.replace("usual", "field"), out[1].stderr, 0)
     for name in files:
@@ -108,7 +117,8 @@ def both(command, deck, *arguments, at_least, files=(), begin="", end=None):
 def rows(name):
     with open(name, encoding="utf-8", newline="") as text:
         return [
-            {key.split(" [")[0]: cell for key, cell in row.items()} for row in csv.DictReader(text)]
+            {key.split(" [")[0]: cell for key, cell in row.items()} for row in csv.DictReader(text)
+        ]
 
 
 def figures(folder):
@@ -135,8 +145,11 @@ def of_strings():
                files=["torque_drag.csv", "torque_drag_profile.csv"])
     for row in rows("field/torque_drag.csv"):
         line = next(line for line in out[1].splitlines() if line.startswith(row["operation"] + " "))
-        for key, unit in (("hook_load", "klbf"), ("surface_torque", "kft-lbf"), ("side_force",
-                                                                                 "lbf/ft")):
+        for key, unit in (
+            ("hook_load", "klbf"),
+            ("surface_torque", "kft-lbf"),
+            ("side_force", "lbf/ft"),
+        ):
             shown = re.findall(f"({NUMBER}) {unit}(?![\\w-])", line)
             factor = next(value for name, value in FIELD.values() if name == unit)
             expect(f"{row['operation']}: {shown} {unit} is {key} of the table",
@@ -152,8 +165,8 @@ def of_bottom_hole():
     heading = next(i for i, line in enumerate(out) if line.split()[:2] == ["deg", "klbf"])
     expect(
         "the heading of bha has units of the field", out[heading].split() == [
-            "deg", "klbf", "deg", "klbf", "deg", "deg", "ft", "kft-lbf", "at", "ft", "psi"],
-        out[heading])
+            "deg", "klbf", "deg", "klbf", "deg", "deg", "ft", "kft-lbf", "at", "ft", "psi"
+        ], out[heading])
     for line, row in zip(out[heading + 1:], rows("field/bha.csv")):
         numbers = re.findall(NUMBER, line.replace("rotating", "0"))
         expected = [
@@ -162,7 +175,8 @@ def of_bottom_hole():
             ("side_force_right", 4, 1e3 * POUND_FORCE),
             ("largest_moment", -3, 1e3 * FOOT * POUND_FORCE),
             ("largest_moment_from_bit", -2, FOOT),
-            ("largest_von_mises", -1, POUND_FORCE / INCH**2), ]
+            ("largest_von_mises", -1, POUND_FORCE / INCH**2),
+        ]
         wrong = [(key, numbers[place], row[key]) for key, place, factor in expected
                  if not agree(numbers[place], row[key], factor, 1.0)]
         expect("a row of bha in print is the one of the table", not wrong, f"{wrong} {line}")

@@ -9,10 +9,11 @@ A deck says in its first XML comment what the user must see:
          set: Contact/Stiffness=1e6
          args: \\-\\-quiet -->
 
-Each `expect(code):` line is text that stderr must contain (runs of blanks count as one); all codes must be equal.
-`set: PATH=VALUE` adds `--set PATH=VALUE`; `args:` adds words as a shell would split them, where `\\-\\-` stands for the two
-hyphens XML forbids in a comment. A deck that cannot hold a comment (empty, no XML at all) has the same lines in a
-file NAME.xml.expect beside it. Only *.xml directly in the folder are decks; what they name may stand in subfolders.
+Each `expect(code):` line is text that stderr must contain (runs of blanks count as one); all codes
+must be equal. `set: PATH=VALUE` adds `--set PATH=VALUE`; `args:` adds words as a shell would split
+them, where `\\-\\-` stands for the two hyphens XML forbids in a comment. A deck that cannot hold a
+comment (empty, no XML at all) has the same lines in a file NAME.xml.expect beside it. Only *.xml
+directly in the folder are decks; what they name may stand in subfolders.
 """
 import argparse
 import concurrent.futures
@@ -74,7 +75,8 @@ def check(program, deck):
     seen = squeeze(run.stderr)
     complaints += [
         f"stderr does not say: {sentence}" for sentence in sentences
-        if squeeze(sentence) not in seen]
+        if squeeze(sentence) not in seen
+    ]
     if complaints:
         complaints.append("stderr was:\n" + (run.stderr.rstrip() or "(empty)"))
     return complaints

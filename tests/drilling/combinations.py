@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every law of the bit and every control of the drive under every integrator, in the full and the reduced model: one motion, a ledger that
-closes, figures of merit, and a run that goes on from its checkpoint to the same numbers."""
+"""Every law of the bit and every control of the drive under every integrator, in the full and the
+reduced model: one motion, a ledger that closes, figures of merit, and a run that goes on from its
+checkpoint to the same numbers."""
 import resource
 import subprocess
 
@@ -17,35 +18,43 @@ CUTTING = {
     "Law": "Cutting",
     "Cutting": {
         "Blades": 4, "Radius": 0.108, "Specific Energy": 1e7, "Wear Flat": 1e-3,
-        "Contact Stress": 1e7}, }
+        "Contact Stress": 1e7
+    },
+}
 SPEED = {
-    "Control": "Speed", "Inertia": 1500.0, "Proportional Gain": 2000.0, "Integral Gain": 1000.0}
+    "Control": "Speed", "Inertia": 1500.0, "Proportional Gain": 2000.0, "Integral Gain": 1000.0
+}
 BLOCK = {"Block Speed": 5e-3}
 DRILLER = {
-    "Autodriller": {"Weight On Bit": 150e3, "Proportional Gain": 1e-7, "Integral Gain": 1e-7}}
+    "Autodriller": {"Weight On Bit": 150e3, "Proportional Gain": 1e-7, "Integral Gain": 1e-7}
+}
 # name: law of the bit, drive, weight on bit of Loads [N]; the limits of torque are reached
 SCENES = {
     "friction, PI drive at its limit": (
         {
             "Law": "Stribeck",
-            "Stribeck": {"Radius": 0.108, "Sticking Speed": 0.1}, },
+            "Stribeck": {"Radius": 0.108, "Sticking Speed": 0.1},
+        },
         {**SPEED, "Torque Limit": 3400.0},
         60e3,
     ),
     "smooth curve, torque": ({"Law": "Tanh"}, {"Control": "Torque", "Inertia": 1500.0}, 150e3),
     "cutting, matched drive": (CUTTING, {
-        "Control": "Impedance Matched", "Inertia": 1500.0, "Tuning Frequency": 0.25,
-        **BLOCK}, None),
+        "Control": "Impedance Matched", "Inertia": 1500.0, "Tuning Frequency": 0.25, **BLOCK
+    }, None),
     "cutting, stiff drive, free hook": (CUTTING, {"Hook": "Constant Load", **BLOCK}, None),
     "penetration, high-pass drive": (
         {"Law": "Tucker-Wang"},
         {"Control": "Impedance Matched", "Inertia": 1500.0, "High-Pass Frequency": 0.2, **BLOCK},
         None,
     ),
-    "penetration, autodriller and PI drive": ({"Law": "Tucker-Wang"}, {**SPEED, **DRILLER}, None), }
-# settings, and bounds of the difference from RK4 over the change of the motion: of the angle of the bit and of its advance. The steps of the
-# order h^2 leave a thousandth of the wave that returns from the bit; tolerances of a step add up over hundreds of them. RK4 adaptive and ARKODE
-# have their usual tolerances. A steep law makes forces of what is small in velocities: they may be ten times as wrong as the advance.
+    "penetration, autodriller and PI drive": ({"Law": "Tucker-Wang"}, {**SPEED, **DRILLER}, None),
+}
+# settings, and bounds of the difference from RK4 over the change of the motion: of the angle of the
+# bit and of its advance. The steps of the order h^2 leave a thousandth of the wave that returns
+# from the bit; tolerances of a step add up over hundreds of them. RK4 adaptive and ARKODE have
+# their usual tolerances. A steep law makes forces of what is small in velocities: they may be ten
+# times as wrong as the advance.
 REFERENCE = ("RK4", {"Transient/Integrator": "RK4", "Transient/Step": 1e-4})
 INTEGRATORS = (
     ("RK4 adaptive", {"Transient/Integrator": "RK4 adaptive"}, 1e-6, 1e-5),
@@ -55,11 +64,13 @@ INTEGRATORS = (
      {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 5e-4}, 5e-6, 8e-4),
     ("generalized-alpha, step by its error", {
         "Transient/Integrator": "Generalized-alpha", "Transient/Step": 5e-3,
-        "Transient/Generalized-alpha/Step Tolerance": 1e-7}, 3e-4, 6e-2),
+        "Transient/Generalized-alpha/Step Tolerance": 1e-7
+    }, 3e-4, 6e-2),
     ("ARKODE", {"Transient/Integrator": "SUNDIALS ARKODE"}, 3e-5, 1e-3),
     ("CVODE", {
         "Transient/Integrator": "SUNDIALS CVODE",
-        "Transient/SUNDIALS CVODE/Relative Tolerance": 1e-6}, 3e-4, 1e-3),
+        "Transient/SUNDIALS CVODE/Relative Tolerance": 1e-6
+    }, 3e-4, 1e-3),
 )
 OF_EVERY_BIT = ("bit_speed_rpm", "stick_slip_index", "stuck_share", "weight_on_bit",
                 "torque_on_bit", "axial_acceleration", "lateral_acceleration", "whirl", "bending")
@@ -69,7 +80,8 @@ def deck(program, name, bit, drive, weight):
     loads = {"Gravity": 9.81} if weight is None else {"Gravity": 9.81, "Weight On Bit": weight}
     rotary = {
         "Law": "Exponential",
-        "Exponential": {"Initial Speed": 12.0, "Final Speed": 14.0, "Time Constant": 0.3}, }
+        "Exponential": {"Initial Speed": 12.0, "Final Speed": 14.0, "Time Constant": 0.3},
+    }
     return program.deck(
         name,
         models.string_deck(
@@ -86,11 +98,14 @@ def deck(program, name, bit, drive, weight):
                            },  # so that the place of a chunk is known before it is full
                 "Transient": {
                     "Progress": False, "End Time": 1.0, "Sampling Interval": 0.002,
-                    "Checkpoint Interval": 0.1}, }))
+                    "Checkpoint Interval": 0.1
+                },
+            }))
 
 
 def goes_on(program, name, path, whole, settings, without):
-    """The run on a disk that is full when the second chunk of a field is to be written, after nine tenths of the motion, and then with room again."""
+    """The run on a disk that is full when the second chunk of a field is to be written, after nine
+    tenths of the motion, and then with room again."""
     folder = program.work / f"{name}_halted"
     size = int(0.85 * (whole.folder / "results.h5").stat().st_size)
     own = program.overrides({"Output/XDMF": "false", "Output/CSV": "false", **settings}, without)
@@ -100,7 +115,8 @@ def goes_on(program, name, path, whole, settings, without):
         for how, limit in (
             ("--output", lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))),
             ("--restart", None),
-        )]
+        )
+    ]
     if [call.returncode for call in calls] != [5, 0]:
         return [f"exit codes {[call.returncode for call in calls]}: {calls[-1].stdout[-200:]}"]
     return differences(whole.folder, folder)
@@ -114,7 +130,8 @@ def forces(run, gives_weight):
     with h5py.File(run.folder / "results.h5") as file:
         return [
             file[f"transient/{name}"][:]
-            for name in ("torque_on_bit", *(["weight_on_bit"] if gives_weight else []))]
+            for name in ("torque_on_bit", *(["weight_on_bit"] if gives_weight else []))
+        ]
 
 
 def figures_of(run, gives_weight):
@@ -123,7 +140,8 @@ def figures_of(run, gives_weight):
     missing = [name for name in OF_EVERY_BIT if found.get(name) is None]
     missing += [
         name for name in ("specific_energy", "rate_of_penetration")
-        if (found.get(name) is not None) != gives_weight]
+        if (found.get(name) is not None) != gives_weight
+    ]
     if abs(found["begin"] - 0.5) > 1e-9 or abs(found["end"] - 1.0) > 1e-9:
         missing.append(f"window {found['begin']} to {found['end']}")
     return missing
@@ -131,13 +149,15 @@ def figures_of(run, gives_weight):
 
 def combinations(program, sundials=True):
     integrators = [
-        one for one in INTEGRATORS if sundials or "SUNDIALS" not in one[1]["Transient/Integrator"]]
+        one for one in INTEGRATORS if sundials or "SUNDIALS" not in one[1]["Transient/Integrator"]
+    ]
     for place, (title, (bit, drive, weight)) in enumerate(SCENES.items()):
         path = deck(program, f"combination_{place}", bit, drive, weight)
         for model, without in (("full", FULL), ("reduced", ())):
             true, errors = None, {}
             for number, (integrator, settings, *bounds) in enumerate((REFERENCE, *integrators)):
-                name, what = f"combination_{place}_{model}_{number}", f"{title}, {model}, {integrator}"
+                name, what = (f"combination_{place}_{model}_{number}",
+                              f"{title}, {model}, {integrator}")
                 run = program.run(name, path, settings, without)
                 if not run.done:
                     expect(what, False, f"{run.code} {run.sentence()}")
@@ -157,12 +177,14 @@ def combinations(program, sundials=True):
                     np.abs(a - b).max() / np.ptp(b)
                     for a, b in zip(forces(run, weight is None), true_forces))
                 expect(
-                    f"{what}: error of the forces of the bit over their change {worst:.1e} within {10 * bounds[1]:.0e}",
-                    worst <= 10 * bounds[1])
+                    f"{what}: error of the forces of the bit over their change {worst:.1e} within "
+                    f"{10 * bounds[1]:.0e}", worst <= 10 * bounds[1])
                 errors[integrator] = found = [
-                    np.abs(a - b).max() / max(np.ptp(b), 1e-6) for a, b in zip(moved(run), true)]
+                    np.abs(a - b).max() / max(np.ptp(b), 1e-6) for a, b in zip(moved(run), true)
+                ]
                 expect(
-                    f"{what}: errors of angle and advance {found[0]:.1e}, {found[1]:.1e} within {bounds[0]:.0e}, {bounds[1]:.0e}",
+                    f"{what}: errors of angle and advance {found[0]:.1e}, {found[1]:.1e} within "
+                    f"{bounds[0]:.0e}, {bounds[1]:.0e}",
                     all(error <= bound for error, bound in zip(found, bounds)))
             whole, half = (errors.get(name, [np.nan])[0]
                            for name in ("generalized-alpha", "generalized-alpha, half the step"))

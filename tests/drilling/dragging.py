@@ -1,27 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Friction along the hole (Contact/Friction/Axial): drag of steady sliding by formula, a string that slips and sticks on its way down against
-scipy, its damped modes and response against a matrix of its own, and a string that begins to turn while it slides."""
+"""Friction along the hole (Contact/Friction/Axial): drag of steady sliding by formula, a string
+that slips and sticks on its way down against scipy, its damped modes and response against a matrix
+of its own, and a string that begins to turn while it slides."""
 import csv
 import math
 
 import models
 import numpy as np
 from checks import expect
+from models import W, near
 from program import FULL
 from scipy.integrate import solve_ivp
 
-W = 2
 INCLINATION, OMEGA, ALPHA = math.radians(60), 10.0, 1e-3
 RK4 = {"Transient/Integrator": "RK4", "Transient/Step": 2.5e-4}
 PIPE = {"Length": 40.0, "Elements": 4, "Outer Radius": 0.0635, "Inner Radius": 0.054}
 COUNT, GRAVITY, BORE = 5, 9.81, 0.1
 STATIC, DYNAMIC, VELOCITY = 0.3, 0.2, 0.1
 WEIGHT = models.DENSITY * models.area(PIPE) * GRAVITY * PIPE["Length"] * COUNT
-
-
-def near(what, found, truth, tolerance):
-    expect(f"{what}: {found:.6g}, true {truth:.6g} within {tolerance:.2g}",
-           abs(found - truth) <= tolerance)
 
 
 def mu(v):
@@ -34,26 +30,31 @@ def mu(v):
 def deck(program, name, block, **lists):
     survey = program.work / "inclined.csv"
     survey.write_text(
-        f"MD [m], Inc [deg], Azi [deg]\n0, {math.degrees(INCLINATION)!r}, 0\n300, {math.degrees(INCLINATION)!r}, 0\n",
-        encoding="utf-8")
+        f"MD [m], Inc [deg], Azi [deg]\n0, {math.degrees(INCLINATION)!r}, 0\n"
+        f"300, {math.degrees(INCLINATION)!r}, 0\n", encoding="utf-8")
     return program.deck(
         name, {
             "Well": {"Trajectory": "Survey", "Survey": {"File": str(survey)}, "Bore Radius": BORE},
             "Drillstring": {
                 "Assembly": [f"{COUNT}*pipe"], "Components": {"pipe": PIPE},
-                "Material": models.STEEL},
+                "Material": models.STEEL
+            },
             "Supports": {"Bit": "none"},
             "Loads": {"Gravity": GRAVITY},
             "Damping": {"Mass Coefficient": 0.5},
             "Contact": {
                 "Stiffness": 1e7, "Damping": 1e4, "Friction": {
                     "Static": STATIC, "Dynamic": DYNAMIC, "Regularisation Velocity": VELOCITY,
-                    "Axial": True}},
+                    "Axial": True
+                }
+            },
             "Top Drive": {"Block Speed": block},
             "Transient": {
                 "Progress": False, "Integrator": "Generalized-alpha", "Step": ALPHA,
-                "End Time": 0.05, "Sampling Interval": 0.005},
-            **lists, })
+                "End Time": 0.05, "Sampling Interval": 0.005
+            },
+            **lists,
+        })
 
 
 def turning(speed):
@@ -61,7 +62,8 @@ def turning(speed):
 
 
 def steady(program):
-    """Hook load w L (cos a -+ mu sin a) of a string that slides, less by v_a/v where it turns too, at rest and in the motion that goes on so."""
+    """Hook load w L (cos a -+ mu sin a) of a string that slides, less by v_a/v where it turns too,
+    at rest and in the motion that goes on so."""
     for name, feed, omega in (("up", -0.3, 0.0), ("down and turning back", 0.2, -OMEGA)):
         run = program.run("steady",
                           deck(program, "steady", feed, **(turning(omega) if omega else {})))
@@ -69,7 +71,8 @@ def steady(program):
         v = math.hypot(feed, omega * PIPE["Outer Radius"])
         along, around = mu(v) * feed / v, mu(v) * omega * PIPE["Outer Radius"] / v
         pressed = run.summary["static"]["total_normal_force"]
-        # the wall holds the weight across the hole with N and friction; the first node hangs in the support
+        # the wall holds the weight across the hole with N and friction; the first node hangs in the
+        # support
         across = WEIGHT * math.sin(INCLINATION) * (
             1 - 0.5 / (COUNT * PIPE["Elements"])) / math.sqrt(1 + around**2)
         near(f"{name}: contact forces", pressed, across, 0.01 * across)
@@ -103,8 +106,8 @@ class Rod:
 
         def rates(_, y):
             w, v = y[:n], y[n:]
-            return np.concatenate([
-                v, inverse @ (-self.K @ w - self.C @ v - mu(feed + v) * self.normal)])
+            return np.concatenate(
+                [v, inverse @ (-self.K @ w - self.C @ v - mu(feed + v) * self.normal)])
 
         return solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="DOP853", rtol=1e-9,
                          atol=1e-12, t_eval=times, max_step=1e-3).y[:n].T
@@ -126,7 +129,8 @@ class Rod:
         n, inverse = len(self.K), np.linalg.inv(self.M)
         A = np.block([
             [np.zeros((n, n)), np.eye(n)],
-            [-inverse @ self.K, -inverse @ self.damping(feed)], ])
+            [-inverse @ self.K, -inverse @ self.damping(feed)],
+        ])
         s = np.linalg.eigvals(A)
         return s[s.imag > 0]
 
@@ -134,14 +138,17 @@ class Rod:
 # parts without retained nodes: friction acts by way of the modes
 PARTS = {
     "Substructures": {"Rule": "By component", "Retained Nodes": "None"},
-    "Reduction": {"Mode Selection": {"Modes": 24}}, }
+    "Reduction": {"Mode Selection": {"Modes": 24}},
+}
 
 
 def slipping(program):
-    """The static state has no friction and the motion has: the string slows down almost to rest and goes on. The normal forces do not change."""
+    """The static state has no friction and the motion has: the string slows down almost to rest and
+    goes on. The normal forces do not change."""
     feed, end = 0.03, 0.2
     settings = {
-        "Transient/End Time": end, "Transient/Sampling Interval": 0.002, "Static/Friction": "None"}
+        "Transient/End Time": end, "Transient/Sampling Interval": 0.002, "Static/Friction": "None"
+    }
     times = np.arange(0, end + 1e-9, 0.002)
     truth = None
     path = deck(program, "slipping", feed, **PARTS)
@@ -164,14 +171,16 @@ def slipping(program):
 
 
 def slopes(program):
-    """Damped modes about sliding: the axial ones have the slope of the coefficient as damping, here a negative one."""
+    """Damped modes about sliding: the axial ones have the slope of the coefficient as damping, here
+    a negative one."""
     feed = 0.3
-    run = program.run("slopes", deck(program, "slopes", feed), {}, ("Transient", ), command="modes",
+    run = program.run("slopes", deck(program, "slopes", feed), {}, ("Transient",), command="modes",
                       extra=("--count", "80"))
     expect("slopes: exit code 0", run.done, run.sentence() if not run.done else "")
     with open(run.folder / "damped_modes.csv", newline="", encoding="utf-8") as table:
         modes = [
-            (float(row["full [Hz]"]), float(row["full_damping"])) for row in csv.DictReader(table)]
+            (float(row["full [Hz]"]), float(row["full_damping"])) for row in csv.DictReader(table)
+        ]
     pressed = WEIGHT * math.sin(INCLINATION) / (COUNT * PIPE["Elements"])
     rod = Rod(np.array([pressed] * (COUNT * PIPE["Elements"]) + [0.5 * pressed]))
     root = min(rod.roots(feed), key=abs)
@@ -187,8 +196,9 @@ def slopes(program):
     sweep = {
         "Excitation": "Harmonic", "Friction": "Sliding", "Lowest Frequency": 5.0,
         "Highest Frequency": 10.0, "Points": 11, "Loads": {"push": {**end, "Value": 100.0}},
-        "Outputs": {"end": end}}
-    run = program.run("sweep", deck(program, "sweep", feed, Response=sweep), {}, ("Transient", ),
+        "Outputs": {"end": end}
+    }
+    run = program.run("sweep", deck(program, "sweep", feed, Response=sweep), {}, ("Transient",),
                       command="response")
     expect("sweep: exit code 0", run.done, run.sentence() if not run.done else "")
     with open(run.folder / "response.csv", newline="", encoding="utf-8") as table:
@@ -201,18 +211,22 @@ def slopes(program):
 
 
 def spun_up(program):
-    """A string that slides begins to turn: drag gives way to torque, in both models and by two integrators. Where translations alone are retained, the
-    torque of friction acts on the four modes of a part."""
+    """A string that slides begins to turn: drag gives way to torque, in both models and by two
+    integrators. Where translations alone are retained, the torque of friction acts on the four
+    modes of a part."""
     lists = {
         "Rotary Speed": {
             "Law": "Exponential",
-            "Exponential": {"Final Speed": OMEGA, "Time Constant": 0.05}, }}
+            "Exponential": {"Final Speed": OMEGA, "Time Constant": 0.05},
+        }
+    }
     settings = {"Transient/End Time": 0.2, "Transient/Step": 5e-4}
     path = deck(program, "spun_up", 0.1, **lists, **PARTS)
     true = None
     few = {
         "Substructures/Retained Nodes": "Gap", "Substructures/Retained Dofs": "Translations",
-        "Reduction/Mode Selection/Modes": 4}
+        "Reduction/Mode Selection/Modes": 4
+    }
     for name, own, without, bound in (
         ("full, RK4", RK4, FULL, 0),
         ("reduced, generalized-alpha", {}, (), 1e-3),

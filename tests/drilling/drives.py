@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stability of steady drilling by drive: simulations on both sides of the limits of the torsional line."""
+"""Stability of steady drilling by drive: simulations on both sides of the limits of the torsional
+line."""
 import math
 
 import models
@@ -15,7 +16,8 @@ BIT = models.Friction(static=WEIGHT * 0.108 * 0.8, dynamic=WEIGHT * 0.108 * 0.5,
                       viscous=20.0, width=0.01)
 LINE = torsion.Line([
     (900.0, models.PIPE["Outer Radius"], models.PIPE["Inner Radius"]),
-    (200.0, models.COLLAR["Outer Radius"], models.COLLAR["Inner Radius"]), ], MASS, STIFFNESS)
+    (200.0, models.COLLAR["Outer Radius"], models.COLLAR["Inner Radius"]),
+], MASS, STIFFNESS)
 TUNED = 0.49  # [Hz], near the first mode of the string below a stiff drive
 
 
@@ -41,27 +43,35 @@ def growth(program, name, drive, speed):
                 "Gravity": 9.81, "Weight On Bit": WEIGHT, "Forces": {
                     "kick": {
                         "Node": 111, "Component": "theta_z", "Value": 1e-2, "Frequency": 0.5,
-                        "Phase": -math.pi / 2, "End Time": 1.0}}},
+                        "Phase": -math.pi / 2, "End Time": 1.0
+                    }
+                }
+            },
             "Rotary Speed": {"Law": "Constant", "Constant": {"Speed": speed}},
             "Damping": {"Mass Coefficient": MASS, "Stiffness Coefficient": STIFFNESS},
             "Bit": {
                 "Law": "Stribeck",
                 "Stribeck": {
-                    "Radius": 0.108, "Viscous Damping": BIT.viscous, "Sticking Speed": BIT.width},
+                    "Radius": 0.108, "Viscous Damping": BIT.viscous, "Sticking Speed": BIT.width
+                },
             },
             "Top Drive": {
                 "Control": "Speed", "Inertia": drive.inertia, "Proportional Gain": drive.kp,
-                "Integral Gain": drive.ki},
+                "Integral Gain": drive.ki
+            },
             "Supports": {"Dofs": "torsional"},
             "Transient": {
                 "Progress": False, "End Time": 30.0, "Sampling Interval": 0.05,
-                "Integrator": "Generalized-alpha", "Step": 1e-2}, })
+                "Integrator": "Generalized-alpha", "Step": 1e-2
+            },
+        })
     run = program.run(name, program.deck(name, deck))
     return run, growth_of_pair(run.time(), run.nodes(THETA_Z, "velocity")[:, -1], 4)
 
 
 def drive_limits(program):
-    """The critical speed of a stiff drive, and of matched ones, is that of the line: growth below, decay above; between them the stiff drive's motion grows and the tuned one's decays."""
+    """The critical speed of a stiff drive, and of matched ones, is that of the line: growth below,
+    decay above; between them the stiff drive's motion grows and the tuned one's decays."""
     speeds = {name: critical_speed(drive) for name, drive in DRIVES.items()}
     between = 0.5 * (speeds["stiff"] + speeds["matched, ratio 4"])
     expect("the tuned drive is stable at lower speeds",

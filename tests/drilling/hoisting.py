@@ -1,22 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bits of smooth curves and of penetration, and the autodriller, against closed forms and integrations of their own."""
+"""Bits of smooth curves and of penetration, and the autodriller, against closed forms and
+integrations of their own."""
 import csv
 import math
 
 import models
 import numpy as np
 from checks import expect
+from models import THETA_Z, W, near
 
-THETA_Z, W = 5, 2
 ALPHA = {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 1e-3}
 RK4 = {"Transient/Integrator": "RK4", "Transient/Step": 1e-4}
 PARTS = {"Substructures": {"Rule": "By component"}, "Reduction": {"Mode Selection": {"Modes": 6}}}
 PIECES = ((models.PIPE, 3), (models.COLLAR, 2))
-
-
-def near(what, found, truth, tolerance):
-    expect(f"{what}: {found:.6g}, true {truth:.6g} within {tolerance:.2g}",
-           abs(found - truth) <= tolerance)
 
 
 def string(program, name, settings, end, lists):
@@ -29,7 +25,8 @@ def string(program, name, settings, end, lists):
 
 
 def tanh_bit(program):
-    """A string from rest below a PI drive, its bit resisting by the smooth curve: scipy, both models and integrators, the ledger."""
+    """A string from rest below a PI drive, its bit resisting by the smooth curve: scipy, both
+    models and integrators, the ledger."""
     weight, speed, rise, inertia, kp, ki = 244.2e3, 8.0, 0.5, 1500.0, 2000.0, 1000.0
     times = np.arange(0, 10.0 + 1e-9, 0.01)
     bit = models.TanhBit(weight)
@@ -41,17 +38,21 @@ def tanh_bit(program):
         "Loads": {"Gravity": 9.81, "Weight On Bit": weight},
         "Bit": {"Law": "Tanh"},
         "Top Drive": {
-            "Control": "Speed", "Inertia": inertia, "Proportional Gain": kp, "Integral Gain": ki},
+            "Control": "Speed", "Inertia": inertia, "Proportional Gain": kp, "Integral Gain": ki
+        },
         "Rotary Speed": {
             "Law": "Exponential",
-            "Exponential": {"Final Speed": speed, "Time Constant": rise}, }, }
+            "Exponential": {"Final Speed": speed, "Time Constant": rise},
+        },
+    }
     half = {**ALPHA, "Transient/Step": 5e-4}
     for name, own, more, bound in (("full", half, {}, 2e-3), ("rk4", RK4, {}, 2e-4),
                                    ("reduced", half, PARTS, 2e-3)):
         run = string(program, f"tanh_{name}", own, 10.0, {**lists, **more})
         near(f"tanh, {name}: largest error of theta_z",
              np.abs(run.nodes(THETA_Z) - theta).max() / np.abs(theta).max(), 0.0, bound)
-        # at low speed the curve is steep, and a release some ms early is a large error of the torque then: by its mean square
+        # at low speed the curve is steep, and a release some ms early is a large error of the
+        # torque then: by its mean square
         near(
             f"tanh, {name}: torque on bit",
             np.sqrt(np.mean(
@@ -61,7 +62,8 @@ def tanh_bit(program):
 
 
 def penetration_bit(program):
-    """Weight and torque of steady drilling by the formula; a motion with a ramp of the speed against scipy."""
+    """Weight and torque of steady drilling by the formula; a motion with a ramp of the speed
+    against scipy."""
     slow, fast, rise, feed, kp, ki, inertia = 10.0, 7.0, 0.4, 5e-3, 2000.0, 1000.0, 1500.0
     bit = models.PenetrationBit()
     times = np.arange(0, 6.0 + 1e-9, 0.01)
@@ -74,10 +76,13 @@ def penetration_bit(program):
         "Bit": {"Law": "Tucker-Wang"},
         "Top Drive": {
             "Control": "Speed", "Inertia": inertia, "Proportional Gain": kp, "Integral Gain": ki,
-            "Block Speed": feed},
+            "Block Speed": feed
+        },
         "Rotary Speed": {
             "Law": "Exponential",
-            "Exponential": {"Initial Speed": slow, "Final Speed": fast, "Time Constant": rise}, }, }
+            "Exponential": {"Initial Speed": slow, "Final Speed": fast, "Time Constant": rise},
+        },
+    }
     for name, own, more, bound in (("full", ALPHA, {}, 5e-3), ("rk4", RK4, {}, 5e-4),
                                    ("reduced", ALPHA, PARTS, 5e-3)):
         run = string(program, f"penetration_{name}", own, 6.0, {**lists, **more})
@@ -97,8 +102,8 @@ def penetration_bit(program):
                  {**lists, "Top Drive": {**lists["Top Drive"], "Block Speed": 2e-3}})
     expect(
         "penetration: a weight outside of the calibration is said, at rest and in motion",
-        f"of the static state is {bit.weight(2e-3, slow) / 1e3:.1f} kN, outside of the 100.0 to 250.0 kN"
-        in " ".join(low.output.split())
+        f"of the static state is {bit.weight(2e-3, slow) / 1e3:.1f} kN, outside of the 100.0 to "
+        "250.0 kN" in " ".join(low.output.split())
         and any("of the motion" in one for one in low.summary["warnings"]),
         str(low.summary["warnings"]))
 
@@ -110,45 +115,50 @@ SPEED, LINE, KP, KI, BLOCK = 10.0, 8e6, 1e-7, 1e-8, 20e3
 def driller(program, name, top, end=60.0, settings=None, **lists):
     """One element between lines and bit; the bit turns with the drive."""
     deck = models.string_deck(
-        ((PIPE, 1), ), **{
+        ((PIPE, 1),), **{
             "Loads": {"Gravity": 9.81},
             "Supports": {"Dofs": "axial torsional", "Bit": "theta_z"},
             "Bit": {"Law": "Tucker-Wang"},
             "Rotary Speed": {"Law": "Constant", "Constant": {"Speed": SPEED}},
             "Top Drive": top,
             "Transient": {"Progress": False, "End Time": end, "Sampling Interval": 0.05},
-            **lists, })
+            **lists,
+        })
     return program.run(name, program.deck(name, deck),
                        {**ALPHA, "Transient/Step": 5e-3, **(settings or {})})
 
 
 def ahead(program, own):
-    """Torque and drag of a string with an autodriller drills ahead with the set weight, and the torque of the bit at the speed of the operation."""
+    """Torque and drag of a string with an autodriller drills ahead with the set weight, and the
+    torque of the bit at the speed of the operation."""
     bit = models.PenetrationBit()
     for name, rotary in (
         ("constant", {"Law": "Constant", "Constant": {"Speed": SPEED}}),
         ("from rest", {
             "Law": "Exponential",
-            "Exponential": {"Final Speed": SPEED, "Time Constant": 1.0}, }),
+            "Exponential": {"Final Speed": SPEED, "Time Constant": 1.0},
+        }),
     ):
         deck = models.string_deck(
-            ((PIPE, 1), ), **{
+            ((PIPE, 1),), **{
                 "Loads": {"Gravity": 9.81},
                 "Supports": {"Bit": "theta_z"},
                 "Bit": {"Law": "Tucker-Wang"},
                 "Rotary Speed": rotary,
                 "Top Drive": {"Autodriller": own},
                 "Contact": {
-                    "Stiffness": 1e7, "Damping": 1e4, "Friction": {"Static": 1e-6,
-                                                                   "Dynamic": 1e-6}},
+                    "Stiffness": 1e7, "Damping": 1e4, "Friction": {"Static": 1e-6, "Dynamic": 1e-6}
+                },
                 "Torque and Drag": {"Count": 1, "Stiff String": "None"},
-                "Transient": {"End Time": 1.0}, })
+                "Transient": {"End Time": 1.0},
+            })
         for speed, settings in ((SPEED, {}), (6.0, {"Torque and Drag/Rotary Speed": 6.0})):
             run = program.run("ahead", program.deck("ahead", deck), settings, command="torque-drag")
             with open(run.folder / "torque_drag.csv", newline="", encoding="utf-8") as text:
                 rows = {
                     row["operation"]: {key.split(" [")[0]: cell for key, cell in row.items()
-                                       } for row in csv.DictReader(text)}
+                                       } for row in csv.DictReader(text)
+                }
             off, on = (rows[operation] for operation in ("Rotate off bottom", "Drill rotating"))
             weight = float(off["hook_load"]) - float(on["hook_load"])
             near(f"autodriller, {name}, {speed:g} rad/s: drills ahead with its weight", weight,
@@ -160,7 +170,8 @@ def ahead(program, own):
 
 
 def two_sensors(program, top):
-    """Measured weight and hook load of a block that jerks: W = W_0 - (H - H_0) + m_b w_1'', and the inertia of the first element."""
+    """Measured weight and hook load of a block that jerks: W = W_0 - (H - H_0) + m_b w_1'', and the
+    inertia of the first element."""
     own = {**top["Autodriller"], "Proportional Gain": 1e-6, "Integral Gain": 1e-7}
     run = driller(program, "driller_sensors", {**top, "Autodriller": own}, 5.0,
                   {"Output/Fields": "{displacement, acceleration}"})
@@ -175,13 +186,15 @@ def two_sensors(program, top):
 
 
 def autodriller(program):
-    """The loop of block, lines, pipe and bit: linear motion and closed-loop poles; the block speed it begins with; its limits."""
+    """The loop of block, lines, pipe and bit: linear motion and closed-loop poles; the block speed
+    it begins with; its limits."""
     bit = models.PenetrationBit()
     slope, begin, lack = float(bit.factor(SPEED)), 120e3, 60e3
     feed = (begin - float(bit.weight(0.0, SPEED))) / slope
     own = {
         "Weight On Bit": begin + lack, "Proportional Gain": KP, "Integral Gain": KI,
-        "Line Stiffness": LINE, "Block Mass": BLOCK}
+        "Line Stiffness": LINE, "Block Mass": BLOCK
+    }
     loop = models.DrillerLoop(PIPE, LINE, slope, KP, KI, BLOCK)
     times = np.arange(0, 60.0 + 1e-9, 0.05)
     more, rate = loop.motion(times, lack)
@@ -190,7 +203,8 @@ def autodriller(program):
         ("rk4", {**RK4, "Transient/End Time": 10.0}, {}, 2e-5),
         ("reduced", {}, {
             "Substructures": {"Rule": "By component"},
-            "Reduction": {"Mode Selection": {"Modes": 2}}, }, 2e-3),
+            "Reduction": {"Mode Selection": {"Modes": 2}},
+        }, 2e-3),
     ):
         run = driller(program, f"driller_{name}", {"Block Speed": feed, "Autodriller": own},
                       settings=settings, **lists)
@@ -232,6 +246,7 @@ def autodriller(program):
          run.data("transient/weight_on_bit")[-1], begin + 0.5 * lack, 1e-3 * lack)
     run = driller(program, "driller_slow", {
         "Block Speed": feed,
-        "Autodriller": {**own, "Weight On Bit": 10e3, "Proportional Gain": 1e-6}, }, 10.0)
+        "Autodriller": {**own, "Weight On Bit": 10e3, "Proportional Gain": 1e-6},
+    }, 10.0)
     near("autodriller: the block stands and does not go up",
          run.data("transient/block_speed").min(), 0.0, 1e-12)

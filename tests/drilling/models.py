@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks of bits and drives, and what their motions should be: independent integrations and characteristic equations."""
+"""Decks of bits and drives, and what their motions should be: independent integrations and
+characteristic equations."""
 import math
 
 import numpy as np
+from checks import expect
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.optimize import brentq
@@ -11,7 +13,14 @@ PIPE = {"Length": 300.0, "Elements": 3, "Outer Radius": 0.0635, "Inner Radius": 
 COLLAR = {"Length": 100.0, "Elements": 1, "Outer Radius": 0.0795, "Inner Radius": 0.0355}
 STEEL = {"Density": 7850.0, "Young Modulus": 2.1e11, "Poisson Ratio": 0.3}
 BORE = 0.2  # radius of the hole [m]
+RPM = math.pi / 30
+THETA_Z, W = 5, 2  # components of a node
 DENSITY, YOUNG, SHEAR = 7850.0, 2.1e11, 2.1e11 / 2.6
+
+
+def near(what, found, truth, tolerance):
+    expect(f"{what}: {found:.6g}, true {truth:.6g} within {tolerance:.2g}",
+           abs(found - truth) <= tolerance)
 
 
 def polar(part):
@@ -35,7 +44,8 @@ def smoothed_sign(w, width):
 class Friction:
     """Torque of a bit that weakens with speed."""
     def __init__(self, static, dynamic, decay, viscous, width):
-        self.static, self.dynamic, self.decay, self.viscous, self.width = static, dynamic, decay, viscous, width
+        self.static, self.dynamic, self.decay, self.viscous, self.width = (static, dynamic, decay,
+                                                                           viscous, width)
 
     def torque(self, w):
         dry = self.dynamic + (self.static - self.dynamic) * np.exp(-np.abs(w) / self.decay)
@@ -58,12 +68,14 @@ def string_deck(pieces, **lists):
     base = {
         "Well": {"Trajectory": "Vertical", "Vertical": {"Length": length}, "Bore Radius": BORE},
         "Drillstring": {"Assembly": assembly, "Components": components, "Material": STEEL},
-        "Supports": {"Dofs": "axial torsional"}, }
+        "Supports": {"Dofs": "axial torsional"},
+    }
     return {**base, **lists}
 
 
 class TorsionalString:
-    """Linear torsional elements, in the frame that turns with Omega(t): an implementation of its own."""
+    """Linear torsional elements, in the frame that turns with Omega(t): an implementation of its
+    own."""
     def __init__(self, pieces, damping=0.0, inertia=0.0):
         elements = [(part, part["Length"] / part["Elements"]) for part, count in pieces
                     for _ in range(count * part["Elements"])]
@@ -95,8 +107,9 @@ class TorsionalString:
 
 
 class CuttingString:
-    """Axial and torsional elements above a bit of sharp blades, as deviations from steady drilling, by the classical
-    Runge-Kutta method; the delay is the root of phi(t) - phi(t - t_n) = 2 pi/n in the motion so far."""
+    """Axial and torsional elements above a bit of sharp blades, as deviations from steady drilling,
+    by the classical Runge-Kutta method; the delay is the root of phi(t) - phi(t - t_n) = 2 pi/n in
+    the motion so far."""
     def __init__(self, pieces, damping, inertia, blades, radius, energy, inclination):
         torsion = TorsionalString(pieces, damping, inertia)
         n = len(torsion.K)
@@ -109,7 +122,9 @@ class CuttingString:
             M[at, at] += DENSITY * area(part) * h / 6 * np.array([[2, 1], [1, 2]])
         self.torsion, self.K, self.M = torsion, K[1:, 1:], M[1:, 1:]
         self.C, self.inverse = damping * self.M, np.linalg.inv(self.M)
-        self.pitch, self.weight, self.torque = 2 * math.pi / blades, blades * radius * inclination * energy, 0.5 * blades * radius**2 * energy
+        self.pitch, self.weight, self.torque = (2 * math.pi / blades,
+                                                blades * radius * inclination * energy,
+                                                0.5 * blades * radius**2 * energy)
 
     def integrate(self, end, step, feed, omega, acceleration, angle, kp, ki):
         """Times, deviations of w and theta_z of the bit, depth of cut of a blade."""
@@ -162,7 +177,8 @@ def cycles(t, w, width):
 
 
 class Chatter:
-    """m s^2 + c s + k + A (1 - exp(-s tau)) = 0: a mass on a spring that cuts what it left a delay ago."""
+    """m s^2 + c s + k + A (1 - exp(-s tau)) = 0: a mass on a spring that cuts what it left a delay
+    ago."""
     def __init__(self, mass, damping, stiffness):
         self.m, self.c, self.k = mass, damping, stiffness
         self.natural = math.sqrt(stiffness / mass)
@@ -205,19 +221,24 @@ class Chatter:
         """The root with the largest real part, from starts around the natural frequency."""
         starts = [
             complex(re, im * self.natural) for re in (-5.0, 0.0, 5.0)
-            for im in np.linspace(0.5, 4, 71)]
+            for im in np.linspace(0.5, 4, 71)
+        ]
         roots = [self.root(A, delay, start) for start in starts]
         roots = [s for s in roots if abs(s.imag) > 1e-3 * self.natural]
         return max(roots, key=lambda s: s.real)
 
 
 class CoupledChatter:
-    """One axial and one torsional element above a bit of n blades that cuts (T. Richard, C. Germay and E. Detournay 2007). With A = n a zeta eps, B = n a^2 eps/2,
-    the advance V and the speed Omega of steady drilling, d = (1 - exp(-s tau)) (w - V/Omega theta) is the change of the depth of cut, and
+    """One axial and one torsional element above a bit of n blades that cuts (T. Richard, C. Germay
+    and E. Detournay 2007). With A = n a zeta eps, B = n a^2 eps/2, the advance V and the speed
+    Omega of steady drilling, d = (1 - exp(-s tau)) (w - V/Omega theta) is the change of the depth
+    of cut, and
 
-        1 + A (1 - exp(-s tau)) G(s) = 0,   G = 1/(m s^2 + c s + k) - V/Omega B/A 1/(I s^2 + c_t s + k_t)."""
+        1 + A (1 - exp(-s tau)) G(s) = 0,
+        G = 1/(m s^2 + c s + k) - V/Omega B/A 1/(I s^2 + c_t s + k_t)."""
     def __init__(self, axial, torsional, slope, torque_over_force):
-        """`axial`, `torsional`: mass, damping, stiffness; `slope`: V/Omega [m/rad]; `torque_over_force`: B/A [m]."""
+        """`axial`, `torsional`: mass, damping, stiffness; `slope`: V/Omega [m/rad];
+        `torque_over_force`: B/A [m]."""
         self.axial, self.torsional, self.gain = axial, torsional, slope * torque_over_force
         self.natural = [math.sqrt(one[2] / one[0]) for one in (axial, torsional)]
 
@@ -244,7 +265,8 @@ class CoupledChatter:
         return min(found)
 
     def rightmost(self, A, delay):
-        """The vibrating root with the largest real part, by Newton's method from starts about both natural frequencies."""
+        """The vibrating root with the largest real part, by Newton's method from starts about both
+        natural frequencies."""
         roots = []
         for start in (complex(re, im) for re in (-2.0, 0.0, 2.0)
                       for im in np.linspace(0.3 * min(self.natural), 5 * max(self.natural), 121)):
@@ -289,7 +311,8 @@ class TanhBit:
 
 
 class PenetrationBit:
-    """Weight and torque after Tucker and Wang 2003 with the constants of Ritto, Soize and Sampaio 2009; Z^2 at least 0.01 where it divides."""
+    """Weight and torque after Tucker and Wang 2003 with the constants of Ritto, Soize and Sampaio
+    2009; Z^2 at least 0.01 where it divides."""
     A1, A2, A3, A4, A5, E, FLOOR = 3.429e-3, 5.672e-8, 1.374e-4, 9.537e6, 1.475e3, 2.0, 1e-2
 
     def factor(self, w):
@@ -305,13 +328,15 @@ class PenetrationBit:
 
 
 class PenetratingString:
-    """Axial and torsional elements above a bit with weight and torque by its rates, below a PI drive and a block that advances steadily."""
+    """Axial and torsional elements above a bit with weight and torque by its rates, below a PI
+    drive and a block that advances steadily."""
     def __init__(self, pieces, damping, inertia):
         self.torsion = TorsionalString(pieces, damping, inertia)
         self.axial = CuttingString(pieces, damping, inertia, 1, 1.0, 1.0, 1.0)
 
     def integrate(self, times, feed, omega, acceleration, kp, ki, bit):
-        """Rates of w and theta_z of the bit and theta_z of the top, from steady drilling at the speed of the start."""
+        """Rates of w and theta_z of the bit and theta_z of the top, from steady drilling at the
+        speed of the start."""
         turn, axial = self.torsion, self.axial
         n, m = len(turn.K), len(axial.K)
         total = turn.M.sum(axis=1)
@@ -333,7 +358,8 @@ class PenetratingString:
 
 
 class DrillerLoop:
-    """One axial element between the lines of an autodriller and a bit of the slope D = dW/dv: exact linear motion."""
+    """One axial element between the lines of an autodriller and a bit of the slope D = dW/dv: exact
+    linear motion."""
     def __init__(self, part, line, slope, kp, ki, mass):
         k = YOUNG * area(part) / part["Length"]
         M = DENSITY * area(part) * part["Length"] / 6 * np.array([[2.0, 1.0], [1.0, 2.0]
@@ -352,7 +378,8 @@ class DrillerLoop:
         self.stiffness = k * line / (k + line)
 
     def motion(self, times, lack):
-        """Measured weight beyond that of the start, and x' of the block, for a set point that is `lack` higher."""
+        """Measured weight beyond that of the start, and x' of the block, for a set point that is
+        `lack` higher."""
         b = np.array([0, 0, 0, 0, self.kp * lack, lack])
         step = expm((times[1] - times[0]) * np.block([[self.A, b[:, None]], [np.zeros((1, 7))]]))
         y = np.zeros((7, len(times)))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of docs/guide/bit-and-top-drive.md about xml/stick_slip_2500m.xml, and what the document says of them."""
+"""The tables of docs/guide/bit-and-top-drive.md about xml/stick_slip_2500m.xml, and what the
+document says of them."""
 import math
 import re
 import xml.etree.ElementTree
@@ -20,7 +21,8 @@ CUT_OFF = "Reduction/Mode Selection/Cut-off Frequency"
 def matched(ratio, frequency="0.22 Hz"):
     return {
         "Top Drive/Control": "Impedance Matched", "Top Drive/Tuning Frequency": frequency,
-        "Top Drive/Impedance Ratio": ratio}
+        "Top Drive/Impedance Ratio": ratio
+    }
 
 
 # name: (settings, lists left out) of 60 s, then of the first 15 s
@@ -29,12 +31,14 @@ DRIVES = {
     "stiff, full model": ({}, FULL),
     "matched, ratio 1 at 0.2 Hz": (matched(1, "0.2 Hz"), GAINS),
     "matched, ratio 2": (matched(2), GAINS),
-    "matched, ratio 4": (matched(4), GAINS), }
+    "matched, ratio 4": (matched(4), GAINS),
+}
 MODELS = {
     "full model": ({}, FULL),
     "scene": ({}, ()),
-    "reduced collars, 30 Hz": ({CUT_OFF: "30 Hz"}, (COLLARS, )),
-    "reduced collars, 200 Hz": ({CUT_OFF: "200 Hz"}, (COLLARS, )), }
+    "reduced collars, 30 Hz": ({CUT_OFF: "30 Hz"}, (COLLARS,)),
+    "reduced collars, 200 Hz": ({CUT_OFF: "200 Hz"}, (COLLARS,)),
+}
 
 INCH = 0.0254
 HIGHEST = 20.0  # [rad/s]
@@ -44,10 +48,12 @@ BIT = models.Friction(static=0.8 * WEIGHT * 4.25 * INCH, dynamic=0.5 * WEIGHT * 
 
 
 def pieces():
-    """Length, outer and inner radius of all parts of the string, from the top down, read from the library of the deck."""
+    """Length, outer and inner radius of all parts of the string, from the top down, read from the
+    library of the deck."""
     library = {
         one.get("name"): one
-        for one in xml.etree.ElementTree.parse(ROOT / "xml/components/api_pipes.xml").getroot()}
+        for one in xml.etree.ElementTree.parse(ROOT / "xml/components/api_pipes.xml").getroot()
+    }
 
     def metres(text):
         number, _, unit = text.partition(" ")
@@ -59,7 +65,8 @@ def pieces():
             for _ in range(int(count or 1)):
                 values = {
                     one.get("name"): one.get("value") for one in library[name]
-                    if one.tag == "Parameter"}
+                    if one.tag == "Parameter"
+                }
                 if "Parts" in values:
                     yield from expand(values["Parts"])
                 else:
@@ -75,7 +82,8 @@ LINE = torsion.Line(pieces(), mass=0.05, stiffness=1e-3)
 
 
 def drive_of(ratio, frequency=0.22):
-    """Matched to the drill pipe: sqrt(mean rho I_p/mean 1/(G I_p)) of a joint of it; None: the stiff one of the deck."""
+    """Matched to the drill pipe: sqrt(mean rho I_p/mean 1/(G I_p)) of a joint of it; None: the
+    stiff one of the deck."""
     if ratio is None:
         return torsion.Drive(10000.0, 5000.0, INERTIA)
     joint = LINE.pieces[:5]
@@ -105,10 +113,10 @@ def late_of(program, name, settings, without):
 
 
 def limits(program):
-    """Speed below which steady drilling is unstable by the torsional line, and what the program says of the steady state 3 % below and above; prints a table."""
-    print(
-        "\n| drive | unstable below [rpm] | growth 3 % below, line; program [1/s] | 3 % above |\n|---|---|---|---|"
-    )
+    """Speed below which steady drilling is unstable by the torsional line, and what the program
+    says of the steady state 3 % below and above; prints a table."""
+    print("\n| drive | unstable below [rpm] | growth 3 % below, line; program [1/s] | 3 % above |\n"
+          "|---|---|---|---|")
     for name, ratio in (("stiff", None), ("matched, `Impedance Ratio` 1", 1),
                         ("matched, `Impedance Ratio` 2", 2), ("matched, `Impedance Ratio` 4", 4)):
         drive = drive_of(ratio)
@@ -123,8 +131,8 @@ def limits(program):
             run = program.run(
                 f"2500m_limit_{ratio}", DECK, {
                     **settings, "Rotary Speed/Law": "Constant",
-                    "Rotary Speed/Constant/Speed": factor * critical, "Transient/End Time": 0.02},
-                ("Rotary Speed/Exponential", *FULL, *without))
+                    "Rotary Speed/Constant/Speed": factor * critical, "Transient/End Time": 0.02
+                }, ("Rotary Speed/Exponential", *FULL, *without))
             static = run.summary["static"]
             expect(f"{name}, {factor:g} of the critical speed: stable is {static['stable']}",
                    static["stable"] == (truth.real < 0), f"{truth}")
@@ -141,7 +149,8 @@ def limits(program):
 
 
 def alone(program):
-    """The scene beside masses and springs of its own, integrated with a tolerance: speeds of the bit, peak, share stuck, mean period of the last 30 s; prints a table."""
+    """The scene beside masses and springs of its own, integrated with a tolerance: speeds of the
+    bit, peak, share stuck, mean period of the last 30 s; prints a table."""
     final = 80 * math.pi / 30
     times = np.arange(0, 60.0 + 1e-9, 0.02)
     truth = torsion.LumpedString(LINE,
@@ -155,9 +164,8 @@ def alone(program):
     for name, speed in (("masses and springs, LSODA", truth), ("the scene", found)):
         _, _, period = models.cycles(times[late], speed[late], STUCK)
         figures.append((speed[late].max(), np.mean(np.abs(speed[late]) < STUCK), period))
-        print(
-            f"| {name} | {speed[late].min() * 30 / math.pi:.2f} | {speed[late].max() * 30 / math.pi:.2f} | {figures[-1][1]:.4f} | {period:.4f} |"
-        )
+        print(f"| {name} | {speed[late].min() * 30 / math.pi:.2f} | "
+              f"{speed[late].max() * 30 / math.pi:.2f} | {figures[-1][1]:.4f} | {period:.4f} |")
     print()
     # a sample of 20 ms at each end of a stop is 5 % of it
     for what, a, b, bound in zip(("highest speed", "share stuck", "period"), *figures,
@@ -176,7 +184,8 @@ def stick_slip_2500m(program):
         print(f"| {name} | {low:.1f} | {high:.0f} | {share:.2g} |")
     peaks = {
         name: bit_speed(program, name, {**settings, "Transient/End Time": 15.0}, without)[1].max()
-        for name, (settings, without) in MODELS.items()}
+        for name, (settings, without) in MODELS.items()
+    }
     print("\n| model | peak of the first 15 s |\n|---|---|")
     for name, peak in peaks.items():
         print(f"| {name} | {peak:.1f} |")
@@ -202,6 +211,7 @@ def stick_slip_2500m(program):
     # damping that rises with the frequency leaves nothing to the step
     shares = [
         late_of(program, f"steps of {step}", {"Transient/Step": step}, ())[2]
-        for step in ("2 ms", "1 ms", "0.5 ms")]
+        for step in ("2 ms", "1 ms", "0.5 ms")
+    ]
     expect("the share stuck does not depend on the step",
            max(shares) - min(shares) < 0.005, str(shares))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Torsion of a string between a drive and a bit whose friction depends on its speed: roots of the line without a mesh, and a motion of its own."""
+"""Torsion of a string between a drive and a bit whose friction depends on its speed: roots of the
+line without a mesh, and a motion of its own."""
 import math
 
 import numpy as np
@@ -19,11 +20,13 @@ class Drive:
 
 
 class Line:
-    """Uniform pieces from the top down; rho I_p (theta_tt + a theta_t) = G I_p (1 + b d/dt) theta_zz with the damping coefficients a of the mass and b of the stiffness."""
+    """Uniform pieces from the top down; rho I_p (theta_tt + a theta_t) = G I_p (1 + b d/dt)
+    theta_zz with the damping coefficients a of the mass and b of the stiffness."""
     def __init__(self, pieces, mass=0.0, stiffness=0.0):
         """`pieces`: length, outer and inner radius [m]."""
         self.pieces = [
-            (length, math.pi / 2 * (outer**4 - inner**4)) for length, outer, inner in pieces]
+            (length, math.pi / 2 * (outer**4 - inner**4)) for length, outer, inner in pieces
+        ]
         self.mass, self.stiffness = mass, stiffness
 
     def torque_over_angle(self, s, slope, drive):
@@ -48,7 +51,8 @@ class Line:
         return None
 
     def roots(self, slope, drive, highest):
-        """Those that vibrate up to `highest` [rad/s], the largest real part first; starts are the eigenvalues of lumped masses."""
+        """Those that vibrate up to `highest` [rad/s], the largest real part first; starts are the
+        eigenvalues of lumped masses."""
         lumped = LumpedString(self, min(50.0, 3200.0 / highest))
         starts = [s for s in lumped.eigenvalues(slope, drive) if 1e-3 < s.imag < highest]
         roots = [s for s in (self.root(slope, drive, start) for start in starts) if s is not None]
@@ -64,7 +68,8 @@ class Line:
 
 
 class LumpedString:
-    """A line as masses and springs, far shorter than the waves; from rest, in the frame of the set speed."""
+    """A line as masses and springs, far shorter than the waves; from rest, in the frame of the set
+    speed."""
     def __init__(self, line, longest):
         """Masses at most `longest` apart; shorter pieces in a row are one spring."""
         springs, masses, compliance, inertia, way = [], [0.0], 0.0, 0.0, 0.0

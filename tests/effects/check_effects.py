@@ -1,14 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Changes every parameter of a deck and looks whether the answer changes, and in the known direction.
+"""Changes every parameter of a deck and looks whether the answer changes, and in the known
+direction.
 
     check_effects.py PROGRAM [--shard I/N]
 
-effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json` with * for names of the user's own,
-"set": overrides, "base": overrides of the run it is compared with (the scene as it is when absent), "key": what is looked at,
-"effect": "up", "down", "changes" or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run `tooljoint study` on tests/study/study.xml, those of the Map list `tooljoint map` on tests/study/map.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
-"files" for the list of files, or "dataset:NAME:PATH" for a dataset of an HDF5 file; tables and figures of an analysis (ANALYSES) are those of its own command, which "COMMAND.file:NAME" names where two have the table. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
-an effect cannot be seen in a run, and names the test that shows it.
+effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json`
+with * for names of the user's own, "set": overrides, "base": overrides of the run it is compared
+with (the scene as it is when absent), "key": what is looked at, "effect": "up", "down", "changes"
+or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run
+`tooljoint study` on tests/study/study.xml, those of the Map list `tooljoint map` on
+tests/study/map.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a
+file, or "files" for the list of files, or "dataset:NAME:PATH" for a dataset of an HDF5 file; tables
+and figures of an analysis (ANALYSES) are those of its own command, which "COMMAND.file:NAME" names
+where two have the table. A parameter of the manual without a row, or a row of no parameter, fails;
+"exempt" gives a reason where an effect cannot be seen in a run, and names the test that shows it.
 """
 import argparse
 import hashlib
@@ -28,12 +34,15 @@ MAP = "../study/map.xml"
 COMMANDS = {STUDY: "study", MAP: "map"}  # of decks that are not run
 SHORT = {
     STUDY: ["Study/End Time=0.2", "Study/Window=0.1"],
-    MAP: ["Map/Pictures=false"], }  # before the overrides of a row
+    MAP: ["Map/Pictures=false"],
+}  # before the overrides of a row
 ANALYSES = {  # command -> its tables; the keys of its figures begin with its name
-    "torque-drag": ["file:torque_drag.csv", "file:torque_drag_broomstick.csv", "file:torque_drag_calibration.csv"],
+    "torque-drag": ["file:torque_drag.csv", "file:torque_drag_broomstick.csv",
+                    "file:torque_drag_calibration.csv"],
     "bha": ["file:bha.csv", "file:bha_profile.csv"],
     "buckling": ["file:buckling.csv", "file:buckling_profile.csv"],
-    "campbell": ["file:campbell.csv", "file:crossings.csv", "file:spot_checks.csv", "dataset:campbell.h5:shapes/speed"],
+    "campbell": ["file:campbell.csv", "file:crossings.csv", "file:spot_checks.csv",
+                 "dataset:campbell.h5:shapes/speed"],
     "response": ["file:response.csv"],
 }
 
@@ -60,8 +69,8 @@ class Runs:
             folder = pathlib.Path("run_" + hashlib.sha1(key.encode()).hexdigest()[:12])
             words = [self.program, command, str(HERE / scene), "--output", str(folder)]
             for override in [*SHORT.get(scene, []), *overrides]:
-                words += ["--without", override[1:]] if override.startswith("!") else [
-                    "--set", override]
+                words += ["--without", override[1:]
+                          ] if override.startswith("!") else ["--set", override]
             result = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                     text=True, check=False)
             pointless = command == "map" and result.returncode == 4  # its tables say why
@@ -100,7 +109,8 @@ def holds(effect, before, after):
     margin = 1e-9 * max(abs(before), abs(after))
     return {
         "up": after > before + margin, "down": after < before - margin,
-        "changes": abs(after - before) > margin}[effect]
+        "changes": abs(after - before) > margin
+    }[effect]
 
 
 def main():
@@ -108,9 +118,8 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument(
-        "--shard", default="1/1", help=
-        "I/N: the I-th of N pieces of the rows; those of one scene stand together and share its runs"
-    )
+        "--shard", default="1/1", help="I/N: the I-th of N pieces of the rows; those of one scene "
+        "stand together and share its runs")
     options = parser.parse_args()
     table = json.loads((HERE / "effects.json").read_text(encoding="utf-8"))
     manual = json.loads(

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What ends how: check_exit_codes.py PROGRAM MPIEXEC DECK [without-sundials]
 
-Runs the program into every kind of end and compares exit code and message, on one rank and on two; shows that a failed run spoils no
-finished result, and that an interrupted run goes on to the same numbers.
+Runs the program into every kind of end and compares exit code and message, on one rank and on two;
+shows that a failed run spoils no finished result, and that an interrupted run goes on to the same
+numbers.
 """
 import json
 import pathlib
@@ -39,9 +40,10 @@ def exit_codes():
     free = [
         "--set", "Supports/Top=none", "--set", "Supports/Bit=none", "--without", "Supports/guide",
         "--without", "Contact", "--without", "Transient", "--without", "Reduction", "--without",
-        "Substructures"]
-    ends("no deck", 1, "DECK is required", "run", ranks=(1, ))
-    ends("unknown option", 1, "--nonsense", "run", DECK, "--nonsense", ranks=(1, ))
+        "Substructures"
+    ]
+    ends("no deck", 1, "DECK is required", "run", ranks=(1,))
+    ends("unknown option", 1, "--nonsense", "run", DECK, "--nonsense", ranks=(1,))
     ends("missing deck", 5, "nowhere.xml", "run", "nowhere.xml")
     ends("misspelt parameter", 2, "Did you mean", "run", DECK, "--set", "Contact/Stiffnes=1")
     ends("study without a Study list", 2, "has no Study list", "study", DECK)
@@ -49,7 +51,7 @@ def exit_codes():
     ends("string that slides in a curved well", 3, "The string floats: w is free at all of its",
          "run", CURVED, "--output", "sliding", "--set", "Supports/Top=u v theta_z", "--without",
          "Transient", "--without", "Reduction", "--without", "Substructures", "--without", "Study",
-         ranks=(1, ))
+         ranks=(1,))
     ends("static state not reached", 4, "The static equilibrium did not converge", "run", DECK,
          "--output", "unconverged", "--set", "Static/Max Iterations=1")
     ends("motion not solved", 4, "Step", "run", DECK, "--output", "lost", "--set",
@@ -73,13 +75,14 @@ def template_is_a_deck():
 
 
 def optional_integrators():
-    """A build without SUNDIALS knows its integrators, and says what is missing and how to get it."""
+    """A build without SUNDIALS knows its integrators, and says what is missing and how to get
+    it."""
     for name in ("SUNDIALS ARKODE", "SUNDIALS CVODE"):
         asked = ["--set", f"Transient/Integrator={name}"]
         if WITHOUT_SUNDIALS:
-            said = f'this program was built without SUNDIALS, which "{name}" needs. Install libsundials-dev and configure with -D TOOLJOINT_SUNDIALS=ON'
-            ends(f"{name} in a build without it, check", 2, said, "check", DECK, *asked,
-                 ranks=(1, ))
+            said = (f'this program was built without SUNDIALS, which "{name}" needs. Install '
+                    'libsundials-dev and configure with -D TOOLJOINT_SUNDIALS=ON')
+            ends(f"{name} in a build without it, check", 2, said, "check", DECK, *asked, ranks=(1,))
             ends(f"{name} in a build without it, run", 2, said, "run", DECK, "--output", "optional",
                  *asked)
         else:
@@ -91,11 +94,13 @@ def failed_run_spoils_nothing():
     tooljoint("run", DECK, "--output", "kept")
     before = {
         path.name: path.read_bytes() for path in pathlib.Path("kept").iterdir()
-        if not path.name.endswith(".part")}
+        if not path.name.endswith(".part")
+    }
     done = tooljoint("run", DECK, "--output", "kept", "--set", "Static/Max Iterations=1")
     after = {
         path.name: path.read_bytes() for path in pathlib.Path("kept").iterdir()
-        if not path.name.endswith(".part")}
+        if not path.name.endswith(".part")
+    }
     expect("a failed run leaves finished results as they were", done.returncode == 4
            and "results.h5" in before and before == after)
 
@@ -103,7 +108,8 @@ def failed_run_spoils_nothing():
 def interrupted_run_goes_on():
     long = [
         "--set", "Transient/End Time=40", "--set", "Output/XDMF=false", "--set",
-        "Transient/Checkpoint Interval=0.5"]
+        "Transient/Checkpoint Interval=0.5"
+    ]
     tooljoint("run", DECK, "--output", "whole", *long)
     process = subprocess.Popen([PROGRAM, "run", DECK, "--output", "broken", *long],
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -118,7 +124,8 @@ def interrupted_run_goes_on():
     expect("it goes on", done.returncode == 0, done.stderr[-400:])
     lines = [
         pathlib.Path(folder, "motion.csv").read_text(encoding="utf-8").splitlines()
-        for folder in ("whole", "broken")]
+        for folder in ("whole", "broken")
+    ]
     expect("and ends with the same numbers", lines[0] == lines[1],
            f"({len(lines[0])} and {len(lines[1])} lines)")
 

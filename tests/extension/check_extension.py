@@ -101,13 +101,14 @@ def displacement(folder):
 
 
 def reference(times):
-    """Displacements of nodes 2 and 3 by classical Runge-Kutta steps: masses 2 and 1 kg, springs of 10 N/m, the law at node 3."""
+    """Displacements of nodes 2 and 3 by classical Runge-Kutta steps: masses 2 and 1 kg, springs of
+    10 N/m, the law at node 3."""
     def rate(y):
         u2, u3, v2, v3, x = y
         p = max(0.0, -u3)
         f = max(0.0, STIFFNESS * p + FAST * (p - x)) if p > 0 else 0.0
-        return np.array([
-            v2, v3, (-20 * u2 + 10 * u3) / 2, (10 * u2 - 10 * u3 + f) / 1, (p - x) / CREEP])
+        return np.array(
+            [v2, v3, (-20 * u2 + 10 * u3) / 2, (10 * u2 - 10 * u3 + f) / 1, (p - x) / CREEP])
 
     y, t, h, found = np.array([0.0, 0.0, 0.0, -1.0, 0.0]), 0.0, 1e-4, []
     for target in times:
@@ -133,8 +134,8 @@ def between_parts(source):
         found = displacement(f"parts_{integrator}")
         error = np.abs(found[:, -2:] - exact).max() / size
         expect(
-            f"{integrator}: the chain bounces off the creeping wall as computed here, error {error:.1e}",
-            error < tolerance)
+            f"{integrator}: the chain bounces off the creeping wall as computed here, error "
+            f"{error:.1e}", error < tolerance)
         run(deck, f"parts_{integrator}_np2", ranks=2)
         expect(f"{integrator}: the same on two ranks",
                np.array_equal(found, displacement(f"parts_{integrator}_np2")))
@@ -145,7 +146,8 @@ def in_the_bore(source):
     summaries = {}
     for name, contact in [
         ("elastic", contact_list("Hunt-Crossley", "")),
-        ("creeping", contact_list("Creeping Wall", own_list(1e7, 3e7, 0.01))), ]:
+        ("creeping", contact_list("Creeping Wall", own_list(1e7, 3e7, 0.01))),
+    ]:
         text, count = re.subn(r'<ParameterList name="Contact">.*?\n  </ParameterList>\n', contact,
                               scene, flags=re.DOTALL)
         expect("the scene has one list Contact", count == 1)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""An element, a load and a mud model outside of the library, each in a file of its own, against closed forms.
+"""An element, a load and a mud model outside of the library, each in a file of its own, against
+closed forms.
 
     check_string.py PROGRAM MPIEXEC FOLDER
 
-PROGRAM is tooljoint, FOLDER holds the shared objects libRod.so, libWallDrag.so and libCuttings.so. The string hangs in a vertical
-well: `pipe` above, `tool` below, each PIPE and TOOL metres long.
+PROGRAM is tooljoint, FOLDER holds the shared objects libRod.so, libWallDrag.so and libCuttings.so.
+The string hangs in a vertical well: `pipe` above, `tool` below, each PIPE and TOOL metres long.
 """
 import csv
 import json
@@ -94,7 +95,8 @@ PARTS = """<ParameterList name="Substructures">
     <Parameter name="Rule" type="string" value="By component"/>
   </ParameterList>
   <ParameterList name="Reduction">
-    <ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="40"/></ParameterList>
+    <ParameterList name="Mode Selection">
+    <Parameter name="Modes" type="int" value="40"/></ParameterList>
   </ParameterList>
   """
 MUD = """<ParameterList name="Mud">
@@ -129,11 +131,12 @@ def call(*words, code=0):
     return done.stdout + done.stderr
 
 
-def written(name, weight_on_bit=0.0, rods=("tool", ), supports=GUIDE, mud="", loads=""):
+def written(name, weight_on_bit=0.0, rods=("tool",), supports=GUIDE, mud="", loads=""):
     """The file of a deck."""
     parts = {
         part: component(part, length, ROD if part in rods else "")
-        for part, length in (("pipe", PIPE), ("tool", TOOL))}
+        for part, length in (("pipe", PIPE), ("tool", TOOL))
+    }
     path = pathlib.Path(f"{name}.xml")
     path.write_text(
         DECK.format(**parts, weight_on_bit=weight_on_bit, supports=supports, mud=mud, loads=loads),
@@ -151,12 +154,14 @@ def rest(name, **choices):
 
 
 def stretch_under_weight(length_above, length, stiffness, area):
-    """How much longer a piece becomes by gravity, with as much string as `length_above` below it."""
+    """How much longer a piece becomes by gravity, with as much string as `length_above` below
+    it."""
     return RHO * area * G * (length_above * length + length**2 / 2) / stiffness
 
 
 def an_element():
-    """Rods below pipes: their compliances add up; rods alone: frequencies of a rod fixed at its top."""
+    """Rods below pipes: their compliances add up; rods alone: frequencies of a rod fixed at its
+    top."""
     force = 2e4
     free, _, dofs = rest("rods")
     pressed, _, _ = rest("rods_pressed", weight_on_bit=force)
@@ -177,7 +182,8 @@ def an_element():
     found = [float(row[1]) for row in list(csv.reader(lines))[1:]]
     speeds = {
         "axial": math.sqrt(FACTOR * E / RHO),
-        "torsional": math.sqrt(E / (2 * (1 + NU)) / RHO), }
+        "torsional": math.sqrt(E / (2 * (1 + NU)) / RHO),
+    }
     exact = sorted((2 * n - 1) * speed / (4 * (PIPE + TOOL)) for n in (1, 2, 3)
                    for speed in speeds.values())[:4]
     # linear shape functions: (k h)^2/24 too high, k h = (2n - 1) pi/(4 ELEMENTS) on average
@@ -187,8 +193,8 @@ def an_element():
 
 
 def a_wave():
-    """A force put on the free end of the rods makes it move at F/(A sqrt(factor E rho)) until the wave is back, in the full model
-    and in a reduced one."""
+    """A force put on the free end of the rods makes it move at F/(A sqrt(factor E rho)) until the
+    wave is back, in the full model and in a reduced one."""
     force, end = 1e4, 0.12
     speed = force / (AREA * math.sqrt(FACTOR * E * RHO))
     expect("the wave is not back yet", end < 2 * (PIPE + TOOL) / math.sqrt(FACTOR * E / RHO))
@@ -204,7 +210,8 @@ def a_wave():
 
 
 def a_load():
-    """Drag between two depths hangs below the top, whatever elements carry it; both ends lie inside elements."""
+    """Drag between two depths hangs below the top, whatever elements carry it; both ends lie inside
+    elements."""
     total = 50.0 * (154 - 31)
     _, dry, _ = rest("dry")
     _, dragged, _ = rest("dragged", loads=DRAG.format(drag=50.0))

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that are none, sizes that cannot be, and choices that cannot stand together: check_inputs.py PROGRAM
+"""Files that are none, sizes that cannot be, and choices that cannot stand together:
+check_inputs.py PROGRAM
 
-Every file a deck or a command line can name is replaced by a FIFO, a device and a terabyte of zeros, and parts announce matrices they do not hold:
-each is refused with a sentence, in seconds and without memory. What `run` refuses without solving, `check` refuses with the same exit code.
+Every file a deck or a command line can name is replaced by a FIFO, a device and a terabyte of
+zeros, and parts announce matrices they do not hold: each is refused with a sentence, in seconds and
+without memory. What `run` refuses without solving, `check` refuses with the same exit code.
 """
 import json
 import os
@@ -64,16 +66,17 @@ def part(folder, **changes):
     pathlib.Path(folder, "M.mtx").write_text(text.replace("-1", "0.5"), encoding="utf-8")
     content = {
         "format": "tooljoint part 1", "components": ["u"], "dofs": [[1, "u"], [2, "u"]],
-        "mass": "M.mtx", "stiffness": "K.mtx", **changes}
+        "mass": "M.mtx", "stiffness": "K.mtx", **changes
+    }
     pathlib.Path(folder, "part.json").write_text(json.dumps(content), encoding="utf-8")
     return pathlib.Path(folder)
 
 
 def deck_of(file, name="part.xml"):
     pathlib.Path(name).write_text(
-        '<ParameterList name="s"><ParameterList name="Parts"><ParameterList name="Imported"><ParameterList name="a">'
-        f'<Parameter name="File" type="string" value="{file}"/></ParameterList></ParameterList></ParameterList></ParameterList>',
-        encoding="utf-8")
+        '<ParameterList name="s"><ParameterList name="Parts"><ParameterList name="Imported">'
+        f'<ParameterList name="a"><Parameter name="File" type="string" value="{file}"/>'
+        '</ParameterList></ParameterList></ParameterList></ParameterList>', encoding="utf-8")
     return name
 
 
@@ -144,11 +147,12 @@ def huge_matrix(file):
 def huge_shape(file):
     group = file.create_group("damping")
     group["row"], group["column"], group["value"], group["shape"] = [0], [0], [1.0], [
-        4 * 10**9, 4 * 10**9]
+        4 * 10**9, 4 * 10**9
+    ]
 
 
 def huge_texts(file):
-    file.create_dataset("omitted", shape=(10**10, ), dtype="S1000000", chunks=(1, ))
+    file.create_dataset("omitted", shape=(10**10,), dtype="S1000000", chunks=(1,))
 
 
 def external(file):
@@ -199,7 +203,8 @@ def many_attributes():
 
 
 def check_refuses_what_run_refuses():
-    """One row: the deck, what is changed in it, and what both commands say. The exit codes are the same."""
+    """One row: the deck, what is changed in it, and what both commands say.
+    The exit codes are the same."""
     dual = ["--set", "Reduction/Basis=Dual Craig-Bampton"]
     macneal = ["--set", "Reduction/Basis=MacNeal"]
     calm = ["--without", "Parts/Starts"]
@@ -207,37 +212,41 @@ def check_refuses_what_run_refuses():
     short = ["--set", "Transient/End Time=0.01"]
     mass = [
         "--without", "Reduction/Mode Selection", "--set",
-        "Reduction/Mode Selection/Effective Interface Mass=0.5"]
+        "Reduction/Mode Selection/Effective Interface Mass=0.5"
+    ]
     hooked = "hooked.xml"  # a spring in the place of a support
     text = STRING.read_text(encoding="utf-8").rstrip().removesuffix("</ParameterList>")
     pathlib.Path(hooked).write_text(
         text +
         """<ParameterList name="Coupling"><ParameterList name="Springs"><ParameterList name="hook">
-        <Parameter name="First" type="string" value="pipe 1:1"/><Parameter name="Component" type="string" value="w"/>
-        <Parameter name="Stiffness" type="double" value="1e6"/></ParameterList></ParameterList></ParameterList></ParameterList>""",
-        encoding="utf-8")
+        <Parameter name="First" type="string" value="pipe 1:1"/>
+        <Parameter name="Component" type="string" value="w"/>
+        <Parameter name="Stiffness" type="double" value="1e6"/></ParameterList></ParameterList>
+        </ParameterList></ParameterList>""", encoding="utf-8")
     rows = [
         (STRING, ["--set",
                   "Supports/Top=u v theta_z"], "The string floats: w is free at all of its"),
         (STRING, ["--set", "Supports/Top=w"], "The string floats: theta_z is free at all of its"),
         (STRING, [
             "--set", "Supports/Top=none", "--set", "Well/Trajectory=Vertical", "--set",
-            "Well/Vertical/Length=60"], "The string floats: it has no support."),
+            "Well/Vertical/Length=60"
+        ], "The string floats: it has no support."),
         (hooked, ["--set", "Supports/Top=u v theta_z"],
          "Springs of the list Coupling count from the static state"),
-        (FRAME, [*macneal, *calm, *explicit],
-         "is \"MacNeal\", which has a singular mass matrix, but the integrator \"RK4\" needs a nonsingular one"
-         ),
+        (FRAME, [*macneal, *calm, *explicit], "is \"MacNeal\", which has a singular mass matrix, "
+         "but the integrator \"RK4\" needs a nonsingular one"),
         (FRAME, [*dual, *calm,
                  *explicit], "is \"Dual Craig-Bampton\", which has a singular mass matrix"),
         (FRAME, [*macneal, "--set", "Reduction/Error Estimate=Frequencies"],
          "Error Estimate needs an error estimate, but the basis \"MacNeal\""),
         (FRAME, [
             *dual, "--set", "Reduction/Interface Reduction=System", "--set",
-            "Reduction/System/Modes=3"], "joins parts by interface forces"),
+            "Reduction/System/Modes=3"
+        ], "joins parts by interface forces"),
         (FRAME, [
             *macneal, "--set", "Reduction/Interface Reduction=System", "--set",
-            "Reduction/System/Modes=3"], "leaves them none"),
+            "Reduction/System/Modes=3"
+        ], "leaves them none"),
         (FRAME, [*dual, "--set", "Output/Export Parts=HDF5"],
          "cannot export parts of the basis \"Dual Craig-Bampton\""),
         (FRAME, [*macneal, "--set",
@@ -249,8 +258,8 @@ def check_refuses_what_run_refuses():
           "Coupling/Assembly=Dual"], "needs the inverse of the coupled mass"),
         (FRAME, [
             "--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set",
-            "Reduction/Error Estimate=Both"],
-         "estimates the error of the motion, which is not available with"),
+            "Reduction/Error Estimate=Both"
+        ], "estimates the error of the motion, which is not available with"),
         (FRAME, ["--set", "Coupling/Assembly=Dual", "--set", "Reduction/Error Estimate=Transient"],
          "which is not available with Coupling/Assembly \"Dual\""),
         (FRAME,
@@ -261,7 +270,8 @@ def check_refuses_what_run_refuses():
                  "Transient/Sampling Interval=1e-300"], "which gives 2e+300 intervals in the 2 s"),
         (deck_of(part("strange", positions=[[1, 0, 0, 0], [9, 0, 0, 0]]),
                  "strange.xml"), [], "names node 9 in row 2, which the part does not have"),
-        (deck_of(part("number", name=7), "number.xml"), [], "\"name\" must be a text"), ]
+        (deck_of(part("number", name=7), "number.xml"), [], "\"name\" must be a text"),
+    ]
     for deck, changes, sentence in rows:
         motion = short if deck == FRAME and not any("Transient/" in one for one in changes) else []
         ran = tooljoint("run", deck, *changes, *motion, "--output", "refused")
@@ -291,7 +301,8 @@ def absurd_counts_are_told():
 
 
 def a_mistyped_depth_is_told():
-    """A station 1 m below the one before instead of 60 m: the well would turn on a radius of 5 m."""
+    """A station 1 m below the one before instead of 60 m: the well would turn on a radius of 5
+    m."""
     text = (SURVEY.parent / "survey.csv").read_text(encoding="utf-8")
     sentence = "sharper than wells are drilled: check the depths and angles there"
     for name, depth, told in (("as it is", "180", False), ("mistyped", "121", True)):
@@ -299,8 +310,8 @@ def a_mistyped_depth_is_told():
                                               encoding="utf-8")
         said = subprocess.run([
             PROGRAM, "check",
-            str(SURVEY), "--set", f"Well/Survey/File={pathlib.Path('survey.csv').resolve()}"],
-                              stdout=subprocess.PIPE, text=True, check=False).stdout
+            str(SURVEY), "--set", f"Well/Survey/File={pathlib.Path('survey.csv').resolve()}"
+        ], stdout=subprocess.PIPE, text=True, check=False).stdout
         expect(f"a survey {name} has its largest dogleg judged",
                (sentence in " ".join(said.split())) == told, said[-500:])
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares docs/parameters.md with what `tooljoint doc` prints; --update writes the file instead."""
+"""Compares docs/parameters.md with what `tooljoint doc` prints; --update writes the file
+instead."""
 import difflib
 import pathlib
 import subprocess
@@ -19,9 +20,8 @@ def main():
         difflib.unified_diff(written.splitlines(True), printed.splitlines(True), str(manual),
                              "tooljoint doc"))
     if written != printed or not printed.strip():
-        print(
-            f"{manual.name} is not what the program prints; `cmake --build BUILD --target update-docs` writes it."
-        )
+        print(f"{manual.name} is not what the program prints; `cmake --build BUILD --target "
+              "update-docs` writes it.")
         return 1
     return 0
 

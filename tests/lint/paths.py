@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Paths of parameters that docs/parameters.md and other pages name exist in it: paths.py PARAMETERS [PAGE ...] | --self-test
+"""Paths of parameters that docs/parameters.md and other pages name exist in it.
 
-A path is a name of a list, a "/" and a word; what follows the list must be a list or parameter of it. In the descriptions of
-parameters paths stand in the text, in pages between backticks.
+    paths.py PARAMETERS [PAGE ...] | --self-test
+
+A path is a name of a list, a "/" and a word; what follows the list must be a list or parameter of
+it. In the descriptions of parameters paths stand in the text, in pages between backticks.
 """
 import collections
 import pathlib
@@ -15,12 +17,14 @@ PATH = re.compile(rf"{WORD}(?: [\w-]+)*(?:/{WORD}(?: [\w-]+)*)+")
 
 
 def declared(text):
-    """Names in each list, by the name of the list: {"Transient": {"Step", "Generalized-alpha", ...}}; None of names a user chooses."""
+    """Names in each list, by the name of the list: {"Transient": {"Step", "Generalized-alpha",
+    ...}}; None of names a user chooses."""
     inside = collections.defaultdict(set)
     for line in text.splitlines():
         if heading := re.match(r"#+ (\S.*)", line):
             path = [
-                None if name.startswith("\\<") else name for name in heading.group(1).split("/")]
+                None if name.startswith("\\<") else name for name in heading.group(1).split("/")
+            ]
             for outer, inner in zip(path, path[1:]):
                 inside[outer].add(inner)
         elif row := re.match(r"\| `([^`]+)` \|", line):
@@ -63,9 +67,9 @@ def complaints(parameters, pages):
 
 
 def self_test():
-    inside = declared(
-        "## Scene\n### Scene/Reduction\n| `Basis` | string |\n#### Scene/Reduction/Mode Selection\n| `Cut-off Frequency` | double |\n### Scene/Loads/\\<Load>\n"
-    )
+    inside = declared("## Scene\n### Scene/Reduction\n| `Basis` | string |\n"
+                      "#### Scene/Reduction/Mode Selection\n| `Cut-off Frequency` | double |\n"
+                      "### Scene/Loads/\\<Load>\n")
     assert not faults(
         "Reduce Reduction/Mode Selection/Cut-off Frequency below that, or COPPE/UFRJ, Loads/Mine",
         inside)

@@ -67,7 +67,8 @@ def of_source(relative, text):
         (".hpp", ".cpp")):
         for line, name, count in classes(text):
             if count > MEMBERS:
-                yield line, f"{name} has {count} data members, more than {MEMBERS}: which two ideas are in it?"
+                yield line, (f"{name} has {count} data members, more than {MEMBERS}: which two "
+                             "ideas are in it?")
 
 
 def of_folders(names):
@@ -78,11 +79,13 @@ def of_folders(names):
             folders.setdefault(name.rpartition("/")[0], []).append(name)
     for folder, files in sorted(folders.items()):
         if len(files) > FILES:
-            yield f"{folder}:1: has {len(files)} files, more than {FILES}: which two concepts are in it?"
+            yield (f"{folder}:1: has {len(files)} files, more than {FILES}: which two concepts are "
+                   "in it?")
 
 
 def of_recipes(text):
-    """(line, complaint) about the recipes of docs/architecture.md: from one bold word to the next."""
+    """(line, complaint) about the recipes of docs/architecture.md: from one bold word to the
+    next."""
     lines = text.splitlines()
     if "## Recipes" not in lines:
         return

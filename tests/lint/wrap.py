@@ -3,7 +3,8 @@
 """Holds the width of prose in pages of Markdown: 100 columns.
 
     wrap.py PAGE...            names the pages with wider paragraphs, exit code 1 if there are any
-    wrap.py --update PAGE...   fills those paragraphs anew; code, tables, headings, formulas and pictures stay as they are
+    wrap.py --update PAGE...   fills those paragraphs anew; code, tables, headings, formulas and
+                               pictures stay as they are
     wrap.py --self-test        shows that it catches what it is for
 """
 import pathlib
@@ -23,7 +24,8 @@ MARKUP = re.compile(
 
 
 def filled(first, rest, text):
-    """Lines of at most WIDTH columns behind `first` and `rest`, none of which begins with what would be markup there."""
+    """Lines of at most WIDTH columns behind `first` and `rest`, none of which begins with what
+    would be markup there."""
     text = UNBROKEN.sub(lambda found: found[0].replace(" ", GLUE), " ".join(text.split()))
     while True:
         lines = textwrap.wrap(text, WIDTH, initial_indent=first, subsequent_indent=rest,
@@ -93,11 +95,13 @@ def self_test():
         wide + "\n": True, "short\nlines\n": False, f"```sh\n{wide}\n```\n": False,
         f"| {wide}|\n": False, f"# {wide}\n": False, f"text\n\n    {wide}\n    {wide}\n": False,
         f"- item {wide}\n  goes on\n": True, f"$$\n{wide}\n$$ (label)\n": False,
-        f"<!--\n{wide}\n-->\n": False}
+        f"<!--\n{wide}\n-->\n": False
+    }
     faults = [
         page for page, changes in cases.items() if (wrapped(page) != page) != changes
         or max(map(len,
-                   wrapped(page).split("\n"))) > (WIDTH if changes else 200)]
+                   wrapped(page).split("\n"))) > (WIDTH if changes else 200)
+    ]
     marked = wrapped("a " * 49 + "word - and more of it " * 3 + "`code of words` " * 9)
     faults += [line for line in marked.split("\n") if MARKUP.match(line) or line.count("`") % 2]
     print("\n".join(faults) or "all caught")
@@ -118,9 +122,8 @@ def main():
         if update:
             path.write_text(wrapped(text), encoding="utf-8")
     for path in wide:
-        print(
-            f"{path}: {'wrapped' if update else f'has prose of more than {WIDTH} columns: tests/lint/wrap.py --update {path}'}"
-        )
+        advice = f"has prose of more than {WIDTH} columns: tests/lint/wrap.py --update {path}"
+        print(f"{path}: {'wrapped' if update else advice}")
     return 1 if wide and not update else 0
 
 

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measured logs beside the motion of a run: check_measured_log.py PROGRAM MPIEXEC SOURCES
 
-A log made of a run gives no difference, one that is scaled and shifted the difference that numpy gives; spectra are those of scipy, peaks those of a
-sine. CSV, LAS and wrapped LAS files with other units give the same numbers, and so do two ranks and a run that is stopped and goes on. Files and
+A log made of a run gives no difference, one that is scaled and shifted the difference that numpy
+gives; spectra are those of scipy, peaks those of a sine. CSV, LAS and wrapped LAS files with other
+units give the same numbers, and so do two ranks and a run that is stopped and goes on. Files and
 decks without sense end with a sentence.
 """
 import csv
@@ -28,14 +29,16 @@ RPM, POUND_FORCE, FOOT, GRAVITY = np.pi / 30, 4.4482216152605, 0.3048, 9.80665
 NODE = 12
 COMMON = [
     "--set", "Transient/Sampling Interval=0.001", "--set",
-    "Output/Fields={displacement, velocity, acceleration, normal_force}"]
+    "Output/Fields={displacement, velocity, acceleration, normal_force}"
+]
 # name of the list -> column of the log, quantity, unit of the log, its SI value, further settings
 COLUMNS = {
     "bit": ("BIT_RPM", "Bit speed", "rpm", RPM, {}),
     "surface": ("RPM", "Surface speed", "rpm", RPM, {}),
     "torque": ("STOR", "Surface torque", "kft-lbf", 1e3 * FOOT * POUND_FORCE, {}),
     "hook": ("HKLD", "Hook load", "klbf", 1e3 * POUND_FORCE, {}),
-    "shock": ("LAT", "Acceleration", "g", GRAVITY, {"Node": NODE, "Component": "u"}), }
+    "shock": ("LAT", "Acceleration", "g", GRAVITY, {"Node": NODE, "Component": "u"}),
+}
 
 
 def computed(folder):
@@ -45,7 +48,8 @@ def computed(folder):
         return data["time"][:], {
             "bit": data["motion"][:, 2], "surface": data["surface_speed"][:],
             "torque": data["surface_torque"][:], "hook": data["hook_load"][:],
-            "shock": data["acceleration"][:, NODE - 1, 0]}
+            "shock": data["acceleration"][:, NODE - 1, 0]
+        }
 
 
 def parameter(name, value):
@@ -63,15 +67,17 @@ def with_log(scene, deck, lists, **more):
     text = pathlib.Path(scene).read_text(encoding="utf-8")
     end = text.rindex("</ParameterList>")
     pathlib.Path(deck).write_text(
-        f'{text[:end]}<ParameterList name="Measured Log">\n{own}\n<ParameterList name="Columns">{columns}</ParameterList>\n</ParameterList>\n{text[end:]}',
-        encoding="utf-8")
+        f'{text[:end]}<ParameterList name="Measured Log">\n{own}\n'
+        f'<ParameterList name="Columns">{columns}</ParameterList>\n</ParameterList>\n'
+        f'{text[end:]}', encoding="utf-8")
     return deck
 
 
 def deck(name, file, names=tuple(COLUMNS), **more):
     lists = {
         key: {"Column": COLUMNS[key][0], "Quantity": COLUMNS[key][1], **COLUMNS[key][4]}
-        for key in names}
+        for key in names
+    }
     return with_log(SCENE, f"{name}.xml", lists, File=file, **more)
 
 
@@ -79,11 +85,13 @@ def write_csv(name, times, signals):
     """Units in the header; empty cells where a signal is nan."""
     lines = [
         "# a log",
-        "Time [s], " + ", ".join(f"{COLUMNS[key][0]} [{COLUMNS[key][2]}]" for key in signals)]
+        "Time [s], " + ", ".join(f"{COLUMNS[key][0]} [{COLUMNS[key][2]}]" for key in signals)
+    ]
     for i, t in enumerate(times):
         lines.append(", ".join([repr(float(t))] + [
             "" if np.isnan(values[i]) else repr(float(values[i] / COLUMNS[key][3]))
-            for key, values in signals.items()]))
+            for key, values in signals.items()
+        ]))
     pathlib.Path(name).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
@@ -110,7 +118,8 @@ def write_las(name, times, signals, wrap=False):
     for i, t in enumerate(times):
         cells = [repr(float(t) / 60)] + [
             "-999.2500" if np.isnan(values[i]) else repr(float(values[i] / COLUMNS[key][3]))
-            for key, values in signals.items()]
+            for key, values in signals.items()
+        ]
         rows.append("\n".join([cells[0], " ".join(cells[1:4]), " ".join(cells[4:])]).rstrip(
         ) if wrap else " ".join(cells))
     pathlib.Path(name).write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
@@ -159,7 +168,8 @@ def of_itself():
 
 
 def shifted(times, signals):
-    """x -> 1.1 x + c at times that are late by 5 s, at every third sample and with gaps: numpy has the differences, scipy the spectra."""
+    """x -> 1.1 x + c at times that are late by 5 s, at every third sample and with gaps: numpy has
+    the differences, scipy the spectra."""
     offsets = {"bit": 2.0, "surface": -1.0, "torque": 300.0, "hook": -5e3, "shock": 0.5}
     changed = {key: 1.1 * values + offsets[key] for key, values in signals.items()}
     for values in changed.values():
@@ -210,7 +220,7 @@ def spectra(times, signals):
     frequency, amplitude = 8 / 0.15, 3.0 * RPM  # 8 periods in a segment of 150 samples
     sine = {"bit": 12.0 + amplitude * np.sin(2 * np.pi * frequency * times)}
     write_csv("sine.csv", times, sine)
-    run("sine", deck("sine", "sine.csv", names=("bit", )))
+    run("sine", deck("sine", "sine.csv", names=("bit",)))
     row = found("sine")["bit"]
     with h5py.File("sine/results.h5") as file:
         group = file["/measured/bit"]
@@ -244,7 +254,8 @@ def ranks_and_restart(rows, window):
         wrong = [
             key for key, value in rows[name].items()
             if isinstance(value, float) and "peak_hz" not in key and abs(row[key] - value) > 1e-6 *
-            max(abs(value), abs(rows[name]["computed_max"]))]
+            max(abs(value), abs(rows[name]["computed_max"]))
+        ]
         expect(f"{name}: two ranks have the numbers of one", not wrong, str(wrong))
     long = ["--set", "Transient/End Time=6", "--set", "Transient/Checkpoint Interval=0.2", *COMMON]
     whole = tooljoint("run", "shifted.xml", "--output", "whole", *long)
@@ -274,7 +285,7 @@ def ranks_and_restart(rows, window):
 def refused(title, sentence, content, *arguments, file="bad.csv", scene=None):
     if content is not None:
         pathlib.Path(file).write_bytes(content if isinstance(content, bytes) else content.encode())
-    scene = scene or deck("bad", file, names=("bit", ))
+    scene = scene or deck("bad", file, names=("bit",))
     for command in (["check"], ["run", "--output", "refused"]):
         done = tooljoint(command[0], scene, *command[1:], *arguments)
         expect(f"{title}: {command[0]} refuses it with the sentence", done.returncode == 2
@@ -283,13 +294,13 @@ def refused(title, sentence, content, *arguments, file="bad.csv", scene=None):
 
 def bad_files(times):
     good = "Time [s], BIT_RPM [rpm]\n" + "\n".join(f"{t:.3f}, 120" for t in times) + "\n"
-    las = "~V\nVERS. 2.0 : v\nWRAP. NO : w\n~W\nNULL. -999.25 : n\n~C\nTIME.S : t\nBIT_RPM.RPM : b\n~A\n"
+    las = ("~V\nVERS. 2.0 : v\nWRAP. NO : w\n~W\nNULL. -999.25 : n\n~C\nTIME.S : t\n"
+           "BIT_RPM.RPM : b\n~A\n")
     refused("no file", "The measured log", None, file="nowhere.csv")
     refused("an empty file", "is empty", "")
     refused(
-        "another column",
-        'bad.csv:1: the header has no column "BIT_RPM". Did you mean "BIT RPM2"? Columns: "Time", "BIT RPM2".',
-        good.replace("BIT_RPM", "BIT RPM2"))
+        "another column", 'bad.csv:1: the header has no column "BIT_RPM". Did you mean "BIT RPM2"? '
+        'Columns: "Time", "BIT RPM2".', good.replace("BIT_RPM", "BIT RPM2"))
     refused("a column twice", 'occurs more than once',
             "Time [s], BIT_RPM [rpm], bit_rpm [rpm]\n0, 1, 1\n1, 1, 1\n")
     refused("no unit", 'bad.csv:1: the column "BIT_RPM" has no unit.',
@@ -374,7 +385,8 @@ def of_parts():
         encoding="utf-8")
     column = {
         "Column": "X", "Quantity": "Displacement", "Part": part, "Node": int(nodes[0]),
-        "Component": "u"}
+        "Component": "u"
+    }
     text = pathlib.Path(deck_of_parts).read_text(encoding="utf-8").replace(
         'value="frame/', f'value="{SOURCES}/xml/frame/')
     pathlib.Path("frame_scene.xml").write_text(text, encoding="utf-8")

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`tooljoint modes` on structures nobody tuned it for: check_modes.py PROGRAM MPIEXEC
 
-Free and pinned beams (closed forms), frames and solids with repeated frequencies, undamped, lightly, proportionally and strongly damped, and rotors:
-values against scipy's dense solver of the companion form, counts and times against what the documentation promises.
+Free and pinned beams (closed forms), frames and solids with repeated frequencies, undamped,
+lightly, proportionally and strongly damped, and rotors: values against scipy's dense solver of the
+companion form, counts and times against what the documentation promises.
 """
 import csv
 import json
@@ -15,7 +16,7 @@ import sys
 import h5py
 import numpy as np
 from scipy import sparse
-from scipy.linalg import eig, eigh
+from scipy.linalg import eigh
 from scipy.sparse.linalg import eigsh
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -24,9 +25,9 @@ import structures as st  # noqa: E402
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from spectra import TWO_PI, column, companion, proportional, same, values  # noqa: E402
 
 PROGRAM = sys.argv[1]
-TWO_PI = 2 * np.pi
 E, RHO = st.STEEL["E"], st.STEEL["rho"]
 SECONDS = 3.0  # CPU time of the whole command for 600 dofs
 
@@ -50,41 +51,6 @@ def modes(name, structure, count=12, reduction=None, parts=None, joints=()):
     if done.returncode != 0:
         return None, None, done.stdout, cpu
     return table(f"{name}_out/modes.csv"), table(f"{name}_out/damped_modes.csv"), done.stdout, cpu
-
-
-def column(rows, key):
-    return np.array([row[key] for row in rows])
-
-
-def values(rows, which="full"):
-    """s [1/s] of damped_modes.csv."""
-    size, imaginary, ratio = (TWO_PI * column(rows, which), TWO_PI * column(rows, which + "_im"),
-                              column(rows, which + "_damping"))
-    return -ratio * size + 1j * imaginary
-
-
-def companion(structure, count):
-    """The `count` values of smallest |s| with Im s >= 0, of the dense companion form (QZ-free: M is regular)."""
-    M, C, K = (A.toarray() for A in (structure.M, structure.C, structure.K))
-    n = len(M)
-    scale = np.sqrt(np.abs(np.diag(K)) / np.diag(M)).max()  # balances the blocks
-    d = 1 / np.sqrt(np.diag(M))
-    M, C, K = (d[:, None] * A * d for A in (M, C, K))
-    A = np.block([
-        [np.zeros((n, n)), scale * np.eye(n)],
-        [-np.linalg.solve(M, K) / scale, -np.linalg.solve(M, C)], ])
-    s = eig(A, right=False)
-    s = s[s.imag >= -1e-9 * np.abs(s)]
-    return s[np.argsort(np.abs(s))][:count]
-
-
-def same(found, exact, tolerance):
-    """Largest relative distance after each value has been given the nearest one that is left."""
-    left, worst = list(exact), 0.0
-    for s in found:
-        nearest = min(range(len(left)), key=lambda i: abs(left[i] - s))
-        worst = max(worst, abs(left.pop(nearest) - s) / max(abs(s), 1e-300))
-    return worst <= tolerance, f"{worst:.1e}"
 
 
 def undamped():
@@ -152,22 +118,13 @@ def undamped():
         expect(f"{name}: time", cpu < SECONDS, f"{cpu:.1f} s for {structure.M.shape[0]} dofs")
 
 
-def proportional(structure, alpha, beta, count):
-    """Values of C = alpha M + beta K from the undamped ones, a double zero listed once."""
-    omega2 = np.maximum(eigh(structure.K.toarray(), structure.M.toarray(), eigvals_only=True), 0)
-    c = alpha + beta * omega2
-    root = np.sqrt((c**2 / 4 - omega2).astype(complex))
-    s = np.concatenate([-c / 2 + root, -c / 2 - root])
-    s = s[s.imag >= 0]
-    return s[np.argsort(np.abs(s))][:count]
-
-
 def damped():
     for name, structure in (
         ("pinned", st.pinned_beam(30)),
         ("frame", st.frame(2, 7)),
         ("solid", st.solid(3, 3, 12, (0.3, 0.3, 2.0)).held([
-            (node, c) for node in range(1, 17) for c in (1, 2, 3)])),
+            (node, c) for node in range(1, 17) for c in (1, 2, 3)
+        ])),
     ):
         first = np.sqrt(
             eigh(structure.K.toarray(), structure.M.toarray(), eigvals_only=True,
@@ -182,7 +139,8 @@ def damped():
             _, rows, _, cpu = modes(f"{name}_{kind}", structure, 12)
             if rows:
                 exact = proportional(structure, alpha, beta, 40)
-                if kind == "critical":  # rounding makes two real values or one complex one of each of the two lowest modes
+                # rounding makes two real values or one complex one of each of the two lowest modes
+                if kind == "critical":
                     exact = np.append(exact, [-first, -first])
                 expect(f"{name}, {kind}: values", *same(values(rows), exact, tolerance))
                 expect(
@@ -213,7 +171,8 @@ def damped():
 
 
 def gyroscopic():
-    # pinned spinning shaft: omega = sqrt((g/2m)^2 + omega_0^2) -+ g/2m, g/m = rho I_p Omega (k pi / L)^2 / (rho A)
+    # pinned spinning shaft: omega = sqrt((g/2m)^2 + omega_0^2) -+ g/2m, g/m = rho I_p Omega (k pi /
+    # L)^2 / (rho A)
     radius, length = 0.4, 10.0
     for speed in (50.0, 5000.0):
         shaft = st.pinned_beam(100, radius=radius, speed=speed)
@@ -222,12 +181,13 @@ def gyroscopic():
             k = np.pi * np.arange(1, 30) / length
             omega0 = k**2 * radius / 2 * np.sqrt(E / RHO)
             half = radius**2 / 2 * speed * k**2 / 2
-            whirl = np.concatenate([
-                np.sqrt(half**2 + omega0**2) - half,
-                np.sqrt(half**2 + omega0**2) + half])
+            whirl = np.concatenate(
+                [np.sqrt(half**2 + omega0**2) - half,
+                 np.sqrt(half**2 + omega0**2) + half])
             axial = np.concatenate([
                 np.pi * (np.arange(1, 20) - 0.5) / length * np.sqrt(E / RHO),
-                np.pi * (np.arange(1, 20) - 0.5) / length * np.sqrt(E / 2.6 / RHO)])
+                np.pi * (np.arange(1, 20) - 0.5) / length * np.sqrt(E / 2.6 / RHO)
+            ])
             exact = 1j * np.sort(np.concatenate([whirl, axial]))
             expect(f"shaft at {speed:.0f} rad/s: closed form", *same(values(rows), exact[:20],
                                                                      2e-3))
@@ -246,16 +206,18 @@ def gyroscopic():
 
 
 def reduced():
-    """Two halves of a free beam and of a tower: every coupled mode once, rigid-body modes zero, no basis fails."""
+    """Two halves of a free beam and of a tower: every coupled mode once, rigid-body modes zero, no
+    basis fails."""
     half = st.beam(20, length=5.0, direction=(1, 2, 3))
     half.write("half.h5", {"left": [1], "right": [21]})
     parts, joints = {"a": "half.h5", "b": "half.h5"}, ["a:right = b:left"]
     for basis in ("Craig-Bampton", "Rubin", "Craig-Chang", "MacNeal", "Dual Craig-Bampton",
                   "Dual Craig-Bampton+"):
-        own = '<ParameterList name="Dual Craig-Bampton"><Parameter name="Residual Mass" type="bool" value="true"/></ParameterList>'
-        text = (
-            f'<Parameter name="Basis" type="string" value="{basis.rstrip("+")}"/><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="14"/></ParameterList>'
-            + (own if basis.endswith("+") else ""))
+        own = ('<ParameterList name="Dual Craig-Bampton"><Parameter name="Residual Mass" '
+               'type="bool" value="true"/></ParameterList>')
+        text = (f'<Parameter name="Basis" type="string" value="{basis.rstrip("+")}"/>'
+                '<ParameterList name="Mode Selection"><Parameter name="Modes" type="int" '
+                'value="14"/></ParameterList>' + (own if basis.endswith("+") else ""))
         name = "halves_" + basis.replace(" ", "_").replace("+", "_mass")
         rows, lists, output, _ = modes(name, None, 12, text, parts, joints)
         if not rows:
@@ -275,33 +237,37 @@ def reduced():
         expect(f"{name}: nothing is called buckled", "buckled" not in output
                and "buckles" not in output)
 
-    # the frame of xml/ with the mass of the residual flexibility: its spurious negative values are not listed
+    # the frame of xml/ with the mass of the residual flexibility: its spurious negative values are
+    # not listed
     done = subprocess.run([
         PROGRAM, "modes",
         str(ROOT / "xml" / "frame.xml"), "--count", "8", "--without", "Parts/Starts", "--output",
         "frame_dual_out", "--set", "Reduction/Basis=Dual Craig-Bampton", "--set",
-        "Reduction/Dual Craig-Bampton/Residual Mass=true"], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, check=False, timeout=300)
+        "Reduction/Dual Craig-Bampton/Residual Mass=true"
+    ], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, timeout=300)
     expect("frame, dual with residual mass: exit code 0", done.returncode == 0,
            "" if done.returncode == 0 else done.stdout[-300:])
     for file in ("modes.csv", "damped_modes.csv") if done.returncode == 0 else ():
         errors = [
             abs(float(row["error"]))
-            for row in csv.DictReader(open(f"frame_dual_out/{file}", encoding="utf-8"))]
+            for row in csv.DictReader(open(f"frame_dual_out/{file}", encoding="utf-8"))
+        ]
         expect(f"frame, dual with residual mass, {file}: errors",
                len(errors) == 8 and max(errors) < 1e-5, f"{max(errors):.1e}")
 
 
 def floating():
-    """Multilevel on free bodies, one and two in a part: estimates beside true errors; without a partner, and without estimates, fields are empty."""
+    """Multilevel on free bodies, one and two in a part: estimates beside true errors; without a
+    partner, and without estimates, fields are empty."""
     body, other = st.solid(2, 2, 6, (1, 1, 4.0)), st.solid(2, 2, 4, (1, 1, 3.0))
     labels = np.vstack([body.labels, other.labels + [body.labels[:, 0].max(), 0]])
     both = st.Structure(sparse.block_diag([body.M, other.M]), sparse.block_diag([body.K, other.K]),
                         nodes=labels, components=3)
-    multilevel = (
-        '<Parameter name="Basis" type="string" value="Multilevel"/><ParameterList name="Multilevel"><Parameter name="Parts" type="int" value="4"/><Parameter name="Accuracy" type="double" value="1e9"/>'
-        '</ParameterList><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="24"/></ParameterList>'
-    )
+    multilevel = ('<Parameter name="Basis" type="string" value="Multilevel"/><ParameterList '
+                  'name="Multilevel"><Parameter name="Parts" type="int" value="4"/><Parameter '
+                  'name="Accuracy" type="double" value="1e9"/></ParameterList><ParameterList '
+                  'name="Mode Selection"><Parameter name="Modes" type="int" value="24"/>'
+                  '</ParameterList>')
     for name, structure, bodies in (("one_body", body, 1), ("two_bodies", both, 2)):
         rows, _, text, _ = modes(name, structure, 30, multilevel)
         if not rows:
@@ -324,7 +290,8 @@ def floating():
                 np.isnan(row[key]) for row in alone
                 for key in ("coupled", "coupled_im", "coupled_damping", "mac", "error", "estimate",
                             "definite")), text[:1500])
-    macneal = '<Parameter name="Basis" type="string" value="MacNeal"/><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="14"/></ParameterList>'
+    macneal = ('<Parameter name="Basis" type="string" value="MacNeal"/><ParameterList name="Mode '
+               'Selection"><Parameter name="Modes" type="int" value="14"/></ParameterList>')
     rows, _, _, _ = modes("macneal", body, 14, macneal)
     done = tooljoint("modes", "macneal.xml", "--coupled", "--count", "14", "--output",
                      "macneal_coupled")
@@ -343,8 +310,8 @@ def floating():
     st.Structure(loose.M, K, nodes=loose.labels).write("loose.h5", {"left": [1], "right": [7]})
     st.deck(
         "loose.xml", {"a": "loose.h5", "b": "loose.h5"}, ["a:right = b:left"],
-        '<ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="2"/></ParameterList>'
-    )
+        '<ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="2"/>'
+        '</ParameterList>')
     done = tooljoint("modes", "loose.xml")
     expect("a loose dof of joined parts has the number of its file", done.returncode == 3
            and 'w of node 4 of part "a"' in done.stderr, done.stderr)
@@ -354,9 +321,8 @@ def floating():
                  nodes=loose.labels).write("loose.h5", {"left": [1], "right": [7]})
     st.deck(
         "massless.xml", {"a": "loose.h5", "b": "loose.h5"}, ["a:right = b:left"],
-        '<Parameter name="Basis" type="string" value="Complex Craig-Bampton"/>'
-        '<ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="2"/></ParameterList>'
-    )
+        '<Parameter name="Basis" type="string" value="Complex Craig-Bampton"/><ParameterList '
+        'name="Mode Selection"><Parameter name="Modes" type="int" value="2"/></ParameterList>')
     done = tooljoint("modes", "massless.xml")
     expect("Complex Craig-Bampton names the dof without mass", done.returncode == 3
            and 'singular, least at w of node 4 of part "a"' in done.stderr, done.stderr)
@@ -380,16 +346,24 @@ WELL = """<ParameterList name="well">
     <Parameter name="Bore Radius" type="double" value="0.108"/>
   </ParameterList>
   <ParameterList name="Drillstring"><ParameterList name="Components">
-    <ParameterList name="body"><Parameter name="Length" type="double" value="9"/><Parameter name="Elements" type="int" value="2"/>
-      <Parameter name="Outer Radius" type="double" value="0.0635"/><Parameter name="Inner Radius" type="double" value="0.0543"/></ParameterList>
-    <ParameterList name="joint"><Parameter name="Length" type="double" value="0.5"/><Parameter name="Elements" type="int" value="1"/>
-      <Parameter name="Outer Radius" type="double" value="0.084"/><Parameter name="Inner Radius" type="double" value="0.0413"/></ParameterList>
-    <ParameterList name="stand"><Parameter name="Parts" type="Array(string)" value="{body, joint}"/></ParameterList></ParameterList>
+    <ParameterList name="body"><Parameter name="Length" type="double" value="9"/>
+    <Parameter name="Elements" type="int" value="2"/>
+      <Parameter name="Outer Radius" type="double" value="0.0635"/>
+      <Parameter name="Inner Radius" type="double" value="0.0543"/></ParameterList>
+    <ParameterList name="joint"><Parameter name="Length" type="double" value="0.5"/>
+    <Parameter name="Elements" type="int" value="1"/>
+      <Parameter name="Outer Radius" type="double" value="0.084"/>
+      <Parameter name="Inner Radius" type="double" value="0.0413"/></ParameterList>
+    <ParameterList name="stand">
+    <Parameter name="Parts" type="Array(string)" value="{body, joint}"/></ParameterList>
+    </ParameterList>
     <Parameter name="Assembly" type="Array(string)" value="{40*stand}"/>
   </ParameterList>
   <ParameterList name="Contact">
-    <Parameter name="Stiffness" type="double" value="1e7"/><Parameter name="Damping" type="double" value="1e4"/>
-    <ParameterList name="Friction"><Parameter name="Static" type="double" value="0.25"/><Parameter name="Dynamic" type="double" value="0.25"/></ParameterList>
+    <Parameter name="Stiffness" type="double" value="1e7"/>
+    <Parameter name="Damping" type="double" value="1e4"/>
+    <ParameterList name="Friction"><Parameter name="Static" type="double" value="0.25"/>
+    <Parameter name="Dynamic" type="double" value="0.25"/></ParameterList>
   </ParameterList>
   <ParameterList name="Loads">
     <Parameter name="Gravity" type="double" value="9.81"/>
@@ -397,13 +371,15 @@ WELL = """<ParameterList name="well">
     <Parameter name="Torque On Bit" type="string" value="1 kN m"/>
   </ParameterList>
   <ParameterList name="Rotary Speed"><Parameter name="Law" type="string" value="Constant"/>
-    <ParameterList name="Constant"><Parameter name="Speed" type="string" value="120 rpm"/></ParameterList></ParameterList>
+    <ParameterList name="Constant">
+    <Parameter name="Speed" type="string" value="120 rpm"/></ParameterList></ParameterList>
 </ParameterList>
 """
 
 
 def sliding_string():
-    """A turning string that lies on the wall with friction: the symmetric part without friction has no negative value."""
+    """A turning string that lies on the wall with friction: the symmetric part without friction has
+    no negative value."""
     pathlib.Path("well.xml").write_text(WELL, encoding="utf-8")
     done = subprocess.run([PROGRAM, "modes", "well.xml", "--count", "12", "--output", "well_out"],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
@@ -413,7 +389,8 @@ def sliding_string():
     if done.returncode == 0:
         found = [
             float(row["full [Hz]"])
-            for row in csv.DictReader(open("well_out/modes.csv", encoding="utf-8"))]
+            for row in csv.DictReader(open("well_out/modes.csv", encoding="utf-8"))
+        ]
         expect("sliding string: undamped modes are positive",
                min(found) > 0, f"{min(found):.4g} Hz")
         expect("sliding string: they say that friction is left out", "friction left out"
@@ -424,17 +401,22 @@ def sliding_string():
 
 BLOCKS = """<ParameterList name="blocks"><ParameterList name="Parts"><ParameterList name="Imported">
   <ParameterList name="short"><Parameter name="File" type="string" value="short.h5"/>
-    <Parameter name="Fixed" type="Array(string)" value="{root}"/><Parameter name="Retained" type="Array(string)" value="{tip}"/></ParameterList>
+    <Parameter name="Fixed" type="Array(string)" value="{root}"/>
+    <Parameter name="Retained" type="Array(string)" value="{tip}"/></ParameterList>
   <ParameterList name="long"><Parameter name="File" type="string" value="long.h5"/>
-    <Parameter name="Fixed" type="Array(string)" value="{root}"/><Parameter name="Retained" type="Array(string)" value="{tip}"/></ParameterList>
+    <Parameter name="Fixed" type="Array(string)" value="{root}"/>
+    <Parameter name="Retained" type="Array(string)" value="{tip}"/></ParameterList>
 </ParameterList></ParameterList>
-<ParameterList name="Coupling"><Parameter name="Node Numbers" type="string" value="Own"/></ParameterList>
-<ParameterList name="Reduction"><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="12"/></ParameterList></ParameterList></ParameterList>
+<ParameterList name="Coupling">
+  <Parameter name="Node Numbers" type="string" value="Own"/></ParameterList>
+<ParameterList name="Reduction"><ParameterList name="Mode Selection">
+  <Parameter name="Modes" type="int" value="12"/></ParameterList></ParameterList></ParameterList>
 """
 
 
 def clamped_frequencies(path, count):
-    """The lowest ones of a part file whose set `root` is held [Hz], and rows and entries of its stiffness."""
+    """The lowest ones of a part file whose set `root` is held [Hz], and rows and entries of its
+    stiffness."""
     with h5py.File(path, "r") as file:
         n = len(file["dofs"])
         K, M = (sparse.csr_matrix((file[name]["value"], (file[name]["row"], file[name]["column"])),
@@ -445,7 +427,8 @@ def clamped_frequencies(path, count):
 
 
 def solids_on_two_ranks():
-    """Two solid parts whose matrices MUMPS factors, one on each rank: frequencies against scipy, and those of one rank."""
+    """Two solid parts whose matrices MUMPS factors, one on each rank: frequencies against scipy,
+    and those of one rank."""
     block = ROOT / "examples" / "12_solid_block" / "make_block.py"
     exact = []
     for name, counts, length in (
@@ -454,7 +437,8 @@ def solids_on_two_ranks():
     ):
         subprocess.run([
             sys.executable, block, *counts, "--size", length, "0.2", "0.1", "--joined", "6",
-            "--out", f"{name}.h5"], check=True)
+            "--out", f"{name}.h5"
+        ], check=True)
         hertz, rows, entries = clamped_frequencies(f"{name}.h5", 6)
         expect(f"{name} block: large and filling", rows >= 2000 and entries > 18 * rows,
                f"{rows} rows, {entries} entries")

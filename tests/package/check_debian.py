@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Debian packages of a build: check_debian.py CPACK BUILD VERSION CMAKE
 
-Packs what is built as docs/first-report.md does, installs the packages with dpkg into an empty root, maintainer scripts included, and uses them
-from there: the program makes a folder and runs its deck, the commands of docs/first-report.md lead to a report, the installed report answers, a
-client is built with the headers and runs, Python imports its package and computes. The libraries of the distribution are those of this machine.
-Lintian, where it is installed, finds no error.
+Packs what is built as docs/first-report.md does, installs the packages with dpkg into an empty
+root, maintainer scripts included, and uses them from there: the program makes a folder and runs its
+deck, the commands of docs/first-report.md lead to a report, the installed report answers, a client
+is built with the headers and runs, Python imports its package and computes. The libraries of the
+distribution are those of this machine. Lintian, where it is installed, finds no error.
 """
 import gzip
 import json
@@ -35,7 +36,8 @@ def command(*words, **options):
 
 
 def pack():
-    """The files of the packages by their name, made by the first commands of docs/first-report.md, but for the build, which is there."""
+    """The files of the packages by their name, made by the first commands of docs/first-report.md,
+    but for the build, which is there."""
     for folder in (SOURCES, ROOT):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
@@ -101,7 +103,8 @@ exec /sbin/ldconfig -r "$DPKG_ROOT" "$@"
 
 
 def install(packages):
-    """dpkg unpacks and configures all packages in the root, which has no others; the machine's own cache of libraries is left alone."""
+    """dpkg unpacks and configures all packages in the root, which has no others; the machine's own
+    cache of libraries is left alone."""
     for folder in ("var/lib/dpkg/info", "var/lib/dpkg/updates", "var/lib/dpkg/triggers", "etc"):
         (ROOT / folder).mkdir(parents=True)
     for file in ("var/lib/dpkg/status", "var/lib/dpkg/available", "etc/ld.so.conf"):

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The commands of docs/first-report.md, word for word: from the packages to a report of a well of one's own.
+"""The commands of docs/first-report.md, word for word: from the packages to a report of a well of
+one's own.
 
-    stranger.py PACKAGES      in an empty Debian 12 (target `clean-root`): made by mmdebstrap, the packages of the folder PACKAGES installed by apt. Needs root and the network.
+    stranger.py PACKAGES      in an empty Debian 12 (target `clean-root`): made by mmdebstrap, the
+                              packages of the folder PACKAGES installed by apt. Needs root and the
+                              network.
 
 check_debian.py runs the commands behind the installation on the unpacked packages.
 """
@@ -33,7 +36,8 @@ def page():
 
 
 def script(commands):
-    """A shell script that ends with the first command that fails; the page is opened by looking whether it is there."""
+    """A shell script that ends with the first command that fails; the page is opened by looking
+    whether it is there."""
     lines = [command.replace(OPEN, "test -s") for command in commands]
     return "set -eu\n" + "".join(f"echo '@@ {line}'\n{line}\n" for line in lines)
 
@@ -95,15 +99,15 @@ def on_files(environment, home):
 
 
 def in_clean_root(packages):
-    """The same in an empty Debian, the packages installed by its apt with all they depend on and recommend."""
+    """The same in an empty Debian, the packages installed by its apt with all they depend on and
+    recommend."""
     if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
         sys.exit("The clean root needs root and mmdebstrap (Debian: mmdebstrap).")
     names = ("tooljoint", "libtooljoint-dev", "python3-tooljoint")
     found = {name: sorted(pathlib.Path(packages).glob(f"{name}_*.deb")) for name in names}
     if not all(found.values()):
-        sys.exit(
-            f"{packages} lacks one of {', '.join(names)}. Make them with: cpack --config build/release/CPackConfig.cmake -B {packages}"
-        )
+        sys.exit(f"{packages} lacks one of {', '.join(names)}. Make them with: cpack --config "
+                 f"build/release/CPackConfig.cmake -B {packages}")
     newest = [files[-1] for files in found.values()]
     root = pathlib.Path("clean_root").resolve()
     if not (root / "etc/debian_version").is_file():
@@ -118,20 +122,19 @@ def in_clean_root(packages):
     shutil.copy(tests.parent / "python/check_installed.py", root / "tmp")
 
     def inside(text, **options):
-        within = f"mount --bind /proc {root}/proc && mount --bind /dev {root}/dev && exec chroot {root} /bin/bash -c \"$0\""
+        within = (f"mount --bind /proc {root}/proc && mount --bind /dev {root}/dev && exec chroot "
+                  f"{root} /bin/bash -c \"$0\"")
         return subprocess.run(
             ["unshare", "-m", "--propagation", "private", "bash", "-c", within, text], text=True,
             check=False, **options)
 
-    done = inside(
-        f"apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y cmake g++ {' '.join(f'/tmp/{package.name}' for package in newest)}"
-    )
+    done = inside("apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y cmake g++ "
+                  f"{' '.join(f'/tmp/{package.name}' for package in newest)}")
     expect("apt installs the packages", done.returncode == 0)
     ranks = "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; "
     for what, text in (
-        ("a client is built with the headers and runs",
-         "cmake -S /tmp/client -B /tmp/client_build && cmake --build /tmp/client_build && /tmp/client_build/client"
-         ),
+        ("a client is built with the headers and runs", "cmake -S /tmp/client -B /tmp/client_build "
+         "&& cmake --build /tmp/client_build && /tmp/client_build/client"),
         ("Python imports its package and computes",
          "python3 /tmp/check_installed.py /usr/lib/python3/dist-packages"),
     ):
@@ -141,7 +144,8 @@ def in_clean_root(packages):
     shutil.rmtree(home, ignore_errors=True)
     home.mkdir(parents=True)
     (home / "survey.csv").write_text(survey, encoding="utf-8")
-    environment = "export HOME=/root/stranger OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; cd; "
+    environment = ("export HOME=/root/stranger OMPI_ALLOW_RUN_AS_ROOT=1 "
+                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; cd; ")
     judge(inside(environment + script(commands), stdout=subprocess.PIPE, stderr=subprocess.PIPE),
           home)
 

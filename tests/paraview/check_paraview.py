@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`tooljoint paraview` of a string and of parts: files that a strict reader, and VTK where it is installed, read back with the numbers of results.h5.
+"""`tooljoint paraview` of a string and of parts: files that a strict reader, and VTK where it is
+installed, read back with the numbers of results.h5.
 
     check_paraview.py PROGRAM
 """
@@ -42,13 +43,15 @@ def read(path):
     """{group: {name: values}} of a .vtp file, after the rules of the format."""
     root = ET.parse(path).getroot()
     wanted = {
-        "type": "PolyData", "byte_order": "LittleEndian", "header_type": "UInt64", "version": "1.0"}
+        "type": "PolyData", "byte_order": "LittleEndian", "header_type": "UInt64", "version": "1.0"
+    }
     if root.tag != "VTKFile" or dict(root.attrib) != wanted:
         raise ValueError(f"{path}: {root.tag} {root.attrib}")
     piece = root.find("PolyData/Piece")
     found = {
         group.tag: {each.get("Name"): array(each) for each in group
-                    } for group in [*piece, *root.findall("PolyData/FieldData")]}
+                    } for group in [*piece, *root.findall("PolyData/FieldData")]
+    }
     count = int(piece.get("NumberOfPoints"))
     if len(found["Points"]["Points"]) != count or any(
             len(values) != count for values in found["PointData"].values()):
@@ -75,7 +78,8 @@ def by_vtk(path):
     arrays = {
         data.GetArray(i).GetName(): vtk_to_numpy(data.GetArray(i))
         for data in (shown.GetPointData(), shown.GetCellData())
-        for i in range(data.GetNumberOfArrays())}
+        for i in range(data.GetNumberOfArrays())
+    }
     return vtk_to_numpy(shown.GetPoints().GetData()), arrays
 
 
@@ -127,7 +131,8 @@ def check_string():
             for name in ("/path/position", "/model/frame", "/model/clearance",
                          "/model/contact_radius", "/model/s", "/static/axial_force",
                          "/static/torque", "/transient/time", "/transient/displacement",
-                         "/transient/velocity", "/transient/normal_force", "/transient/speed")}
+                         "/transient/velocity", "/transient/normal_force", "/transient/speed")
+        }
     times = data["/transient/time"]
     expect("string: first and last sample are shown",
            len(shown) == 6 and shown[0][0] == times[0] and shown[-1][0] == times[-1],
@@ -162,7 +167,8 @@ def check_string():
            len(stress) == nodes - 1 and (stress > 0).any() and np.isfinite(stress).all())
     expect(
         "cells join neighbours", first["Lines"]["connectivity"].tolist() == [
-            n for i in range(nodes - 1) for n in (i, i + 1)])
+            n for i in range(nodes - 1) for n in (i, i + 1)
+        ])
     wall = read(folder / "paraview/wall.vtp")
     ring = wall["Points"]["Points"].reshape(nodes, -1, 3)
     radius = np.linalg.norm(ring - data["/path/position"][:, None], axis=2)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A swept plate through the files of every format: check_formats.py PROGRAM
 
-A plate of hexahedra, swept by 30 degrees, whose root moves as a rigid body with the six dofs of one node. Written here for each format that is
-read, its frequencies are those of its matrices; reduced, exported in each format that is written, and read again, those of the reduced plate. An export that
+A plate of hexahedra, swept by 30 degrees, whose root moves as a rigid body with the six dofs of one
+node. Written here for each format that is read, its frequencies are those of its matrices; reduced,
+exported in each format that is written, and read again, those of the reduced plate. An export that
 fails leaves nothing behind.
 """
 import csv
@@ -27,7 +28,9 @@ CELLS, EDGES = (8, 3, 1), np.array([[0.05, 0.05 * np.tan(np.radians(30)), 0], [0
 CORNERS = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], dtype=float)
 COMPONENTS = "u", "v", "w", "theta_x", "theta_y", "theta_z"
 MODES, RIGID = 12, 6
-OF_PUNCH = 1e-6  # ten digits of entries, whose largest eigenvalue is some thousand times that of the lowest bending mode
+# ten digits of entries, whose largest eigenvalue is some thousand times that of the lowest bending
+# mode
+OF_PUNCH = 1e-6
 
 
 def element():
@@ -38,8 +41,8 @@ def element():
     K, M, weight = np.zeros((24, 24)), np.zeros((24, 24)), np.linalg.det(EDGES / 2)
     for point in CORNERS / np.sqrt(3):
         one = (1 + CORNERS * point) / 2
-        local = np.column_stack([
-            CORNERS[:, a] / 2 * one[:, (a + 1) % 3] * one[:, (a + 2) % 3] for a in range(3)])
+        local = np.column_stack(
+            [CORNERS[:, a] / 2 * one[:, (a + 1) % 3] * one[:, (a + 2) % 3] for a in range(3)])
         B = np.zeros((6, 24))
         for i, (x, y, z) in enumerate(np.linalg.solve(EDGES / 2, local.T).T):
             B[:, 3 * i:3 * i + 3] = [[x, 0, 0], [0, y, 0], [0, 0, z], [y, x, 0], [0, z, y],
@@ -68,12 +71,12 @@ def plate():
     T = np.zeros((3 * len(x), 6 + 3 * len(free)))
     for i in np.flatnonzero(root):  # u + theta x r
         r = x[i] - middle
-        T[3 * i:3 * i + 3, :6] = np.hstack([
-            np.eye(3), [[0, r[2], -r[1]], [-r[2], 0, r[0]], [r[1], -r[0], 0]]])
+        T[3 * i:3 * i + 3, :6] = np.hstack(
+            [np.eye(3), [[0, r[2], -r[1]], [-r[2], 0, r[0]], [r[1], -r[0], 0]]])
     for j, i in enumerate(free):
         T[3 * i:3 * i + 3, 6 + 3 * j:9 + 3 * j] = np.eye(3)
-    labels = [(1, c) for c in range(1, 7)] + [
-        (j + 2, c) for j in range(len(free)) for c in (1, 2, 3)]
+    labels = [(1, c) for c in range(1, 7)] + [(j + 2, c) for j in range(len(free))
+                                              for c in (1, 2, 3)]
     K, M = (np.where(np.abs(A) > 1e-14 * np.abs(A).max(), A, 0) for A in (T.T @ K @ T, T.T @ M @ T))
     return (K + K.T) / 2, (M + M.T) / 2, labels, np.vstack([middle, x[free]])
 
@@ -96,7 +99,8 @@ def abaqus(K, M, labels, _):
     for tag, A in (("STIF", K), ("MASS", M)):
         rows = [
             f"{labels[i][0]},{labels[i][1]}, {labels[j][0]},{labels[j][1]}, {A[i, j]:.16e}"
-            for i in range(len(A)) for j in range(i + 1) if A[i, j] != 0]
+            for i in range(len(A)) for j in range(i + 1) if A[i, j] != 0
+        ]
         pathlib.Path(f"plate_{tag}1.mtx").write_text("\n".join(rows) + "\n", encoding="utf-8")
     return "plate_STIF1.mtx"
 
@@ -115,10 +119,9 @@ def harwell_boeing(K, M, labels, _):
             "\n".join([
                 "swept plate", f"{n + 1 + 2 * count} {n + 1} {count} {count}",
                 f"RSA {n} {n} {count} 0", "(1I14) (1I14) (1E25.16)",
-                *(f"{i + 1:14}"
-                  for i in (*lower.indptr, *lower.indices)), *(f"{x:25.16E}"
-                                                               for x in lower.data)]) + "\n",
-            encoding="utf-8")
+                *(f"{i + 1:14}" for i in (*lower.indptr, *lower.indices)), *(f"{x:25.16E}"
+                                                                             for x in lower.data)
+            ]) + "\n", encoding="utf-8")
         rows = "".join(
             f"{i + 1} {labels[j][0]} {names[labels[j][1] - 1]}\n" for i, j in enumerate(order))
         (folder / f"{name}.mapping").write_text("Matrix Eqn Node DOF\n" + rows, encoding="utf-8")
@@ -154,7 +157,8 @@ def nastran(K, M, labels, _):
                 continue
             lines.append(f"DMIG*   {name:16}{labels[j][0]:16}{labels[j][1]:16}")
             lines += [
-                f"*       {labels[i][0]:16}{labels[i][1]:16}{fortran(A[i, j]):>16}" for i in column]
+                f"*       {labels[i][0]:16}{labels[i][1]:16}{fortran(A[i, j]):>16}" for i in column
+            ]
     pathlib.Path("plate.pch").write_text("\n".join(lines) + "\n", encoding="utf-8")
     return "plate.pch"
 
@@ -170,13 +174,14 @@ def fortran(value):
 
 def deck(name, file, reduction=False):
     kept = '<Parameter name="Retained" type="Array(string)" value="{1}"/>' if reduction else ""
-    reduced = (
-        '<ParameterList name="Reduction"><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="'
-        + str(MODES) + '"/></ParameterList></ParameterList>') if reduction else ""
+    reduced = ('<ParameterList name="Reduction"><ParameterList name="Mode Selection"><Parameter '
+               'name="Modes" type="int" value="' + str(MODES) +
+               '"/></ParameterList></ParameterList>') if reduction else ""
     pathlib.Path(name).write_text(
-        f'<ParameterList name="plate"><ParameterList name="Parts"><ParameterList name="Imported"><ParameterList name="plate">'
-        f'<Parameter name="File" type="string" value="{file}"/>{kept}</ParameterList></ParameterList></ParameterList>{reduced}</ParameterList>',
-        encoding="utf-8")
+        '<ParameterList name="plate"><ParameterList name="Parts"><ParameterList name="Imported">'
+        '<ParameterList name="plate"><Parameter name="File" type="string" '
+        f'value="{file}"/>{kept}</ParameterList></ParameterList>'
+        f'</ParameterList>{reduced}</ParameterList>', encoding="utf-8")
     return name
 
 
@@ -186,8 +191,8 @@ def hertz(name, key, *words):
     if done.returncode != 0:
         expect(f"modes of {name}", False, done.stderr)
         return np.zeros(RIGID + MODES)
-    return np.sort([
-        float(row[key]) for row in csv.DictReader(open(f"{folder}/modes.csv", encoding="utf-8"))])
+    return np.sort(
+        [float(row[key]) for row in csv.DictReader(open(f"{folder}/modes.csv", encoding="utf-8"))])
 
 
 def same(what, found, exact, tolerance):
@@ -249,9 +254,12 @@ def written_formats():
 
 
 def failing_export(K, M, labels, positions):
-    """The second part keeps two nodes, which the format cannot hold; the first one is written before."""
+    """The second part keeps two nodes, which the format cannot hold; the first one is written
+    before."""
     text = pathlib.Path("reduced.xml").read_text(encoding="utf-8")
-    second = '<ParameterList name="wide"><Parameter name="File" type="string" value="{}"/><Parameter name="Retained" type="Array(string)" value="{{1001, 1002}}"/></ParameterList>'
+    second = ('<ParameterList name="wide"><Parameter name="File" type="string" value="{}"/>'
+              '<Parameter name="Retained" type="Array(string)" value="{{1001, 1002}}"/>'
+              '</ParameterList>')
     second = second.format(hdf5(K, M, labels, positions, "wide.h5", 1001))
     at = text.index('<ParameterList name="plate"><Parameter')
     pathlib.Path("failing.xml").write_text(
@@ -273,7 +281,8 @@ def failing_export(K, M, labels, positions):
 
 
 def equilibrium_round_trip():
-    """A bar at rest under a load and on a spring of the deck, reduced, exported and read again: the spring counts from where it did, so that it rests."""
+    """A bar at rest under a load and on a spring of the deck, reduced, exported and read again: the
+    spring counts from where it did, so that it rests."""
     k = 1e4
     content = {
         "format": "tooljoint part 1",
@@ -281,18 +290,28 @@ def equilibrium_round_trip():
         "dofs": [[i, "u"] for i in (1, 2, 3, 4)],
         "mass": np.eye(4).tolist(),
         "stiffness": [[2 * k, -k, 0, 0], [-k, 2 * k, -k, 0], [0, -k, 2 * k, -k], [0, 0, -k, k]],
-        "interfaces": {"tip": [4]}, }
+        "interfaces": {"tip": [4]},
+    }
     pathlib.Path("bar.json").write_text(json.dumps(content), encoding="utf-8")
-    text = """<ParameterList name="bar"><ParameterList name="Parts"><ParameterList name="Imported"><ParameterList name="a">
-      <Parameter name="File" type="string" value="{file}"/></ParameterList></ParameterList>{start}</ParameterList>
-      <ParameterList name="Coupling"><Parameter name="Node Numbers" type="string" value="Own"/><ParameterList name="Springs"><ParameterList name="k">
-      <Parameter name="First" type="string" value="a:4"/><Parameter name="Component" type="string" value="u"/>
-      <Parameter name="Stiffness" type="double" value="1e4"/></ParameterList></ParameterList></ParameterList>{reduction}
-      <ParameterList name="Transient"><Parameter name="End Time" type="double" value="0.5"/></ParameterList></ParameterList>"""
+    text = """<ParameterList name="bar"><ParameterList name="Parts"><ParameterList name="Imported">
+    <ParameterList name="a">
+      <Parameter name="File" type="string" value="{file}"/></ParameterList>
+      </ParameterList>{start}</ParameterList>
+      <ParameterList name="Coupling"><Parameter name="Node Numbers" type="string" value="Own"/>
+      <ParameterList name="Springs"><ParameterList name="k">
+      <Parameter name="First" type="string" value="a:4"/>
+      <Parameter name="Component" type="string" value="u"/>
+      <Parameter name="Stiffness" type="double" value="1e4"/></ParameterList></ParameterList>
+      </ParameterList>{reduction}
+      <ParameterList name="Transient">
+      <Parameter name="End Time" type="double" value="0.5"/></ParameterList></ParameterList>"""
     equilibrium = '<Parameter name="Initial State" type="string" value="Equilibrium"/>'
-    load = """<ParameterList name="Loads"><ParameterList name="l"><Parameter name="Part" type="string" value="a"/><Parameter name="Node" type="int" value="4"/>
-      <Parameter name="Component" type="string" value="u"/><Parameter name="Value" type="double" value="100"/></ParameterList></ParameterList>"""
-    reduction = '<ParameterList name="Reduction"><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="2"/></ParameterList></ParameterList>'
+    load = """<ParameterList name="Loads"><ParameterList name="l">
+    <Parameter name="Part" type="string" value="a"/><Parameter name="Node" type="int" value="4"/>
+      <Parameter name="Component" type="string" value="u"/>
+      <Parameter name="Value" type="double" value="100"/></ParameterList></ParameterList>"""
+    reduction = ('<ParameterList name="Reduction"><ParameterList name="Mode Selection"><Parameter '
+                 'name="Modes" type="int" value="2"/></ParameterList></ParameterList>')
     for name, file, start, reduce in (
         ("bar", "bar.json", equilibrium + load, reduction),
         ("bar_again", "bars/a.h5", "", ""),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Beams of plane Euler-Bernoulli elements as matrices, for the tests: components v and theta of each node."""
+"""Beams of plane Euler-Bernoulli elements as matrices, for the tests: components v and theta of
+each node."""
 import numpy as np
 import scipy.sparse as sparse
 
@@ -15,7 +16,8 @@ def beam(length, elements):
         [156, 22 * l, 54, -13 * l],
         [22 * l, 4 * l * l, 13 * l, -3 * l * l],
         [54, 13 * l, 156, -22 * l],
-        [-13 * l, -3 * l * l, -22 * l, 4 * l * l], ])
+        [-13 * l, -3 * l * l, -22 * l, 4 * l * l],
+    ])
     size = 2 * (elements + 1)
     K, M = sparse.lil_matrix((size, size)), sparse.lil_matrix((size, size))
     for e in range(elements):
@@ -26,7 +28,8 @@ def beam(length, elements):
 
 
 def halves(tj, elements=24):
-    """A cantilever of 4 m cut in its middle, clamped at node 1: the two parts, and K and M in one piece."""
+    """A cantilever of 4 m cut in its middle, clamped at node 1: the two parts, and K and M in one
+    piece."""
     K, M = beam(4.0, elements)
     half = elements // 2
     Kh, Mh = beam(2.0, half)

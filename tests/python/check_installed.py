@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""check_installed.py FOLDER: the package is imported from FOLDER, with the libraries installed beside it, and computes."""
+"""The package is imported from FOLDER, with the libraries installed beside it, and computes.
+
+    check_installed.py FOLDER
+"""
 import pathlib
 import sys
 

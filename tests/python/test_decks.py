@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks in process: read, changed, written, run; results with units; the sentences of the program as exceptions."""
+"""Decks in process: read, changed, written, run; results with units; the sentences of the program
+as exceptions."""
 import os
 import pathlib
 import re
@@ -23,7 +24,8 @@ SHORT = {"Transient/End Time": "0.05 s", "Output/XDMF": False}
 
 
 def sentence_of_program(*arguments):
-    """What the program prints on standard error, without its name and its breaks of lines, and its exit code."""
+    """What the program prints on standard error, without its name and its breaks of lines, and its
+    exit code."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
                           check=False)
     return re.sub(r"\n {2,}", " ",
@@ -48,10 +50,13 @@ class Decks(unittest.TestCase):
         self.assertIn("Parts/Laws/gust", deck)
         for path, sentence in {
                 "Mud": '/frame/Mud is not a parameter. Available: the lists "Parts"',
-                "Transient/Intgrator": '/frame/Transient/Intgrator is not a parameter. Did you mean "Integrator"?',
+                "Transient/Intgrator": '/frame/Transient/Intgrator is not a parameter. Did you '
+                'mean "Integrator"?',
                 "Transent/Step": '/frame/Transent is not a list. Did you mean "Transient"?',
-                "Transient/End Time/x": "/frame/Transient/End Time is not a list. It is a parameter",
-                "Output": '/frame/Output is not a parameter. It is a list: write <ParameterList name="Output">.',
+                "Transient/End Time/x": "/frame/Transient/End Time is not a list. It is a "
+                "parameter",
+                "Output": '/frame/Output is not a parameter. It is a list: write <ParameterList '
+                'name="Output">.',
         }.items():
             with self.assertRaises(tj.DeckError) as caught:
                 deck[path]
@@ -79,7 +84,8 @@ class Decks(unittest.TestCase):
         deck["Parts/Imported/arm/Retained"] = ["4", "5"]
         guy = {
             "First": "top beam:5", "Component": "v", "Type": "Spring",
-            "Spring": {"Stiffness": "3 kN/m"}}
+            "Spring": {"Stiffness": "3 kN/m"}
+        }
         deck.add("Coupling/Point Laws/guy", guy)
         with self.assertRaisesRegex(tj.DeckError, 'Did you mean "Stiffness"'):
             deck.add("Coupling/Point Laws/other", {**guy, "Spring": {"Stifness": 3}})
@@ -117,7 +123,8 @@ class Decks(unittest.TestCase):
              tj.DeckError),
             ("too coarse", FRAME,
              {"Transient/Integrator": "RK4", "Transient/Step": 0.05,
-              "Transient/End Time": 1}, ("Reduction", ), tj.ConvergenceError), ]
+              "Transient/End Time": 1}, ("Reduction",), tj.ConvergenceError),
+        ]
         for name, file, changes, without, kind in cases:
             with self.subTest(name):
                 arguments = ["run", file, "--output", "errors"]
@@ -219,8 +226,11 @@ class Runs(unittest.TestCase):
                     "weight": {"Parameter": "Loads/Weight On Bit", "Values": weights},
                     "torque": {
                         "Parameter": "Loads/Torque On Bit",
-                        "Values": ["1 kN m", "2 kN m"], }, },
-                "Values": {"top force": {"Key": "static.top_axial_force"}}, })
+                        "Values": ["1 kN m", "2 kN m"],
+                    },
+                },
+                "Values": {"top force": {"Key": "static.top_axial_force"}},
+            })
         rows = deck.map("map", fresh=True)
         self.assertEqual([row["status"] for row in rows], ["done"] * 4)
         force = np.array([row["top force"] for row in rows]).reshape(2, 2)

@@ -36,7 +36,8 @@ class Scripts(unittest.TestCase):
         page = (SOURCE / "docs/python-figures.md").read_text(encoding="utf-8")
         scripts = [
             path for path in sorted((SOURCE / "examples/python").glob("*.py"))
-            if path.name != "common.py"]
+            if path.name != "common.py"
+        ]
         self.assertGreaterEqual(len(scripts), 4)
         for script in scripts:
             _, *cells = re.split(r"^# %% ", script.read_text(encoding="utf-8"), flags=re.M)
@@ -60,7 +61,8 @@ class Blocks(unittest.TestCase):
         self.assertEqual(run(BLOCKS[1]), "Random Subspace\n")
 
     def test_a_law(self):
-        # A mass on a spring without damping swings from 0.1 m to -0.1 m; samples meet the turning point to 1e-4.
+        # A mass on a spring without damping swings from 0.1 m to -0.1 m; samples meet the turning
+        # point to 1e-4.
         self.assertAlmostEqual(float(run(BLOCKS[2])), -0.1, places=3)
 
     def test_a_law_with_states(self):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Motions of reduced models: against scipy, and point laws written in Python against the same in C++."""
+"""Motions of reduced models: against scipy, and point laws written in Python against the same in
+C++."""
 import os
 import signal
 import threading
@@ -54,7 +55,8 @@ class Motions(unittest.TestCase):
             tj.synthesise([left, right], modes=4, **parameters)
             return [
                 sentence for sentence in tj.warnings()
-                if "does not represent the initial state" in sentence]
+                if "does not represent the initial state" in sentence
+            ]
 
         def one_node(part):
             return np.eye(len(part))[part.model.position(20, "v")]
@@ -93,7 +95,8 @@ class Motions(unittest.TestCase):
         exact = row @ truth.y[:len(model)]
         # Generalised-alpha is of second order: a quarter of the error with half of the step.
         errors = [
-            abs(tip_motion(python, step=step) - exact).max() / size for step in (2e-4, 1e-4, 5e-5)]
+            abs(tip_motion(python, step=step) - exact).max() / size for step in (2e-4, 1e-4, 5e-5)
+        ]
         self.assertLess(errors[2], 2e-3, f"errors {errors}")
         for coarse, better in zip(errors, errors[1:]):
             self.assertTrue(3.0 < coarse / better < 5.0, f"errors {errors}: not of second order")
@@ -144,7 +147,8 @@ class Motions(unittest.TestCase):
             tj.integrate(synthesis(law, push), END, sampling_interval=SAMPLING,
                          step=1e-4).report["energy"]
             for law in (tj.law("Spring", cubic_stiffness=CUBIC, **given),
-                        tj.law("Tip Spring", cubic=CUBIC, **given))]
+                        tj.law("Tip Spring", cubic=CUBIC, **given))
+        ]
         for name in ("contact", "contact_damping", "residual"):
             self.assertAlmostEqual(reports[0][name], reports[1][name],
                                    delta=1e-6 * abs(reports[0]["loads"]), msg=name)
@@ -327,8 +331,8 @@ class Motions(unittest.TestCase):
             for value in (np.nan, np.inf):
                 with self.subTest(integrator, value=value), self.assertRaisesRegex(
                         tj.ConvergenceError,
-                        rf'^The point law "No Number" returned {value} at t = 0\.05\S* s, where d is 0\.99\S* m and v -0\.\d+ m/s; expected are finite numbers\. '
-                ):
+                        fr'^The point law "No Number" returned {value} at t = 0\.05\S* s, where d '
+                        r'is 0\.99\S* m and v -0\.\d+ m/s; expected are finite numbers\. '):
                     motion("No Number", late(value), integrator)
         with self.assertRaisesRegex(tj.ConvergenceError,
                                     '^The point law "No Rate" returned nan at t = '):
@@ -368,7 +372,7 @@ class Threads(unittest.TestCase):
         def work(k):
             found[k] = tip_motion(model, step=1e-3)
 
-        threads = [threading.Thread(target=work, args=(k, )) for k in range(4)]
+        threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
         for thread in threads:
             thread.start()
         for thread in threads:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts from scipy matrices: reduction, coupling and modes against scipy.linalg.eigh of the whole."""
+"""Parts from scipy matrices: reduction, coupling and modes against scipy.linalg.eigh of the
+whole."""
 import gc
 import pathlib
 import unittest
@@ -50,7 +51,8 @@ class Matrices(unittest.TestCase):
                                   K.shape)
         for name, matrix in {
                 "csc": K.tocsc(), "dense": K.toarray(), "lists": K.toarray().tolist(),
-                "entries given twice": twice}.items():
+                "entries given twice": twice
+        }.items():
             part = tj.part(name, M, matrix, component_names=("v", "theta"))
             self.assertTrue(np.array_equal(part.model.stiffness().toarray(), K.toarray()), name)
             self.assertTrue(np.allclose(tj.modes(part, 3).frequency, want, rtol=1e-10), name)
@@ -65,8 +67,8 @@ class Matrices(unittest.TestCase):
 
     def test_positions_that_are_none_are_refused(self):
         for name, wrong in {
-                "nodes": ["a", "b"], "components": [0.5, 0], "interface": [2],
-                "retained": [-1]}.items():
+                "nodes": ["a", "b"], "components": [0.5, 0], "interface": [2], "retained": [-1]
+        }.items():
             with self.assertRaisesRegex(
                     tj.ModelError, "whole numbers" if name in ("nodes", "components") else name):
                 tj.part("bad", np.eye(2), np.eye(2), **{name: wrong})
@@ -79,10 +81,13 @@ class Matrices(unittest.TestCase):
 
     def test_vectors_that_do_not_fit_are_refused(self):
         part = tj.part("chain", np.eye(3), np.eye(3))
-        for load, reason in ((np.ones(
-            (3, 2)), "3 x 2"), (np.ones(2), "array of 2; expected are 3 entries"),
-                             ("abc", "no vector"), (1j * np.ones(3), "no vector"), (None,
-                                                                                    "one number")):
+        for load, reason in (
+            (np.ones((3, 2)), "3 x 2"),
+            (np.ones(2), "array of 2; expected are 3 entries"),
+            ("abc", "no vector"),
+            (1j * np.ones(3), "no vector"),
+            (None, "one number"),
+        ):
             with self.assertRaisesRegex(tj.ModelError, reason):
                 part.model.add_load(load)
             with self.assertRaisesRegex(tj.ModelError, reason):
@@ -103,13 +108,16 @@ class Matrices(unittest.TestCase):
         both = tj.synthesise([part], modes=2)
         for call, sentence in {
                 lambda: tj.modes(part, 2.5): "modes(): count is 2.5; expected is a whole number.",
-                lambda: tj.modes(3, 2): "modes(): of is 3; expected is a Part or a ReducedPart or a Synthesis or a Model.",
-                lambda: tj.damped_modes(part, 2, "1 s"): "damped_modes(): t is '1 s'; expected is a number.",
+                lambda: tj.modes(3, 2): "modes(): of is 3; expected is a Part or a ReducedPart or "
+                "a Synthesis or a Model.",
+                lambda: tj.damped_modes(part, 2, "1 s"): "damped_modes(): t is '1 s'; expected is "
+                "a number.",
                 lambda: tj.compare_modes(part, 2): "compare_modes(): synthesis is <Part",
                 lambda: tj.compare_modes(both, 2.5): "compare_modes(): count is 2.5",
                 lambda: tj.estimate_frequencies(both, "2"): "estimate_frequencies(): count is '2'",
                 lambda: tj.mac(1, 2, 3): "mac(): expected are two arrays of shapes",
-                lambda: tj.couple([1]): "couple(): parts[0] is 1; expected is a Part or a ReducedPart.",
+                lambda: tj.couple([1]): "couple(): parts[0] is 1; expected is a Part or a "
+                "ReducedPart.",
                 lambda: tj.couple([part], 3): "coupling is 3; expected is the deck list Coupling",
                 lambda: tj.reduce(3): "reduce(): parts is 3; expected is a list",
                 lambda: tj.reduce(part, modes=object()): "is no value of a deck",
@@ -117,7 +125,8 @@ class Matrices(unittest.TestCase):
                 lambda: tj.integrate("part", 1): "integrate(): of is 'part'",
                 lambda: tj.law("Spring", points=1.5, stiffness=1.0): "law(): points is 1.5",
                 lambda: tj.read_part("part.json", laws={
-                    "Omega": "fast"}): "read_part(): Omega is 'fast'; expected is a number.",
+                    "Omega": "fast"
+                }): "read_part(): Omega is 'fast'; expected is a number.",
         }.items():
             with self.assertRaises(tj.UsageError) as caught:
                 call()
@@ -148,10 +157,14 @@ class Reduction(unittest.TestCase):
                         f"{found.frequency} against {self.frequency}")
 
     def test_four_methods_against_the_whole(self):
-        # The sixth frequency of the cantilever needs a third bending mode of each half: eight modes bring all six within 0.1 %.
-        for method, tolerance, above in (("Craig-Bampton", 1e-3, True), ("Rubin", 1e-3, True),
-                                         ("Krylov", 1e-3, True), ("Dual Craig-Bampton", 1e-3,
-                                                                  False)):
+        # The sixth frequency of the cantilever needs a third bending mode of each half: eight modes
+        # bring all six within 0.1 %.
+        for method, tolerance, above in (
+            ("Craig-Bampton", 1e-3, True),
+            ("Rubin", 1e-3, True),
+            ("Krylov", 1e-3, True),
+            ("Dual Craig-Bampton", 1e-3, False),
+        ):
             with self.subTest(method):
                 synthesis = tj.synthesise([self.left, self.right], method, modes=8)
                 error = np.asarray(tj.modes(synthesis, 6).frequency) / self.frequency - 1
@@ -218,7 +231,10 @@ class Reduction(unittest.TestCase):
             "Point Laws": {
                 "tip": {
                     "First": "right:25", "Component": "v", "Type": "Spring",
-                    "Spring": {"Stiffness": stiffness}}}}
+                    "Spring": {"Stiffness": stiffness}
+                }
+            }
+        }
         K = self.K.tolil()
         K[-2, -2] += stiffness
         want, _ = exact(K.tocsr(), self.M, 4)
@@ -236,14 +252,14 @@ class Reduction(unittest.TestCase):
                         f"{found.damping} against {want}")
 
     def test_parts_as_files_take_part_in_a_deck(self):
-        parts = "".join(
-            f'<ParameterList name="{name}"><Parameter name="File" type="string" value="{file}"/></ParameterList>'
-            for name, file in (("left", "left.h5"), ("right", "right")))
+        parts = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" '
+                        f'value="{file}"/></ParameterList>'
+                        for name, file in (("left", "left.h5"), ("right", "right")))
         pathlib.Path("beam.xml").write_text(
             f"""<ParameterList name="beam">
   <ParameterList name="Parts"><ParameterList name="Imported">{parts}</ParameterList>
-    <Parameter name="Joints" type="Array(string)" value="{{left:middle = right:middle}}"/></ParameterList></ParameterList>""",
-            encoding="utf-8")
+    <Parameter name="Joints" type="Array(string)" value="{{left:middle = right:middle}}"/>
+    </ParameterList></ParameterList>""", encoding="utf-8")
         if tj.rank() == 0:
             pathlib.Path("right").mkdir(exist_ok=True)
         tj.write_part(self.left, "left.h5", {"middle": self.left.interface})

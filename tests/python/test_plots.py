@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tooljoint.plots, and the figures of tools/plot_results.py and tools/plot_study.py: labels with units, depth downwards, one scale in space,
-titles with conditions, no text on another one."""
+"""tooljoint.plots, and the figures of tools/plot_results.py and tools/plot_study.py: labels with
+units, depth downwards, one scale in space, titles with conditions, no text on another one."""
 import os
 import pathlib
 import re
@@ -25,14 +25,16 @@ import scale  # noqa: E402
 import scale_figures  # noqa: E402
 import strategies_figure  # noqa: E402
 
-DECK = """<ParameterList name="well"><ParameterList name="Loads"><Parameter name="Weight On Bit" type="double" value="40000"/></ParameterList></ParameterList>"""
+DECK = """<ParameterList name="well"><ParameterList name="Loads">
+  <Parameter name="Weight On Bit" type="double" value="40000"/></ParameterList></ParameterList>"""
 # Machado, Oliveira and Fernandes (2009), severity 1, on linear RGB.
 DEUTERANOPE = np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
                         [-0.011820, 0.042940, 0.968881]])
 PROTANOPE = np.array([
     [0.152286, 1.052583, -0.204868],
     [0.114503, 0.786281, 0.099216],
-    [-0.003882, -0.048116, 1.051998], ])
+    [-0.003882, -0.048116, 1.051998],
+])
 XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
 WHITE = XYZ.sum(axis=1)
 JUST_NOTICEABLE = 2.3  # in CIE Lab (Mahy et al. 1994)
@@ -45,8 +47,8 @@ def string(file, nodes=21, moves=True):
     angle = 1e-3 * s
     file.attrs["deck_text"], file.attrs["deck_file"], file.attrs["overrides"] = DECK, "well.xml", ""
     file["/model/s"], file["/model/clearance"] = s, np.full(nodes, 0.03)
-    file["/model/position"] = 1000 * np.column_stack([
-        1 - np.cos(angle), np.zeros(nodes), np.sin(angle)])
+    file["/model/position"] = 1000 * np.column_stack(
+        [1 - np.cos(angle), np.zeros(nodes), np.sin(angle)])
     file["/static/displacement"] = np.full((nodes, 6), 0.01)
     file["/static/normal_force"] = 1e3 * (1 + np.cos(0.02 * s))
     file["/static/axial_force"], file["/static/torque"] = 1e3 * (200 - 0.2 * middle), np.full(
@@ -55,8 +57,8 @@ def string(file, nodes=21, moves=True):
         time = np.linspace(0, 1, 12)
         file["/transient/time"], file["/transient/speed"] = time, np.full(12, 4 * np.pi)
         bit = 4 * np.pi + np.sin(20 * time)
-        file["/transient/motion"] = np.column_stack([
-            time, np.full(12, 4 * np.pi), bit, 0 * time, 0 * time])
+        file["/transient/motion"] = np.column_stack(
+            [time, np.full(12, 4 * np.pi), bit, 0 * time, 0 * time])
         file["/transient/displacement"] = 0.01 * np.tile(
             np.cos(20 * time)[:, None, None], (1, nodes, 6))
     return file
@@ -85,7 +87,8 @@ class Start(unittest.TestCase):
     def test_a_home_that_cannot_be_written_is_no_matter(self):
         given = {
             name: value for name, value in os.environ.items()
-            if not name.startswith(("MPLCONFIG", "XDG_"))}
+            if not name.startswith(("MPLCONFIG", "XDG_"))
+        }
         done = subprocess.run([sys.executable, "-c", "import plot_map, plot_study, plot_results"],
                               cwd=SOURCE / "tools", env={**given, "HOME": "/proc/nowhere"},
                               capture_output=True, text=True, check=False)
@@ -95,7 +98,7 @@ class Start(unittest.TestCase):
 class Axes(Style):
     def test_labels_have_units(self):
         self.assertEqual(
-            [plots.label(*pair) for pair in (("torque", "kN m"), ("modes", ), ("share", "1"))],
+            [plots.label(*pair) for pair in (("torque", "kN m"), ("modes",), ("share", "1"))],
             ["torque [kN m]", "modes", "share"])
 
     def test_depth_points_downwards(self):
@@ -118,7 +121,8 @@ class Axes(Style):
             spans = np.abs([
                 np.subtract(*axes.get_xlim()),
                 np.subtract(*axes.get_ylim()),
-                np.subtract(*axes.get_zlim())])
+                np.subtract(*axes.get_zlim())
+            ])
             np.testing.assert_allclose(axes._box_aspect / spans, (axes._box_aspect / spans)[0])
             self.assertGreater(axes.get_zlim()[0],
                                axes.get_zlim()[1], "depth does not point downwards")
@@ -177,7 +181,8 @@ class Names(Style):
         made, axes = plots.plt.subplots(figsize=(7, 5), constrained_layout=True)
         lines = {
             f"a method with a long name, number {i}":
-            axes.plot([0, 1, 2], [i * apart, i * apart + 0.1, i * apart])[0] for i in range(count)}
+            axes.plot([0, 1, 2], [i * apart, i * apart + 0.1, i * apart])[0] for i in range(count)
+        }
         axes.set_ylim(-1, max(4, 1.2 * count * apart)), axes.set_xlim(0, 2.5)
         labels = plots.Labels(axes)
         for line in lines.values():
@@ -208,7 +213,8 @@ class Results(Style):
             made = plot_results.draw(string(file))
         self.check(made)
         space, radial, contact, axial, torque, speed = [
-            axes for axes in made.axes if axes.get_label() != "<colorbar>"]
+            axes for axes in made.axes if axes.get_label() != "<colorbar>"
+        ]
         self.assertEqual(space.get_zlabel(), "depth [m]")
         for axes, text in ((radial, "lateral displacement [mm]"), (contact, "contact force [kN]"),
                            (axial, "axial force [kN]"), (torque, "torque [kN m]")):
@@ -230,7 +236,8 @@ class Results(Style):
             whole["/transient/motion"] = np.column_stack([
                 np.linspace(0, 1, 12),
                 np.full((12, 2), 4 * np.pi) + 1e-12 * np.sin(np.arange(24)).reshape(12, 2),
-                np.zeros((12, 2))])
+                np.zeros((12, 2))
+            ])
             made = plot_results.draw(whole)
         self.check(made)
         self.assertGreater(np.ptp(made.axes[-1].get_ylim()), 1)
@@ -254,9 +261,8 @@ class Results(Style):
             whole["/transient/velocity"] = whole["/transient/displacement"][:]
             del whole["/transient/displacement"]
             with self.assertRaisesRegex(
-                    SystemExit,
-                    r'it holds velocity\). Run the deck again with --set "Output/Fields={displacement, velocity}"'
-            ):
+                    SystemExit, r'it holds velocity\). Run the deck again with --set '
+                    r'"Output/Fields={displacement, velocity}"'):
                 plot_results.animate(whole, pathlib.Path("motion.gif"))
             del whole["/transient/velocity"]
             with self.assertRaisesRegex(
@@ -275,7 +281,8 @@ class Results(Style):
                 plot_results.animate(string(file), pathlib.Path("motion.mp4"))
             probe = [
                 "ffprobe", "-v", "error", "-count_frames", "-show_entries",
-                "stream=codec_type,nb_read_frames", "-of", "csv=p=0", "motion.mp4"]
+                "stream=codec_type,nb_read_frames", "-of", "csv=p=0", "motion.mp4"
+            ]
             self.assertEqual(
                 subprocess.run(probe, capture_output=True, text=True, check=True).stdout.strip(),
                 "video,12")
@@ -292,18 +299,20 @@ class Results(Style):
 
 class Campbell(Style):
     def draw(self, whirl, damping):
-        """A diagram of two modes over four speeds, with lines of excitations that leave it near to one another."""
+        """A diagram of two modes over four speeds, with lines of excitations that leave it near to
+        one another."""
         with memory() as file:
             speed = np.tile(np.linspace(0, 200, 4) / plots.RPM, 2)
             rows = {
                 "mode": np.repeat([1.0, 2.0],
                                   4), "speed": speed, "frequency": np.repeat([0.1, 0.48], 4),
-                "damping": np.repeat(damping, 4), "whirl": np.repeat(whirl, 4)}
+                "damping": np.repeat(damping, 4), "whirl": np.repeat(whirl, 4)
+            }
             for name, values in rows.items():
                 file[f"campbell/{name}"] = values
             file["excitations"], file["orders"], file["offsets"] = ["1x", "2x", "3x",
                                                                     "blades"], [1.0, 2.0, 3.0,
-                                                                                5.0], np.zeros(4)
+                                                                                5.0], np.zeros(4,)
             made = rotating.campbell_figure(file)
         self.check(made)
         return made.axes[0], [text.get_text() for text in made.axes[0].get_legend().get_texts()]
@@ -317,7 +326,8 @@ class Campbell(Style):
         for damping, marked in (([0.02, -0.03], 4), ([0.02, 1e-12], 0)):
             crosses = [
                 line for line in self.draw([1.0, 1.0], damping)[0].lines
-                if line.get_marker() == "x" and len(line.get_xdata())]
+                if line.get_marker() == "x" and len(line.get_xdata())
+            ]
             self.assertEqual(sum(len(line.get_xdata()) for line in crosses), marked)
 
 
@@ -326,7 +336,8 @@ class Response(Style):
         with memory() as file:
             for name, values in {
                     "speed": [0.0, 10.0, 20.0], "frequency": [0.0, 1.6, 3.2],
-                    "x_amplitude": [0.0, 1e-3, 2e-3], "x_phase": [0.0, 0.1, 0.2]}.items():
+                    "x_amplitude": [0.0, 1e-3, 2e-3], "x_phase": [0.0, 0.1, 0.2]
+            }.items():
                 file[f"response/{name}"] = values
             file["response/x_amplitude"].attrs["units"] = "m"
             made = rotating.response_figure(file)
@@ -335,7 +346,8 @@ class Response(Style):
         self.assertTrue(1e-4 < low < 1e-3 and 2e-3 < high < 1e-2, (low, high))
 
 
-DECK = '<ParameterList name="well"><ParameterList name="Loads"><Parameter name="Weight On Bit" type="string" value="40 kN"/></ParameterList></ParameterList>'
+DECK = ('<ParameterList name="well"><ParameterList name="Loads"><Parameter name="Weight On Bit" '
+        'type="string" value="40 kN"/></ParameterList></ParameterList>')
 
 
 class Studies(Style):
@@ -343,15 +355,19 @@ class Studies(Style):
         """A study of `count` methods of nearly the same speed and error."""
         folder = pathlib.Path(f"study_{count}")
         folder.mkdir(exist_ok=True)
-        head = "line,label,kind,model,sweep,status,vibration_error,cpu_per_simulated_s [s],cpu_spread,reduced_dofs,modes,frequency_error,setup_cpu [s]"
+        head = ("line,label,kind,model,sweep,status,vibration_error,cpu_per_simulated_s "
+                "[s],cpu_spread,reduced_dofs,modes,frequency_error,setup_cpu [s]")
         rows = [
-            f'"method {i}, with a long name","method {i}, with a long name, Step {step} ms",method,full,,done,{step ** 2 * (1e-3 + 1e-5 * i)},{0.1 / step},0.5,100,,,'
-            for i in range(count) for step in (1, 2)]
+            f'"method {i}, with a long name","method {i}, with a long name, Step {step} '
+            f'ms",method,full,,done,{step ** 2 * (1e-3 + 1e-5 * i)},{0.1 / step},0.5,100,,,'
+            for i in range(count) for step in (1, 2)
+        ]
         (folder / "study.csv").write_text("\n".join([head, *rows, ""]), encoding="utf-8")
         with h5py.File(folder / "study.h5", "w") as file:
             file.attrs.update({
                 "machine": "a machine", "deck_name": "well", "self_error": 1e-5,
-                "window_begin": 0.0, "window_end": 2.0, "deck_text": DECK})
+                "window_begin": 0.0, "window_end": 2.0, "deck_text": DECK
+            })
             whole = string(file, moves=False)
             file["profile/s"], file["profile/radius"], file["profile/clearance"] = whole[
                 "/model/s"][:], np.full(21, 0.01), np.full(21, 0.03)
@@ -369,7 +385,8 @@ class Studies(Style):
                           made.texts[1].get_text(), re.S))
             bands = [
                 band.get_paths()[0].vertices[:, 0] for band in made.axes[0].collections
-                if band.get_paths()]
+                if band.get_paths()
+            ]
             self.assertEqual(
                 sum(abs(x.max() - 0.15) < 1e-9 and abs(x.min() - 0.05) < 1e-9 for x in bands),
                 count, "a line has no band to 1.5 times its time")
@@ -389,8 +406,9 @@ class Studies(Style):
         self.assertEqual(shown["Guyan"], [30, 0.037])
 
     def test_the_figure_of_strategies_has_the_runs_of_its_page(self):
-        page = "Machine: a machine.\n\n| left out | verdict |\n|---|---|\n| One |  |\n\n| case | step [us] | One | Two |\n|---|---|---|---|\n" \
-               "| a | 88 | 1.51 | - |\n| b | 90 | 0.50, differs by 5 % | refused |\n"
+        page = ("Machine: a machine.\n\n| left out | verdict |\n|---|---|\n| One |  |\n\n"
+                "| case | step [us] | One | Two |\n|---|---|---|---|\n| a | 88 | 1.51 | - |\n"
+                "| b | 90 | 0.50, differs by 5 % | refused |\n")
         made = strategies_figure.draw(page)
         self.check(made)
         shown = {line.get_label(): line.get_xydata().tolist() for line in made.axes[0].lines}
@@ -409,9 +427,8 @@ class Studies(Style):
                  (30, 1, "1", "", "", "", "2"), (10, 2, "3", "", "", "", "2"),
                  (40, 2, "1", "", "", "", "")]
         self.assertEqual(
-            scale.faster_from(lines),
-            "The parts take less time than the whole on 1 rank from 30 dofs on, on 2 ranks at no size up to 10 dofs."
-        )
+            scale.faster_from(lines), "The parts take less time than the whole on 1 rank from 30 "
+            "dofs on, on 2 ranks at no size up to 10 dofs.")
 
     def test_profiles_of_the_static_state(self):
         made = plot_study.draw_static(self.study(2))
@@ -419,7 +436,8 @@ class Studies(Style):
         self.assertIn("WOB 40 kN", made.texts[1].get_text(),
                       "a figure says under which conditions it holds")
         self.assertEqual([axes.get_xlabel() for axes in made.axes], [
-            "lateral displacement [mm]", "contact force [kN]", "axial force [kN]", "torque [kN m]"])
+            "lateral displacement [mm]", "contact force [kN]", "axial force [kN]", "torque [kN m]"
+        ])
         self.assertGreater(*made.axes[0].get_ylim())
 
 

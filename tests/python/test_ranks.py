@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The package on several ranks: the same numbers as on one, errors on all of them, and no rank that waits for one that has failed."""
+"""The package on several ranks: the same numbers as on one, errors on all of them, and no rank that
+waits for one that has failed."""
 import os
 import pathlib
 import subprocess
@@ -38,7 +39,8 @@ right.model.add_load(np.eye(len(right))[-2], "push", lambda t: 800 * np.sin(90 *
 synthesis = tj.synthesise([left, right], "Python Basis", modes=4)
 motion = tj.integrate(synthesis, 0.05, sampling_interval=0.01, step=1e-4)
 # A line at a time: the ranks write into one stream.
-sys.stdout.write(f"{tj.ranks()} {[round(float(f), 9) for f in tj.modes(synthesis, 4).frequency]} {[float('%.9e' % d) for d in motion.at(25, 'v')]}\\n")
+frequencies = [round(float(f), 9) for f in tj.modes(synthesis, 4).frequency]
+sys.stdout.write(f"{tj.ranks()} {frequencies} {[float('%.9e' % d) for d in motion.at(25, 'v')]}\\n")
 """
         one, _, code_one = run(1, code)
         two, errors, code_two = run(2, code)
@@ -47,7 +49,8 @@ sys.stdout.write(f"{tj.ranks()} {[round(float(f), 9) for f in tj.modes(synthesis
         self.assertEqual(len(lines), 2)
         self.assertEqual(lines[0], lines[1])
         values = [
-            eval(line.split(" ", 1)[1].replace("] [", "], [")) for line in (one.strip(), lines[0])]
+            eval(line.split(" ", 1)[1].replace("] [", "], [")) for line in (one.strip(), lines[0])
+        ]
         for mine, theirs in zip(*values):
             self.assertTrue(
                 all(abs(a - b) <= 1e-8 * abs(max(mine, key=abs)) for a, b in zip(mine, theirs)),
@@ -96,13 +99,15 @@ def last():
 atexit.register(last)
 import tooljoint as tj
 assert len(tj.modes(tj.part("mass", [[1.0]], [[1.0]]), 1)) == 1
-"""], capture_output=True, text=True, timeout=60, check=False)
+"""
+        ], capture_output=True, text=True, timeout=60, check=False)
         self.assertEqual((done.returncode, done.stdout), (0, "finalised: 0\n"), done.stderr)
 
     def test_runs_of_decks(self):
         deck = str(pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"]) / "xml/frame.xml")
         code = f"""
-results = tj.run({deck!r}, {{"Transient/End Time": 0.05, "Output/XDMF": False}}, output="ranks%d" % tj.ranks())
+results = tj.run({deck!r}, {{"Transient/End Time": 0.05, "Output/XDMF": False}},
+                 output="ranks%d" % tj.ranks())
 sys.stdout.write("%.9e\\n" % abs(results["transient/displacement"]).max())
 """
         (one, _, first), (two, errors, second) = run(1, code), run(2, code)

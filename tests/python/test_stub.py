@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python/tooljoint/_core.pyi is what the module says of itself. `test_stub.py --update` writes it."""
+"""python/tooljoint/_core.pyi is what the module says of itself.
+`test_stub.py --update` writes it."""
 import inspect
 import os
 import pathlib
@@ -27,7 +28,8 @@ from numpy.typing import ArrayLike
 
 
 def typed(signature):
-    """Types of pybind11 as those of Python: classes of this module, arrays; arguments may be anything that becomes one."""
+    """Types of pybind11 as those of Python: classes of this module, arrays; arguments may be
+    anything that becomes one."""
     signature = re.sub(r"numpy\.ndarray\[(?:[^\[\]]|\[[^\[\]]*\])*\]", "numpy.ndarray", signature)
     signature = signature.replace("tooljoint._core.", "").replace("tooljoint::python::", "")
     signature = re.sub(r"\bUnion\[None, (.*?)\] = None",
@@ -48,7 +50,8 @@ def function(name, doc, indent=""):
     lines = doc.strip().splitlines()
     text = " ".join(line.strip() for line in lines[1:] if line.strip())
     signature = typed(lines[0][lines[0].index("("):])
-    return f'{indent}def {name}{signature}:\n{indent}    """{text}"""\n' if text else f"{indent}def {name}{signature}: ...\n"
+    return (f'{indent}def {name}{signature}:\n{indent}    """{text}"""\n'
+            ) if text else f"{indent}def {name}{signature}: ...\n"
 
 
 def members(cls):
@@ -56,7 +59,8 @@ def members(cls):
     for name, one in sorted(vars(cls).items()):
         if isinstance(one, property):
             result = typed(one.fget.__doc__.strip().splitlines()[0]).split("->")[-1].strip()
-            text += f'    @property\n    def {name}(self) -> {result}:\n        """{one.__doc__}"""\n'
+            text += (f'    @property\n    def {name}(self) -> {result}:\n'
+                     f'        """{one.__doc__}"""\n')
         elif (not name.startswith("_")
               or name in ("__init__", "__len__", "__repr__")) and "(self: " in (one.__doc__ or ""):
             text += function(name, re.sub(r"self: [\w.]+(?:\[[\w.]*\])?", "self", one.__doc__),
@@ -69,7 +73,8 @@ def stub():
     classes = [members(one) for _, one in sorted(names.items()) if inspect.isclass(one)]
     functions = [
         function(name, one.__doc__) for name, one in sorted(names.items())
-        if not inspect.isclass(one)]
+        if not inspect.isclass(one)
+    ]
     return HEAD + "\n".join(classes) + "\n" + "\n".join(functions)
 
 
@@ -79,7 +84,8 @@ class Types(unittest.TestCase):
         command = [
             "mypy", "--ignore-missing-imports", "--python-executable", sys.executable,
             "--cache-dir", "mypy",
-            str(STUB.parent)]
+            str(STUB.parent)
+        ]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout)
 

@@ -15,7 +15,8 @@ FRAME = SOURCE / "xml/frame.xml"
 @tj.basis("Inverse Steps")
 def inverse_steps(part, count, steps=3, extra=tj.Parameter(4,
                                                            doc="Vectors beside those asked for.")):
-    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko et al. 2011)."""
+    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko et al.
+    2011)."""
     random = np.random.default_rng(1)
     vectors = random.standard_normal((len(part.interior), count + extra))
     for step in range(steps):
@@ -88,7 +89,8 @@ class Bases(unittest.TestCase):
     def test_it_takes_part_in_a_deck_and_in_a_study(self):
         changes = {
             "Reduction/Basis": "Inverse Steps", "Reduction/Inverse Steps/Steps": 5,
-            "Reduction/Error Estimate": "Frequencies"}
+            "Reduction/Error Estimate": "Frequencies"
+        }
         results = tj.run(FRAME, {**changes, "Transient/End Time": 0.05}, output="deck")
         self.assertEqual(results.summary["reduction"]["basis"], "Inverse Steps")
         # of the frequencies below the cut-off of 400 Hz
@@ -98,7 +100,8 @@ class Bases(unittest.TestCase):
             SOURCE / "tests/study/frame.xml", without=[
                 f"Study/Methods/{name}"
                 for name in ("full", "reduced interfaces", "own vectors", "other start", "explicit",
-                             "dual", "too coarse")])
+                             "dual", "too coarse")
+            ])
         deck["Study/Methods/CMS/Sweep/basis/Values"] = ["Craig-Bampton", "Inverse Steps"]
         del deck["Study/Baseline"]
         deck["Transient/End Time"] = 0.2
@@ -124,8 +127,8 @@ class Laws(unittest.TestCase):
 
         def motion(law, **parameters):
             deck = tj.Deck(FRAME, {
-                "Transient/End Time": 0.2, "Transient/Step": 1e-3, "Parts/Loads/shaker/Value": 0.0},
-                           ["Parts/Starts"])
+                "Transient/End Time": 0.2, "Transient/Step": 1e-3, "Parts/Loads/shaker/Value": 0.0
+            }, ["Parts/Starts"])
             if law:
                 deck.add("Coupling/Point Laws/guy",
                          {"First": "top beam:5", "Component": "v", "Type": law, law: parameters})

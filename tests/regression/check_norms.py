@@ -16,17 +16,21 @@ A gold is a JSON file:
       "norms": {
         "static.residual":        {"value": 1e-9, "at_most": true},
         "path.converged":         {"value": true},
-        "static.top_axial_force": {"value": 81234.5, "relative": 1e-10, "absolute": 0.0, "why": "np equality of the static state"},
+        "static.top_axial_force": {"value": 81234.5, "relative": 1e-10, "absolute": 0.0,
+                                   "why": "np equality of the static state"},
         "reduction.substructures.0.modes": {"value": 60}
       }
     }
 
-`rests_on` begins with one of "closed form", "balance", "published", "independent computation", "pinned", a colon, and the argument. "pinned" is a value that
-is right only because it was so before: the argument says why there is nothing better.
+`rests_on` begins with one of "closed form", "balance", "published", "independent computation",
+"pinned", a colon, and the argument. "pinned" is a value that is right only because it was so
+before: the argument says why there is nothing better.
 
-Keys are dotted paths into summary.json, numbers step into lists. A real number needs `relative` and/or `absolute` (the sum of both
-allowances holds), or `at_most`, which bounds its size, or `at_least`, which bounds the number; whole numbers, texts and booleans without tolerance must be equal. `--update` runs the deck once
-on the first of `ranks` and rewrites the values (not those with `at_most` or `at_least`), never the tolerances.
+Keys are dotted paths into summary.json, numbers step into lists. A real number needs `relative`
+and/or `absolute` (the sum of both allowances holds), or `at_most`, which bounds its size, or
+`at_least`, which bounds the number; whole numbers, texts and booleans without tolerance must be
+equal. `--update` runs the deck once on the first of `ranks` and rewrites the values (not those with
+`at_most` or `at_least`), never the tolerances.
 """
 import argparse
 import copy
@@ -56,12 +60,14 @@ def look_up(summary, key):
 
 
 def run(options, gold, ranks, output):
-    """Runs the deck and returns its summary; ends the process with the program's output when the run fails."""
+    """Runs the deck and returns its summary; ends the process with the program's output when the
+    run fails."""
     command = [
         options.mpiexec, "-np",
         str(ranks), options.program, "run",
         str(options.project / gold["deck"]), "--output",
-        str(output)]
+        str(output)
+    ]
     for override in gold.get("set", []):
         command += ["--set", override]
     print(" ".join(command), flush=True)
@@ -94,7 +100,8 @@ def compare(norm, found):
 
 
 def faults_of(gold):
-    """What is wrong with a gold: what cannot fail, cannot be read, or does not say why it is right."""
+    """What is wrong with a gold: what cannot fail, cannot be read, or does not say why it is
+    right."""
     norms, arguments = gold.get("norms", {}), gold.get("rests_on", {})
     if not norms:
         yield "no norms, so nothing would be compared."
@@ -107,7 +114,8 @@ def faults_of(gold):
             yield f"{key} is a real number and states no tolerance."
         source, _, argument = arguments.get(key, "").partition(": ")
         if source not in SOURCES or not argument.strip():
-            yield f"{key} does not say in \"rests_on\" what its value rests on: one of {', '.join(SOURCES)}, a colon, and why."
+            yield (f"{key} does not say in \"rests_on\" what its value rests on: one of "
+                   f"{', '.join(SOURCES)}, a colon, and why.")
     for key in arguments.keys() - norms.keys():
         yield f"\"rests_on\" argues for {key}, which is no norm."
 
@@ -120,14 +128,19 @@ def check_gold(gold, path):
 
 
 def self_test():
-    """Shows that every fault of a gold is found, and that values outside of their tolerance fail."""
+    """Shows that every fault of a gold is found, and that values outside of their tolerance
+    fail."""
     good = {
         "norms": {
-            "a.b": {"value": 1.5, "relative": 0.1}, "c": {"value": 3},
-            "d": {"value": 1.0, "at_most": True}},
+            "a.b": {"value": 1.5, "relative": 0.1},
+            "c": {"value": 3},
+            "d": {"value": 1.0, "at_most": True},
+        },
         "rests_on": {
             "a.b": "closed form: 3/2", "c": "pinned: no closed form",
-            "d": "balance: what goes in comes out"}, }
+            "d": "balance: what goes in comes out"
+        },
+    }
     cases = {
         "": lambda gold: None, "no norms": lambda gold: gold.update(norms={}, rests_on={}),
         "no value yet": lambda gold: gold["norms"]["c"].pop("value"),
@@ -136,7 +149,8 @@ def self_test():
         "d does not say": lambda gold: gold.pop("rests_on"),
         "a.b does not say": lambda gold: gold["rests_on"].update({"a.b": "guess: it looks right"}),
         "one of closed form": lambda gold: gold["rests_on"].update({"a.b": "closed form: "}),
-        "argues for e": lambda gold: gold["rests_on"].update(e="pinned: x")}
+        "argues for e": lambda gold: gold["rests_on"].update(e="pinned: x")
+    }
     failures = 0
     for sentence, spoil in cases.items():
         gold = copy.deepcopy(good)
@@ -194,9 +208,8 @@ def verify(options, gold):
         except KeyError as step:
             found, difference, allowed, ok = f"no {step}", "", "", False
         failed += not ok
-        print(
-            f"{key:<{width}}  {norm['value']!s:>24}  {found!s:>24}  {difference:>10}  {allowed:>10}{'' if ok else '  FAILED'}"
-        )
+        print(f"{key:<{width}}  {norm['value']!s:>24}  {found!s:>24}  {difference:>10}  "
+              f"{allowed:>10}{'' if ok else '  FAILED'}")
     print(
         f"\n{len(gold['norms'])} norms on {options.ranks} ranks, {failed} outside their tolerance.")
     return 1 if failed else 0

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A headless Chromium that is driven through its pipe: pages at a given width, what they say on the console, pixels, values."""
+"""A headless Chromium that is driven through its pipe: pages at a given width, what they say on the
+console, pixels, values."""
 import base64
 import json
 import os
@@ -29,7 +30,8 @@ class Browser:
         self.profile = tempfile.mkdtemp(prefix="report_browser_")
         to_read, self.write = os.pipe()
         self.read, to_write = os.pipe()
-        # Chromium reads commands from descriptor 3 and writes answers to 4; moved out of the way first, since they may be these numbers.
+        # Chromium reads commands from descriptor 3 and writes answers to 4; moved out of the way
+        # first, since they may be these numbers.
         moved = [os.dup(descriptor) for descriptor in (to_read, to_write)]
         while min(moved) <= 4:
             moved = [os.dup(descriptor) for descriptor in moved]
@@ -105,7 +107,8 @@ class Browser:
         return result["result"].get("value")
 
     def faults(self):
-        """Errors and warnings of the console, exceptions, and requests to anything but the file itself."""
+        """Errors and warnings of the console, exceptions, and requests to anything but the file
+        itself."""
         found = []
         for event in self.events:
             method, what = event.get("method"), event.get("params", {})
@@ -131,9 +134,13 @@ class Browser:
         clip = {}
         if element:
             box = self.value(f"""(() => {{
-                const boxes = [...document.querySelectorAll({json.dumps(element)})].map((one) => one.getBoundingClientRect());
-                const left = Math.min(...boxes.map((b) => b.left)), top = Math.min(...boxes.map((b) => b.top));
-                return {{x: left + scrollX, y: top + scrollY, width: Math.max(...boxes.map((b) => b.right)) - left, height: Math.max(...boxes.map((b) => b.bottom)) - top}};
+                const found = [...document.querySelectorAll({json.dumps(element)})];
+                const boxes = found.map((one) => one.getBoundingClientRect());
+                const left = Math.min(...boxes.map((b) => b.left));
+                const top = Math.min(...boxes.map((b) => b.top));
+                return {{x: left + scrollX, y: top + scrollY,
+                         width: Math.max(...boxes.map((b) => b.right)) - left,
+                         height: Math.max(...boxes.map((b) => b.bottom)) - top}};
             }})()""")
             clip = {"clip": {**box, "scale": 1}}
         shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole

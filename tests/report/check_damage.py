@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reports of folders with a damaged file: check_damage.py PROGRAM
 
-One of several files is damaged: a report of the others says so first, with exit code 5. A full disk is called one and leaves nothing.
+One of several files is damaged: a report of the others says so first, with exit code 5. A full disk
+is called one and leaves nothing.
 """
 import html
 import pathlib

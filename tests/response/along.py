@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of what is shown along a string and of which modes: windows of frequencies, shapes, bending moments, distances to the wall."""
+"""Checks of what is shown along a string and of which modes: windows of frequencies, shapes,
+bending moments, distances to the wall."""
 import pathlib
 
 import h5py
@@ -9,7 +10,8 @@ from scenes import SHAFT, close, expect, lists, material, modes_at, run, table, 
 
 
 def window():
-    """A window and a target show the modes of a wide diagram that lie there, at every speed, and its critical speeds; shapes belong to their rows."""
+    """A window and a target show the modes of a wide diagram that lie there, at every speed, and
+    its critical speeds; shapes belong to their rows."""
     text = SHAFT.replace('name="Modes" type="int" value="4"',
                          'name="Modes" type="int" value="24"').replace('"{1}"', '"{1, 2}"')
     pathlib.Path("wide.xml").write_text(text, encoding="utf-8")
@@ -38,7 +40,8 @@ def window():
         found = modes_at(near, speed)["frequency"]
         expect(f"target at {speed} rad/s: {np.sort(nearest)} are followed",
                all(np.min(np.abs(found - f)) < 1e-6 * f for f in nearest), found)
-    # pinned at both ends: a mode of n half waves crosses the axis n - 1 times, and the sense of its circle is that of its row
+    # pinned at both ends: a mode of n half waves crosses the axis n - 1 times, and the sense of its
+    # circle is that of its row
     with h5py.File("window/campbell.h5") as results:
         shapes = results["shapes"]
         length = results["profile/s"][-1]
@@ -66,7 +69,8 @@ def window():
 
 
 def excitations():
-    """Blades, motor and lobes are lines of their own: order and offset; critical speeds of the overhung disc with them."""
+    """Blades, motor and lobes are lines of their own: order and offset; critical speeds of the
+    overhung disc with them."""
     run("campbell", "overhung.xml", "motor", "Campbell/Blades=5", "Campbell/Motor Speed=20",
         "Campbell/Motor Lobes=4", "Campbell/Orders={}")
     with h5py.File("motor/campbell.h5") as results:
@@ -89,7 +93,8 @@ def pinned_hz(young, rho, radius, length, waves):
 
 
 def bending():
-    """Bending moment of a slender pinned beam under a harmonic force at its middle: closed form along the beam, limit at rest F x/2, reduced model within its estimate."""
+    """Bending moment of a slender pinned beam under a harmonic force at its middle: closed form
+    along the beam, limit at rest F x/2, reduced model within its estimate."""
     force, length, radius, middle = 10.0, 2.0, 0.005, 21
     loads = lists(
         "Loads",
@@ -119,7 +124,8 @@ def bending():
         left = results["margins/gap"][at_middle] - results["margins/margins"][:, at_middle]
     x = np.minimum(depth, length - depth)
     for row, f in enumerate(frequency):
-        # E I w'''' = rho A omega^2 w, w = w'' = 0 at the ends, w' = 0 and a shear force F/2 in the middle
+        # E I w'''' = rho A omega^2 w, w = w'' = 0 at the ends, w' = 0 and a shear force F/2 in the
+        # middle
         k = (rho * area * (2 * np.pi * f)**2 / (young * inertia))**0.25
         exact = force / 2 * x if k == 0 else np.abs(
             force / (4 * k) *
@@ -135,8 +141,8 @@ def bending():
     largest = table("bending", "bending")
     close("bending: stress M R/I", largest["stress"], largest["moment"] * radius / inertia, 1e-12)
     close(
-        "bending: forces a quarter period apart move the middle in a circle, which takes its radius from the gap",
-        left, rows["middle_amplitude"], 1e-9)
+        "bending: forces a quarter period apart move the middle in a circle, which takes its "
+        "radius from the gap", left, rows["middle_amplitude"], 1e-9)
     run("response", "bending_reduced.xml", "bending_reduced")
     checks = table("bending_reduced", "spot_checks_string")
     for name, rounding in (("moment", 1e-9), ("margin", 1e-12)):

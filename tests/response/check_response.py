@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks `tooljoint campbell` and `tooljoint response`: rotors against closed forms and a published rotor, a string scene reduced against
-full, the limit at rest, windows of frequencies, bending moments, refusals, ranks.
+"""Checks `tooljoint campbell` and `tooljoint response`: rotors against closed forms and a published
+rotor, a string scene reduced against full, the limit at rest, windows of frequencies, bending
+moments, refusals, ranks.
 
     check_response.py PROGRAM MPIEXEC SOURCES rotors|string
 """
@@ -17,14 +18,15 @@ from along import bending, excitations, window  # noqa: E402
 from growth import growth  # noqa: E402
 from rotors import anisotropic, damped, friswell, nelson  # noqa: E402
 import states  # noqa: E402
-from scenes import GYROSCOPIC, RPM, SHAFT, SOURCES, close, deck, estimates, expect, lists, material, modes_at, part, run, table, tooljoint, values  # noqa: E402
+from scenes import (GYROSCOPIC, RPM, SHAFT, SOURCES, close, deck, estimates, expect, lists,
+                    material, modes_at, part, run, table, tooljoint, values)  # noqa: E402
 from checks import finish  # noqa: E402
-
-STRING = str(SOURCES / "xml/helical_170m.xml")
+from refusals import STRING, refusals  # noqa: E402
 
 
 def laval():
-    """A disc amid a shaft without mass, damped: amplitude and phase of the unbalance at all speeds, critical speed."""
+    """A disc amid a shaft without mass, damped: amplitude and phase of the unbalance at all speeds,
+    critical speed."""
     m, k, c, moment = 12.0, 3e6, 900.0, 4e-3
     omega0, ratio = np.sqrt(k / m), c / (2 * np.sqrt(k * m))
     part("laval.h5", ["u", "v"], m * np.eye(2), k * np.eye(2), c * np.eye(2))
@@ -70,7 +72,8 @@ def laval():
 
 
 def neighbours():
-    """Two narrow resonances between the points of the sweep: both are found, whatever the points."""
+    """Two narrow resonances between the points of the sweep: both are found, whatever the
+    points."""
     K = np.array([[2.0e5, -1.2e4], [-1.2e4, 2.05e5]])
 
     def size(frequency):
@@ -98,7 +101,8 @@ def neighbours():
 
 
 def overhung():
-    """A disc at the end of a cantilever without mass: the gyroscopic moment splits its modes, forward and backward."""
+    """A disc at the end of a cantilever without mass: the gyroscopic moment splits its modes,
+    forward and backward."""
     m, diametral, polar, length, bending = 8.0, 0.05, 0.1, 0.4, 5e4
     k = bending / length**3 * np.array([[12, -6 * length], [-6 * length, 4 * length**2]])
     flip = np.diag([1.0, -1.0])
@@ -112,12 +116,14 @@ def overhung():
                  lists("Campbell", values(Highest_Speed=600.0, Points=13, Modes=4)), GYROSCOPIC)
     run("campbell", scene, "overhung")
     rows = table("overhung", "campbell")
-    # r = u + i v, q = theta_y - i theta_x, exp(i w t): K - w^2 M + w Omega diag(0, I_p); w < 0 is backward
+    # r = u + i v, q = theta_y - i theta_x, exp(i w t): K - w^2 M + w Omega diag(0, I_p); w < 0 is
+    # backward
     for speed in (0.0, 300.0, 600.0):
         companion = np.block([
             [np.zeros((2, 2)), np.eye(2)],
             [np.linalg.solve(np.diag([m, diametral]), k),
-             np.diag([0, polar * speed / diametral])], ])
+             np.diag([0, polar * speed / diametral])],
+        ])
         w = np.linalg.eigvals(companion).real
         w = w[np.argsort(np.abs(w))]
         here = modes_at(rows, speed)
@@ -147,7 +153,8 @@ def overhung():
 
 
 def bearing():
-    """A rotor in a bearing of stiffness k_0 + k_1 Omega (Speed Table) + k_2 Omega^2 (Speed Power): critical speed of a quadratic equation."""
+    """A rotor in a bearing of stiffness k_0 + k_1 Omega (Speed Table) + k_2 Omega^2 (Speed Power):
+    critical speed of a quadratic equation."""
     m, k0, k1, k2 = 20.0, 2e6, 3e3, 4.0
     part("bearing.h5", ["u", "v"], m * np.eye(2), k0 * np.eye(2), None, None,
          (("table", k1 * np.eye(2)), ("square", k2 * np.eye(2))))
@@ -189,7 +196,8 @@ def transfer():
     for a, b in ((1, 1), (1, 3), (3, 1)):
         exact = [
             np.linalg.inv(k * chain - w**2 * m * np.eye(3) + 1j * w * c * np.eye(3))[a - 1, b - 1]
-            for w in 2 * np.pi * rows["frequency"]]
+            for w in 2 * np.pi * rows["frequency"]
+        ]
         name = f"node {a}:at {b}"
         close(f"transfer function {name}",
               rows[name + "_amplitude"] * np.exp(1j * rows[name + "_phase"]), np.array(exact),
@@ -205,7 +213,8 @@ def transfer():
 
 
 def motor():
-    """A narrow resonance met at Order Omega + Motor Order Omega_m; with the order 0 one frequency at all speeds."""
+    """A narrow resonance met at Order Omega + Motor Order Omega_m; with the order 0 one frequency
+    at all speeds."""
     m, k, c = 2.0, 5e4, 0.2
     part("motor.h5", ["u"], m * np.eye(1), k * np.eye(1), c * np.eye(1))
     scene = deck(
@@ -222,7 +231,7 @@ def motor():
     peak = np.sqrt(k / m - 0.5 * (c / m)**2)  # 158.1 rad/s
     for name, order, motor, settings in (
         ("bit", 2, 2, ()),
-        ("given", 2, 5, ("Response/Motor Order=5", )),
+        ("given", 2, 5, ("Response/Motor Order=5",)),
         ("lobes", 0, 5, ("Response/Order=0", "Response/Motor Order=5")),
     ):
         run("response", scene, f"motor_{name}", *settings)
@@ -246,7 +255,8 @@ def motor():
 
 
 def shaft():
-    """A spinning pinned Rayleigh shaft as a string: (rho S + rho I q^2) w^2 - 2 rho I q^2 Omega w - (E I q^4) = 0 with shear as a softer spring."""
+    """A spinning pinned Rayleigh shaft as a string: (rho S + rho I q^2) w^2 - 2 rho I q^2 Omega w -
+    (E I q^4) = 0 with shear as a softer spring."""
     pathlib.Path("shaft.xml").write_text(SHAFT, encoding="utf-8")
     run("campbell", "shaft.xml", "shaft")
     rows = table("shaft", "campbell")
@@ -271,7 +281,8 @@ def shaft():
 
 
 def walls():
-    """Unbalance of the shaft, by the scene and by the analysis, and the distance it leaves to a wall."""
+    """Unbalance of the shaft, by the scene and by the analysis, and the distance it leaves to a
+    wall."""
     contact = lists("Contact", values(Stiffness=1e7))
     response = lists(
         "Response",
@@ -321,8 +332,9 @@ def turning():
 
 
 def critical_speeds(reduced, settings):
-    """Critical speeds of the string itself: those of the reduced model are apart from those of the full one by what was estimated. The estimate is of first order in the
-    error, which is 1e-6 and less here; rounding and the tolerance of the crossings are below 1e-9."""
+    """Critical speeds of the string itself: those of the reduced model are apart from those of the
+    full one by what was estimated. The estimate is of first order in the error, which is 1e-6 and
+    less here; rounding and the tolerance of the crossings are below 1e-9."""
     done = tooljoint("campbell", STRING, "--output", "string_full", "--without", "Reduction",
                      "--without", "Substructures",
                      *(word for one in settings for word in ("--set", one)))
@@ -363,10 +375,12 @@ def string():
     # a smooth start: neither speed nor acceleration at t = 0
     ramp = [
         "Rotary Speed/Law=Ramp", "Rotary Speed/Ramp/Final Speed=120 rpm",
-        "Rotary Speed/Ramp/Duration=1"]
+        "Rotary Speed/Ramp/Duration=1"
+    ]
     campbell = [
         *ramp, "Campbell/Highest Speed=120 rpm", "Campbell/Points=2", "Campbell/Modes=4",
-        "Campbell/Orders={1}", "Campbell/Friction=Sliding"]
+        "Campbell/Orders={1}", "Campbell/Friction=Sliding"
+    ]
     run("campbell", STRING, "string", *campbell)
     estimates("string")
     done = tooljoint("modes", STRING, "--count", "16", "--time", "0", "--output", "string_modes",
@@ -387,7 +401,8 @@ def string():
         np.min(
             np.abs(still["coupled_im"][vibrating] - f) +
             np.abs(still["coupled_damping"][vibrating] - d))
-        for f, d in zip(rows["frequency"], rows["damping"])]
+        for f, d in zip(rows["frequency"], rows["damping"])
+    ]
     expect("string: the modes at rest are those of `modes` at Omega = 0",
            np.max(apart) < 1e-6, apart)
     run("campbell", STRING, "string_2", *campbell, "Campbell/Spot Checks=0", ranks=2)
@@ -397,9 +412,14 @@ def string():
 
 def pictures():
     """Both kinds of results are drawn; a folder without either is told."""
-    for folder, name in (("nelson", "campbell"), ("laval_response", "response"),
-                         ("chain", "response"), ("bending", "response"), ("window",
-                                                                          "campbell"), (".", None)):
+    for folder, name in (
+        ("nelson", "campbell"),
+        ("laval_response", "response"),
+        ("chain", "response"),
+        ("bending", "response"),
+        ("window", "campbell"),
+        (".", None),
+    ):
         done = subprocess.run(
             [sys.executable, str(SOURCES / "tools/plot_response.py"), folder],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
@@ -411,61 +431,6 @@ def pictures():
         expect(f"picture of {folder}",
                (done.returncode == 0 and drawn) if name else "neither campbell.h5" in done.stderr,
                done.stderr)
-
-
-def refusals():
-    for name, words, command, settings in (
-        ("no list", "has no list Campbell", "campbell", []),
-        ("no range", "Highest Speed", "campbell", ["Campbell/Modes=3"]),
-        ("more modes than dofs", "Campbell/Modes is 5000, but the model has", "campbell",
-         ["Campbell/Highest Speed=10", "Campbell/Modes=5000"]),
-        ("falling speeds", "Give a larger one", "campbell",
-         ["Campbell/Lowest Speed=20", "Campbell/Highest Speed=10"]),
-        ("half a window", "without Highest Frequency", "campbell",
-         ["Campbell/Highest Speed=10", "Campbell/Lowest Frequency=1"]),
-        ("falling window", "Give a larger one", "campbell", [
-            "Campbell/Highest Speed=10", "Campbell/Lowest Frequency=2",
-            "Campbell/Highest Frequency=1"]),
-        ("window and target", "both Highest Frequency and Target Frequency", "campbell", [
-            "Campbell/Highest Speed=10", "Campbell/Highest Frequency=2",
-            "Campbell/Target Frequency=1"]),
-        ("lobes of no motor", "no effect without Motor Speed", "campbell",
-         ["Campbell/Highest Speed=10", "Campbell/Motor Lobes=5"]),
-        ("no list Response", "has no list Response", "response", []),
-        ("no sweep", "neither", "response", ["Response/Points=3"]),
-        ("no output", "Outputs holds no dof", "response", ["Response/Highest Speed=10"]),
-        ("two sweeps", "Give one", "response",
-         ["Response/Highest Speed=10", "Response/Highest Frequency=10"]),
-    ):
-        arguments = [word for setting in settings for word in ("--set", setting)]
-        done = tooljoint(command, STRING, "--output", "refused", *arguments)
-        expect(f"refused: {name}", done.returncode == 2 and words in done.stderr,
-               f"{done.returncode} {done.stderr[-400:]}")
-    for name, words, settings in (
-        ("no unbalance", "no mass off its axis", ["!Response/Unbalance"]),
-        ("unbalance by frequency", "no meaning for an unbalance",
-         ["!Response/Highest Speed", "Response/Highest Frequency=10"]),
-        ("order of an unbalance", "has the order 1", ["Response/Order=2"]),
-        ("order of an unbalance below a motor", "has the order 1",
-         ["Response/Motor Speed=3", "Response/Motor Order=2"]),
-        ("motor without a mass below it", "there are none",
-         ["!Response/Unbalance", "Response/Motor Speed=3"]),
-        ("motor by frequency", "no effect in a sweep by frequency",
-         ["!Response/Highest Speed", "Response/Highest Frequency=10", "Response/Motor Speed=3"]),
-        ("speed of the other sweep", "has no effect in a sweep by speed",
-         ["Response/Rotary Speed=3"]),
-        ("no load", "Loads holds no load", ["Response/Excitation=Harmonic"]),
-        ("node", "no such node", ["Response/Outputs/x/Node=5"]),
-        ("component", "have the components", ["Response/Outputs/x/Component=w"]),
-        ("part", "but no part has this name", ["Response/Outputs/x/Part=motor"]),
-        ("held", "is held", ["Parts/Imported/rotor/Fixed={1 v}"]),
-    ):
-        arguments = [
-            word for one in settings
-            for word in (("--without", one[1:]) if one.startswith("!") else ("--set", one))]
-        done = tooljoint("response", "laval.xml", "--output", "refused", *arguments)
-        expect(f"refused: {name}", done.returncode == 2 and words in done.stderr,
-               f"{done.returncode} {done.stderr[-400:]}")
 
 
 if sys.argv[4] == "rotors":

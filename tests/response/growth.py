@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rotors that become unstable as they turn faster: with vibration by damping of the shaft, without by a stiffness that the speed takes away."""
+"""Rotors that become unstable as they turn faster: with vibration by damping of the shaft, without
+by a stiffness that the speed takes away."""
 import json
 import pathlib
 
@@ -24,10 +25,11 @@ def response(sweep):
 
 
 def shaft_damping():
-    """Damping c_i of the shaft and c_e outside: m r'' + (c_i + c_e) r' + (k - i c_i Omega) r = 0 grows above omega_0 (1 + c_e/c_i)."""
+    """Damping c_i of the shaft and c_e outside: m r'' + (c_i + c_e) r' + (k - i c_i Omega) r = 0
+    grows above omega_0 (1 + c_e/c_i)."""
     m, k, inner, outer = 2.0, 5e3, 4.0, 6.0
     part("inner.h5", ["u", "v"], m * np.eye(2), k * np.eye(2), (inner + outer) * np.eye(2), None,
-         (("Omega", inner * np.array([[0, 1], [-1, 0]])), ))
+         (("Omega", inner * np.array([[0, 1], [-1, 0]])),))
     limit = np.sqrt(k / m) * (1 + outer / inner)
     for points in (3, 7, 40):
         scene = deck(
@@ -51,7 +53,7 @@ def divergence():
     """k - Omega^2 m < 0 above 100 rad/s: s = -c/2m + sqrt((c/2m)^2 + Omega^2 - k/m)."""
     m, k, c = 1.0, 1e4, 2.0
     part("away.h5", ["u", "v"], m * np.eye(2), np.diag([k, 1.5 * k]), c * np.eye(2), None,
-         (("square", -m * np.diag([1.0, 0.0])), ))
+         (("square", -m * np.diag([1.0, 0.0])),))
     laws = GYROSCOPIC + lists(
         "square",
         values(Form="Speed Power") + lists("Speed Power", values(Exponent=2.0)))

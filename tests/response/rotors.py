@@ -1,26 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Published rotors: critical speeds, whirl and unbalance against the published numbers and a dense solver.
+"""Published rotors: critical speeds, whirl and unbalance against the published numbers and a dense
+solver.
 
-Nelson: H. D. Nelson and J. M. McVaugh, J. Eng. Ind. 98 (1976) 593-600. Friswell: M. I. Friswell, J. E. T. Penny, S. D. Garvey and A. W. Lees, Dynamics of Rotating
-Machines (Cambridge University Press, 2010), examples 5.9.1 and 5.9.2, with the frequencies and amplitudes that the ROSS project prints of them (R. Timbo et al., J. Open
-Source Softw. 5 (2020) 2120; docs/examples/example_05_09_01 and ross/tests/test_rotor_assembly of that project).
+Nelson: H. D. Nelson and J. M. McVaugh, J. Eng. Ind. 98 (1976) 593-600. Friswell: M. I. Friswell, J.
+E. T. Penny, S. D. Garvey and A. W. Lees, Dynamics of Rotating Machines (Cambridge University Press,
+2010), examples 5.9.1 and 5.9.2, with the frequencies and amplitudes that the ROSS project prints of
+them (R. Timbo et al., J. Open Source Softw. 5 (2020) 2120; docs/examples/example_05_09_01 and
+ross/tests/test_rotor_assembly of that project).
 """
 import numpy as np
 from scipy.linalg import eig
 
-from scenes import GYROSCOPIC, RPM, close, deck, estimates, expect, lists, modes_at, part, run, table, values
+from scenes import (GYROSCOPIC, RPM, close, deck, estimates, expect, lists, modes_at, part, run,
+                    table, values)
 
 NELSON = {  # stations, inner and outer radii [cm]
     "x": [
         0, 1.27, 5.08, 7.62, 8.89, 10.16, 10.67, 11.43, 12.70, 13.46, 16.51, 19.05, 22.86, 26.67,
-        28.70, 30.48, 31.50, 34.54, 35.81],
+        28.70, 30.48, 31.50, 34.54, 35.81
+    ],
     "inner": [0, 0, 0, 0, 0, 0, 1.52, 1.78, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.52],
     "outer": [
         0.51, 1.02, 0.76, 2.03, 2.03, 3.30, 3.30, 2.54, 2.54, 1.27, 1.27, 1.52, 1.52, 1.27, 1.27,
-        3.81, 2.03, 2.03],
-    "published": {-1: [15470, 46612, 64752],
-                  1: [17159, 49983,
-                      96457]},  # synchronous critical speeds, isotropic bearings [rpm]
+        3.81, 2.03, 2.03
+    ],
+    "published": {
+        -1: [15470, 46612, 64752],
+        1: [17159, 49983, 96457],
+    },  # synchronous critical speeds, isotropic bearings [rpm]
 }
 
 FRISWELL = {  # rotary speed [rpm]: frequencies [rad/s], backward and forward in turn
@@ -28,12 +35,20 @@ FRISWELL = {  # rotary speed [rpm]: frequencies [rad/s], backward and forward in
     4000: [85.389467, 87.7958637, 251.78460413, 294.71333087, 600.17936195, 827.07536193],
 }
 
-
-ANISOTROPIC = {  # unbalance of 1e-3 kg m at stations: amplitudes at station 1 [m, rad] at 150, 300 and 450 rad/s
-    (3,): {"u": [1.14259057e-06, 1.88932819e-04, 4.50376020e-05], "v": [3.02252319e-06, 1.50551126e-04, 4.98323245e-05],
-           "theta_x": [1.97842812e-05, 5.19405022e-05, 2.80824236e-05], "theta_y": [2.02593969e-05, 1.64498124e-05, 1.06100461e-05],},
-    (3, 4): {"u": [4.80337594e-06, 2.31170438e-04, 6.90062268e-05], "v": [3.15307288e-06, 1.87793923e-04, 8.08531462e-05],
-             "theta_x": [3.79692673e-05, 5.97050225e-05, 5.48105215e-05], "theta_y": [4.16812885e-05, 1.38592416e-05, 2.20209089e-05],},
+# unbalance of 1e-3 kg m at stations: amplitudes at station 1 [m, rad] at 150, 300 and 450 rad/s
+ANISOTROPIC = {
+    (3,): {
+        "u": [1.14259057e-06, 1.88932819e-04, 4.50376020e-05],
+        "v": [3.02252319e-06, 1.50551126e-04, 4.98323245e-05],
+        "theta_x": [1.97842812e-05, 5.19405022e-05, 2.80824236e-05],
+        "theta_y": [2.02593969e-05, 1.64498124e-05, 1.06100461e-05],
+    },
+    (3, 4): {
+        "u": [4.80337594e-06, 2.31170438e-04, 6.90062268e-05],
+        "v": [3.15307288e-06, 1.87793923e-04, 8.08531462e-05],
+        "theta_x": [3.79692673e-05, 5.97050225e-05, 5.48105215e-05],
+        "theta_y": [4.16812885e-05, 1.38592416e-05, 2.20209089e-05],
+    },
 }
 
 
@@ -45,7 +60,8 @@ def symmetric(upper):
 
 
 def shaft_matrices(x, inner, outer, young, density, shear=np.inf):
-    """Elements of Timoshenko (Friswell et al., section 5.4) in one plane, of a solid section with the shear coefficient 6 (1 + nu)/(7 + 6 nu): K, M, G."""
+    """Elements of Timoshenko (Friswell et al., section 5.4) in one plane, of a solid section with
+    the shear coefficient 6 (1 + nu)/(7 + 6 nu): K, M, G."""
     K, M, G = (np.zeros((2 * len(x), 2 * len(x))) for _ in range(3))
     nu = young / (2 * shear) - 1 if np.isfinite(shear) else 0.3
     for e, l in enumerate(np.diff(x)):
@@ -54,17 +70,18 @@ def shaft_matrices(x, inner, outer, young, density, shear=np.inf):
         span = slice(2 * e, 2 * e + 4)
         K[span, span] += young * inertia / (l**3 * (1 + p)) * symmetric([
             12, 6 * l, -12, 6 * l, (4 + p) * l * l, -6 * l, (2 - p) * l * l, 12, -6 * l,
-            (4 + p) * l * l])
+            (4 + p) * l * l
+        ])
         near, far, turned = 312 + 588 * p + 280 * p * p, 108 + 252 * p + 140 * p * p, (
             8 + 14 * p + 7 * p * p) * l * l
         a, b, c = (44 + 77 * p + 35 * p * p) * l, (26 + 63 * p +
                                                    35 * p * p) * l, (6 + 14 * p + 7 * p * p) * l * l
-        moved = density * area * l / (840 * (1 + p)**2) * symmetric([
-            near, a, far, -b, turned, b, -c, near, -a, turned])
+        moved = density * area * l / (840 * (1 + p)**2) * symmetric(
+            [near, a, far, -b, turned, b, -c, near, -a, turned])
         d, turned, other = (3 - 15 * p) * l, (4 + 5 * p + 10 * p * p) * l * l, (5 * p * p - 5 * p -
                                                                                 1) * l * l
-        turn = density * inertia / (30 * l * (1 + p)**2) * symmetric([
-            36, d, -36, d, turned, -d, other, 36, -d, turned])
+        turn = density * inertia / (30 * l * (1 + p)**2) * symmetric(
+            [36, d, -36, d, turned, -d, other, 36, -d, turned])
         M[span, span] += moved + turn
         G[span, span] += 2 * turn
     return K, M, G
@@ -90,7 +107,8 @@ def nelson_matrices():
 
 
 def friswell_matrices():
-    """A shaft of 1.5 m with discs of 0.07 m at its thirds on isotropic bearings of 1 MN/m at its ends, six elements."""
+    """A shaft of 1.5 m with discs of 0.07 m at its thirds on isotropic bearings of 1 MN/m at its
+    ends, six elements."""
     density, bore, width = 7810.0, 0.025, 0.07
     matrices = shaft_matrices(0.25 * np.arange(7), np.zeros(6), np.full(6, bore), 2.11e11, density,
                               8.12e10)
@@ -105,7 +123,8 @@ def friswell_matrices():
 
 
 def rotor_part(file, k, m, g, c=None, across=None):
-    """Both planes of a rotor as a part with the components u, v, theta_x, theta_y. `across` is the stiffness of the plane of v, where it is another."""
+    """Both planes of a rotor as a part with the components u, v, theta_x, theta_y.
+    `across` is the stiffness of the plane of v, where it is another."""
     stations = len(k) // 2
     flip = np.diag([1.0, -1.0] * stations)
     K, M, G, C = (np.zeros((4 * stations, 4 * stations)) for _ in range(4))
@@ -138,15 +157,17 @@ def nelson():
         run("campbell", deck(name, "nelson.h5", campbell, GYROSCOPIC, reduced), name)
         crossings = table(name, "crossings")
         critical[name] = {
-            sense: crossings["speed"][crossings["whirl"] * sense > 0] / RPM for sense in (-1, 1)}
+            sense: crossings["speed"][crossings["whirl"] * sense > 0] / RPM for sense in (-1, 1)
+        }
     for sense, published in NELSON["published"].items():
         exact = np.sort([
             np.sqrt(w.real) / RPM for w in eig(k, m - sense * g, right=False)
-            if w.real > 0 and abs(w.imag) < 1e-6 * abs(w)])[:3]
+            if w.real > 0 and abs(w.imag) < 1e-6 * abs(w)
+        ])[:3]
         found = critical["nelson"][sense]
         close(
-            f"nelson: critical speeds {np.round(found, 1)} of sense {sense:+d} against a dense solver",
-            found, exact, 1e-8)
+            f"nelson: critical speeds {np.round(found, 1)} of sense {sense:+d} against a dense "
+            "solver", found, exact, 1e-8)
         # stations and radii are published to three figures
         close(f"nelson: critical speeds of sense {sense:+d} against the published ones",
               found / published, 1.0, 0.015)
@@ -159,7 +180,8 @@ def nelson():
 
 
 def friswell():
-    """The published frequencies of the second rotor at rest and at 4000 rpm; its unbalance response, with damped bearings, against a dense solver."""
+    """The published frequencies of the second rotor at rest and at 4000 rpm; its unbalance
+    response, with damped bearings, against a dense solver."""
     k, m, g = friswell_matrices()
     rotor_part("friswell.h5", k, m, g)
     campbell = lists("Campbell", values(Highest_Speed="4000 rpm", Points=9, Modes=6))
@@ -169,8 +191,8 @@ def friswell():
         here = modes_at(rows, speed * RPM)
         found = 2 * np.pi * np.sort(here["frequency"])
         close(
-            f"friswell at {speed} rpm: {np.round(found, 3)} rad/s against the published frequencies",
-            found / published, 1.0, 1e-9)
+            f"friswell at {speed} rpm: {np.round(found, 3)} rad/s against the published "
+            "frequencies", found / published, 1.0, 1e-9)
         if speed:
             expect(
                 "friswell: backward and forward in turn",
@@ -183,7 +205,8 @@ def friswell():
 
 
 def anisotropic():
-    """The same rotor on bearings of 1 and 0.8 MN/m, example 5.9.2: amplitudes under unbalance as ROSS prints them."""
+    """The same rotor on bearings of 1 and 0.8 MN/m, example 5.9.2: amplitudes under unbalance as
+    ROSS prints them."""
     k, m, g = friswell_matrices()
     softer = k.copy()
     for end in (0, -2):
@@ -209,7 +232,8 @@ def anisotropic():
 
 
 def damped():
-    """The same rotor on bearings of 1 and 2 MN/m with 1 kN s/m, 1 kg m at station 1, 50 rad/s: the major axis of the orbits of stations 1 and 2 as ROSS prints it [m]."""
+    """The same rotor on bearings of 1 and 2 MN/m with 1 kN s/m, 1 kg m at station 1, 50 rad/s: the
+    major axis of the orbits of stations 1 and 2 as ROSS prints it [m]."""
     k, m, g = friswell_matrices()
     stiffer, bearings = k.copy(), np.zeros_like(k)
     for end in (0, -2):
@@ -235,13 +259,15 @@ def damped():
                 np.exp(1j * rows[f"{name}{station}_phase"][-1]) for name in "uv")
         turn = -np.angle(u * u + v * v) / 2  # of the phase, to the instant of the largest distance
         axis = np.real(np.array([u, v]) * np.exp(1j * turn))
-        # the published axis is that of a picture, which its test holds to 1e-4; the smaller component agrees in all figures
+        # the published axis is that of a picture, which its test holds to 1e-4; the smaller
+        # component agrees in all figures
         close(f"damped: major axis at station {station} {axis} against the published one",
               np.abs(axis) / published, 1.0, 1e-4)
 
 
 def unbalance(name, k, m, g, c, station, last, modes):
-    """Unbalance of a disc: M r'' + C r' - i Omega G r' + K r = m e Omega^2 exp(i Omega t), from a dense solver."""
+    """Unbalance of a disc: M r'' + C r' - i Omega G r' + K r = m e Omega^2 exp(i Omega t), from a
+    dense solver."""
     rotor_part(f"{name}_damped.h5", k, m, g, c)
     moment = 2e-4
     response = lists(
@@ -259,9 +285,10 @@ def unbalance(name, k, m, g, c, station, last, modes):
         rows = table(scene, "response")
         force = np.zeros(len(k))
         force[2 * station - 2] = moment
-        r = np.array([
-            np.linalg.solve(k - w**2 * (m - g) + 1j * w * c, w**2 * force) for w in rows["speed"]])
-        tolerance = 1e-6 if not reduced else 5e-3  # peaks are a hundred times the static response and more
+        r = np.array(
+            [np.linalg.solve(k - w**2 * (m - g) + 1j * w * c, w**2 * force) for w in rows["speed"]])
+        # peaks are a hundred times the static response and more
+        tolerance = 1e-6 if not reduced else 5e-3
         close(f"{scene}: motion of the disc along x",
               rows["x_amplitude"] * np.exp(1j * rows["x_phase"]), r[:, 2 * station - 2], tolerance)
         close(f"{scene}: motion of the end along y, a quarter turn behind",

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of Campbell diagrams about the static state of each speed: a shaft under the weight on bit of a cutting bit, strings on the wall, and a shaft whose state does not change."""
+"""Checks of Campbell diagrams about the static state of each speed: a shaft under the weight on bit
+of a cutting bit, strings on the wall, and a shaft whose state does not change."""
 import pathlib
 
 import numpy as np
 
-from scenes import RPM, SHAFT, SOURCES, close, estimates, expect, lists, material, modes_at, run, table, tooljoint, values
+from scenes import (RPM, SHAFT, SOURCES, close, estimates, expect, lists, material, modes_at, run,
+                    table, tooljoint, values)
 
 EACH = "Campbell/Static State=Each Speed"
 
@@ -23,8 +25,9 @@ def shaft():
 
 
 def bit():
-    """A pinned shaft between a block that moves at v and a cutting bit of n blades: W = n a zeta eps d with d = 2 pi v/(n Omega) per blade compresses it, so that its
-    frequencies rise with the speed: (rho S + rho I q^2) w_f w_b = E I q^4/(1 + phi) - W q^2 of forward and backward whirl."""
+    """A pinned shaft between a block that moves at v and a cutting bit of n blades: W = n a zeta
+    eps d with d = 2 pi v/(n Omega) per blade compresses it, so that its frequencies rise with the
+    speed: (rho S + rho I q^2) w_f w_b = E I q^4/(1 + phi) - W q^2 of forward and backward whirl."""
     length, radius, blades, speed, zeta, energy = 20.0, 0.1, 3, 0.01, 0.6, 60e6
     loads = lists("Loads", values(Gravity=0.0)) + lists("Top Drive", values(Block_Speed=speed))
     law = lists(
@@ -60,7 +63,8 @@ def bit():
         pairs = np.sort(2 * np.pi * modes_at(rows, at)["frequency"]).reshape(-1, 2)
         found = pairs[:, 0] * pairs[:, 1]
         exact = np.array([product(waves, load) for waves in range(1, len(found) + 1)])
-        # torque and shear in the mass matrix are the rest; the weight itself is 7 % of the first frequency at 4 rad/s
+        # torque and shear in the mass matrix are the rest; the weight itself is 7 % of the first
+        # frequency at 4 rad/s
         expect(f"each speed, bit at {at:g} rad/s: {np.sqrt(found)} rad/s",
                np.max(np.abs(found / exact - 1)) < 2e-4, np.sqrt(exact))
     rise = modes_at(rows, 20.0)["frequency"][0] / modes_at(rows, 4.0)["frequency"][0]
@@ -77,7 +81,8 @@ def bit():
         "!Top Drive/Block Speed", "Top Drive/Autodriller/Weight On Bit=1 MN",
         "Top Drive/Autodriller/Proportional Gain=1e-7", "Top Drive/Autodriller/Integral Gain=1e-8",
         "Supports/Top=u v theta_z", "Transient/End Time=1", "Campbell/Points=3",
-        "Campbell/Highest Speed=40", EACH]
+        "Campbell/Highest Speed=40", EACH
+    ]
     done = tooljoint(
         "campbell", "states_bit.xml", "--output", "refused",
         *(word for one in driller
@@ -87,13 +92,15 @@ def bit():
 
 
 def wall():
-    """The reference scene with friction that weakens with the speed, reduced: at each speed the modes of the deck that turns at it from the start; spot checks; ranks."""
+    """The reference scene with friction that weakens with the speed, reduced: at each speed the
+    modes of the deck that turns at it from the start; spot checks; ranks."""
     scene = str(SOURCES / "xml/helical_170m.xml")
     settings = [
         "!Path/Pre-stress", "Static/Friction=Sliding Speed", "Rotary Speed/Law=Constant",
         "Contact/Friction/Regularisation Velocity=0.5", "Campbell/Lowest Speed=20 rpm",
         "Campbell/Highest Speed=120 rpm", "Campbell/Points=2", "Campbell/Modes=4",
-        "Campbell/Friction=Sliding", "Campbell/Orders={}"]
+        "Campbell/Friction=Sliding", "Campbell/Orders={}"
+    ]
     run("campbell", scene, "states_wall", *settings, "Rotary Speed/Constant/Speed=60 rpm",
         "Campbell/Spot Checks=2", EACH)
     estimates("states_wall")
@@ -117,15 +124,21 @@ def wall():
 
 
 def drive():
-    """A torque at the end of a shaft that a PI controller turns: G J theta'' = -rho J omega^2 theta, G J theta'(0) = Z theta(0) with Z = K_i + i omega K_p - omega^2 I. No
-    motion is asked for."""
+    """A torque at the end of a shaft that a PI controller turns: G J theta'' = -rho J omega^2
+    theta, G J theta'(0) = Z theta(0) with Z = K_i + i omega K_p - omega^2 I. No motion is asked
+    for."""
     length, radius, inertia, proportional, integral = 2000.0, 0.06, 1500.0, 800.0, 300.0
     sweep = lists("Loads", lists("t", values(Node=201, Component="theta_z"))) + lists(
         "Outputs",
         lists("bit", values(Node=201, Component="theta_z")) +
         lists("top", values(Node=1, Component="theta_z")))
-    added = lists("Top Drive", values(Control="Speed", Inertia=inertia, Proportional_Gain=proportional, Integral_Gain=integral)) \
-        + lists("Response", values(Excitation="Transfer", Rotary_Speed=1.0, Lowest_Frequency="0 Hz", Highest_Frequency="1.1 Hz", Points=23) + sweep)
+    added = (lists(
+        "Top Drive",
+        values(Control="Speed", Inertia=inertia, Proportional_Gain=proportional,
+               Integral_Gain=integral)) + lists(
+                   "Response",
+                   values(Excitation="Transfer", Rotary_Speed=1.0, Lowest_Frequency="0 Hz",
+                          Highest_Frequency="1.1 Hz", Points=23) + sweep))
     text = SHAFT.replace('name="Length" type="double" value="2"',
                          f'name="Length" type="double" value="{length}"').replace(
                              'value="40"', 'value="200"').replace('value="0.1"',
@@ -151,7 +164,8 @@ def drive():
     ):
         found = rows[f"{name}:t_amplitude"] * np.exp(1j * rows[f"{name}:t_phase"])
         expect(
-            f"response of a shaft on a PI drive, {name}: {np.abs(found / exact - 1).max():.1e} from theory",
+            f"response of a shaft on a PI drive, {name}: {np.abs(found / exact - 1).max():.1e} "
+            "from theory",
             np.abs(found / exact - 1).max() < 1e-3, np.c_[rows["frequency"],
                                                           np.abs(found),
                                                           np.abs(exact)])

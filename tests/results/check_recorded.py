@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Recording of chosen depths and nodes, and compression: check_recorded.py PROGRAM MPIEXEC
 
-What is recorded of chosen nodes is, to the bit, what a run that records all nodes has of them, on one rank and two and after a restart; reports,
-comparisons and pictures are made of it or say why not; what names no node is refused. Compression changes no number.
+What is recorded of chosen nodes is, to the bit, what a run that records all nodes has of them, on
+one rank and two and after a restart; reports, comparisons and pictures are made of it or say why
+not; what names no node is refused. Compression changes no number.
 """
 import pathlib
 import shutil
@@ -53,7 +54,8 @@ def same(title, whole, chosen, wanted, heading, components):
         nodes = one["/static/displacement"].shape[0]
         sizes = {
             "n": nodes, "r": len(rows), "e": nodes - 1, "m": len(other["/transient/time"]),
-            "c": components}
+            "c": components
+        }
         wrong, met = documented.faults(other, documented.rows(heading), sizes)
         expect(f"{title}: datasets have the units and shapes of docs/file-formats.md", not wrong
                and "/transient/node" in met, "; ".join(wrong))
@@ -66,7 +68,8 @@ def figures(folder):
     return [
         line for line in lines if not any(word in line
                                           for word in ("_s\"", "memory", "real_time", "files",
-                                                       ".csv", "results", "sha256"))]
+                                                       ".csv", "results", "sha256"))
+    ]
 
 
 def report(title, folder, wanted, absent):
@@ -92,7 +95,7 @@ def strings():
     same("string", whole, run("some", STRING, *chosen), wanted, "## results.h5", 6)
     same("string, two ranks", run("all_two", STRING, ranks=2),
          run("some_two", STRING, *chosen, ranks=2), wanted, "## results.h5", 6)
-    report("string", "some", ("rms", "duty", "bit-speed", "orbit-1"), ("contact", ))
+    report("string", "some", ("rms", "duty", "bit-speed", "orbit-1"), ("contact",))
     said = tooljoint("compare", "some", "all")
     expect("a run of chosen nodes is compared at those", said.returncode == 0
            and said.stdout.count("0.0000e+00") >= 3, said.stdout + said.stderr)
@@ -118,7 +121,8 @@ def strings():
     said = tooljoint("check", STRING, *chosen)
     every = tooljoint("check", STRING)
     megabytes = [
-        int(text.split("about ")[-1].split(" MB")[0]) for text in (every.stdout, said.stdout)]
+        int(text.split("about ")[-1].split(" MB")[0]) for text in (every.stdout, said.stdout)
+    ]
     expect("check counts the recorded nodes", megabytes[1] < megabytes[0] or megabytes == [1, 1],
            megabytes)
 
@@ -128,9 +132,9 @@ def parts():
     chosen = ("--set", "Output/Nodes={arm:4, top beam:5}")
     with h5py.File("frame_all/results.h5") as file:
         names = [name.decode() for name in file["/model/part_names"][:]]
-        at = {
-            (names[part - 1], node): row
-            for row, (part, node) in enumerate(zip(file["/model/part"][:], file["/model/node"][:]))}
+        at = {(names[part - 1], node): row
+              for row, (part,
+                        node) in enumerate(zip(file["/model/part"][:], file["/model/node"][:]))}
         components = len(file["/model/components"])
     same("parts", whole, run("frame_some", FRAME, *chosen), sorted(
         (at["arm", 4], at["top beam", 5])), "**Results of a scene of parts.**", components)

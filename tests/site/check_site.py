@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Builds the documentation site and checks it: check_site.py CMAKE BUILD PROJECT
 
-Every link within the site leads to a file and an anchor that are there, every picture exists, every page of docs/ has become one, every page
-stands in the navigation of the first, long tables are CSV files, and the reference of the Python package has all it offers. In Chromium, where it
-is installed, a page has no errors and its theme switch works. Links to other hosts are those listed here; they are not opened (target
-`docs-linkcheck`).
+Every link within the site leads to a file and an anchor that are there, every picture exists, every
+page of docs/ has become one, every page stands in the navigation of the first, long tables are CSV
+files, and the reference of the Python package has all it offers. In Chromium, where it is
+installed, a page has no errors and its theme switch works. Links to other hosts are those listed
+here; they are not opened (target `docs-linkcheck`).
 """
 import csv
 import html.parser
@@ -26,7 +27,8 @@ from pictured import RECORD  # noqa: E402
 
 GENERATED = {"index.html", "genindex.html",
              "search.html"}  # of Sphinx, or the way to the first page
-LARGEST_PICTURE = 150_000  # bytes; pictures are read over slow lines and stay in the repository for good
+# bytes; pictures are read over slow lines and stay in the repository for good
+LARGEST_PICTURE = 150_000
 ELSEWHERE = {"https://uscilab.github.io/cereal/"
              }  # links to other hosts, which only `docs-linkcheck` opens
 THEME = {"https://github.com/pradyunsg/furo",
@@ -38,7 +40,8 @@ MAKERS = {
     "scale_*.svg": "scale", "speed_*.svg": "speed_against_error", "strategies.svg": "strategies",
     "modes_*.svg": "speed_against_error", "drilling_*.png": "docs-pictures",
     "python_*.png": "docs-pictures", "report_*.png": "docs-pictures",
-    "tutorial_*.png": "docs-pictures"}
+    "tutorial_*.png": "docs-pictures"
+}
 PLOTS_FIRST = ("cms-variants", "scale", "speed-against-error", "step-error", "strategies"
                )  # pages of benchmarks
 LONGEST_TABLE = 90  # rows of a table in a page; longer ones are files of docs/tables
@@ -49,9 +52,13 @@ import inspect, tooljoint, tooljoint.plots
 for module in (tooljoint, tooljoint.plots):
     for name in module.__all__:
         one = getattr(module, name)
-        if not inspect.ismodule(one):
-            print(module.__name__ + "." + name, *[f"{module.__name__}.{name}.{each}" for each in (vars(one) if inspect.isclass(one) and module is tooljoint else ())
-                                                  if not each.startswith("_") and (callable(getattr(one, each)) or isinstance(vars(one)[each], property))])
+        if inspect.ismodule(one):
+            continue
+        own = vars(one) if inspect.isclass(one) and module is tooljoint else {}
+        offered = [each for each, what in own.items() if not each.startswith("_")
+                   and (callable(getattr(one, each)) or isinstance(what, property))]
+        public = f"{module.__name__}.{name}"
+        print(public, *[f"{public}.{each}" for each in offered])
 """  # names of the package, with the methods and properties of its classes
 
 
@@ -104,16 +111,16 @@ def broken(pages):
 def elsewhere(pages):
     """Links to other hosts."""
     return {
-        link for path, page in pages.items()
-        for link in page.links if target(path, link) is None} - THEME
+        link for path, page in pages.items() for link in page.links if target(path, link) is None
+    } - THEME
 
 
 def self_test(folder):
     """The checks find a page that lacks an anchor, a file and a place in the navigation."""
     folder.mkdir(exist_ok=True)
     (folder / "a.html").write_text(
-        '<div class="sidebar-tree"><div><a href="a.html">a</a></div></div><a href="b.html#there">b</a><a href="b.html#gone">b</a>',
-        encoding="utf-8")
+        '<div class="sidebar-tree"><div><a href="a.html">a</a></div></div><a '
+        'href="b.html#there">b</a><a href="b.html#gone">b</a>', encoding="utf-8")
     (folder / "b.html").write_text(
         '<h1 id="there">b</h1><img src="gone.png"><a href="https://example.org/gone">elsewhere</a>',
         encoding="utf-8")
@@ -121,8 +128,8 @@ def self_test(folder):
     expect(
         "the checks find a broken link",
         sorted(broken(pages)) == [
-            "a.html: b.html#gone: no such anchor", "b.html: gone.png: no such file"],
-        str(sorted(broken(pages))))
+            "a.html: b.html#gone: no such anchor", "b.html: gone.png: no such file"
+        ], str(sorted(broken(pages))))
     expect("a link to another host",
            elsewhere(pages) == {"https://example.org/gone"}, sorted(elsewhere(pages)))
     expect("and a page outside of the navigation",
@@ -136,7 +143,8 @@ def read(site):
     """The pages but for those of Doxygen, which are its own."""
     return {
         path: Page(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")
-        if "doxygen" not in path.relative_to(site).parts}
+        if "doxygen" not in path.relative_to(site).parts
+    }
 
 
 def unlisted(pages, first):
@@ -165,8 +173,8 @@ def main():
     expect("every page of docs/ is on the site", sources and not missing, ", ".join(missing))
     wrong = sorted(broken(pages))
     expect(
-        f"the {sum(len(page.links) for page in pages.values())} links of {len(pages)} pages lead somewhere",
-        not wrong, "\n".join(wrong))
+        f"the {sum(len(page.links) for page in pages.values())} links of {len(pages)} pages lead "
+        "somewhere", not wrong, "\n".join(wrong))
     abroad = elsewhere(pages)
     expect(
         "links to other hosts are well-formed and listed in this test", abroad == ELSEWHERE
@@ -177,7 +185,8 @@ def main():
     recorded = json.loads(RECORD.read_text(encoding="utf-8"))
     shown = {
         path.name for kind in ("tutorial_*.png", "report_*.png")
-        for path in (project / "docs/figures").glob(kind)}
+        for path in (project / "docs/figures").glob(kind)
+    }
     expect("each picture of a report has its figures on record", shown == set(recorded),
            f"{sorted(shown ^ set(recorded))}")
     expect(
@@ -192,7 +201,8 @@ def main():
                         (project / "cmake/DeveloperTools.cmake").read_text(encoding="utf-8"),
                         re.S)[0]
     unmade += [
-        maker for maker in list(MAKERS.values())[1:] if not re.search(rf"[ (]{maker}[ )]", records)]
+        maker for maker in list(MAKERS.values())[1:] if not re.search(rf"[ (]{maker}[ )]", records)
+    ]
     expect("every figure has a maker, which the target records runs", not unmade, ", ".join(unmade))
     written = "".join(
         path.read_text(encoding="utf-8")
@@ -203,7 +213,8 @@ def main():
     tables = [
         name for name in PLOTS_FIRST
         if not re.search(r"\A[^|]*^!\[", (project / f"docs/{name}.md").read_text(
-            encoding="utf-8"), re.M)]
+            encoding="utf-8"), re.M)
+    ]
     expect("pages of benchmarks have a figure before their first table", not tables,
            ", ".join(tables))
     if (build / "python/tooljoint/__init__.py").exists():
@@ -219,13 +230,15 @@ def tabulated(docs):
     long = [
         f"{path.name}: {rows}" for path, text in texts.items()
         for table in re.findall(r"(?:^\|.*\n)+", text, re.M)
-        if (rows := table.count("\n") - 2) > LONGEST_TABLE]
+        if (rows := table.count("\n") - 2) > LONGEST_TABLE
+    ]
     expect(f"tables in pages have at most {LONGEST_TABLE} rows", not long, ", ".join(long))
     text = "\n".join(texts.values())
     said = {
         name: int(rows) for rows, name in re.findall(
             r"\b(?:All|of|The) (\d+) [\w ]+\(?\[[^\]]+\]\(tables/(\w+\.csv)\)",
-            text.replace(": [", " ["))}
+            text.replace(": [", " ["))
+    }
     found = {}
     for path in (docs / "tables").glob("*.csv"):
         with open(path, newline="", encoding="utf-8") as file:
@@ -253,9 +266,8 @@ def clicked(page):
                "; ".join(shown.faults()))
         themes = [shown.value("document.body.dataset.theme")]
         for _ in range(2):
-            shown.value(
-                "[...document.querySelectorAll('.theme-toggle')].find(button => button.offsetParent)?.click()"
-            )
+            shown.value("[...document.querySelectorAll('.theme-toggle')].find(button => "
+                        "button.offsetParent)?.click()")
             themes.append(shown.value("document.body.dataset.theme"))
         expect("its switch changes the theme", len(set(themes)) == 3, str(themes))
 

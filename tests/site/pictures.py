@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of reports for the documents (target `docs-pictures`): pictures.py PROGRAM WORK FIGURES
 
-Runs scenes and photographs the tops of their reports, and sections of those of analyses, in a headless Chromium. The key figures of the reports go into
-reports.json beside the pictures, with which tests compare what they run.
+Runs scenes and photographs the tops of their reports, and sections of those of analyses, in a
+headless Chromium. The key figures of the reports go into reports.json beside the pictures, with
+which tests compare what they run.
 """
 import json
 import os
@@ -16,7 +17,8 @@ import sys
 from PIL import Image
 
 sys.path[:0] = [
-    str(pathlib.Path(__file__).resolve().parents[1] / name) for name in ("report", "support")]
+    str(pathlib.Path(__file__).resolve().parents[1] / name) for name in ("report", "support")
+]
 from browser import Browser  # noqa: E402
 from pictured import RECORD, figures_of  # noqa: E402
 
@@ -29,7 +31,8 @@ SCENES = {
     "parts": ("run", "parts.xml"),
     "frame": ("run", XML / "frame.xml"),
     "stress": ("run", XML / "stress_170m.xml"),
-    "bha_motor_1500m": ("bha", XML / "bha_motor_1500m.xml"), }
+    "bha_motor_1500m": ("bha", XML / "bha_motor_1500m.xml"),
+}
 # Picture -> (folder, size of the window, its sections; without any the top of the page)
 REPORTS = {
     "tutorial_report.png": ("string", TALL, None),
@@ -37,8 +40,10 @@ REPORTS = {
     "report_string.png": ("string", WIDE, None),
     "report_parts.png": ("frame", WIDE, None),
     "report_motion.png": ("stress", WIDE, "#orbits, #spectra"),
-    "report_bha.png": ("bha_motor_1500m", WIDE, None), }
-# Picture drilling_NAME.png -> (section of a report whose plots it shows, folder, command, deck, overrides)
+    "report_bha.png": ("bha_motor_1500m", WIDE, None),
+}
+# Picture drilling_NAME.png -> (section of a report whose plots it shows, folder, command, deck,
+# overrides)
 FRICTIONS = "Torque and Drag/Broomstick={0.1, 0.2, 0.3, 0.4}"
 SECTIONS = {
     "torque_drag": ("torque-drag", "extended_reach", "torque-drag",
@@ -50,7 +55,8 @@ SECTIONS = {
                  ["Campbell/Highest Speed=120 rpm", "Campbell/Points=5", "Campbell/Modes=8"]),
     "response": ("response", "response", "response", "response.xml", []),
     "stick_slip": ("motion", "stick_slip", "run", XML / "stick_slip_2500m.xml", []),
-    "measured_log": ("measured", "measured", "run", "measured.xml", []), }
+    "measured_log": ("measured", "measured", "run", "measured.xml", []),
+}
 COLOURS = 256
 SCRIPTS = ("choose_a_basis", "frame_of_parts", "my_finite_elements", "string_from_survey_to_map"
            )  # examples/python, on docs/python-figures.md
@@ -96,14 +102,17 @@ def scripts():
 
 
 def with_log(scene, weight, file):
-    """The scene beside the bit speed of a rig: that of the same string, full model, under another weight on bit."""
+    """The scene beside the bit speed of a rig: that of the same string, full model, under another
+    weight on bit."""
     run("run", str(XML / scene), "--output", "rig", "--without", "Reduction", "--without",
         "Substructures", "--set", f"Loads/Weight On Bit={weight}")
     head, end, _ = (XML / scene).read_text(encoding="utf-8").rpartition("</ParameterList>")
     log = """<ParameterList name="Measured Log">
-      <Parameter name="File" type="string" value="rig/motion.csv"/> <Parameter name="Begin" type="double" value="10"/>
+      <Parameter name="File" type="string" value="rig/motion.csv"/>
+      <Parameter name="Begin" type="double" value="10"/>
       <ParameterList name="Columns"><ParameterList name="bit speed">
-        <Parameter name="Column" type="string" value="bit_speed"/> <Parameter name="Quantity" type="string" value="Bit speed"/>
+        <Parameter name="Column" type="string" value="bit_speed"/>
+        <Parameter name="Quantity" type="string" value="Bit speed"/>
       </ParameterList></ParameterList></ParameterList>"""
     (WORK / file).write_text((head + log + end).replace('"components/', f'"{XML}/components/'),
                              encoding="utf-8")
@@ -130,7 +139,8 @@ def main():
             record[picture] = {
                 "command": command,
                 "deck": str(deck).replace(f"{XML.parent}/", ""),
-                **figures_of(page.read_text(encoding="utf-8")), }
+                **figures_of(page.read_text(encoding="utf-8")),
+            }
             print(f"{FIGURES / picture}: {(FIGURES / picture).stat().st_size} bytes")
         RECORD.write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
         for name, (section, folder, command, deck, overrides) in SECTIONS.items():

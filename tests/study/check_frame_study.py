@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`tooljoint study` of a scene of parts: check_frame_study.py PROGRAM MPIEXEC DECK
 
-Compares rows of a study with what separate calls of `run`, `compare` and `modes` say of the same models; repeats it, on two ranks too, with other
-frequencies, with a reference that fails, and with lists that make no sense.
+Compares rows of a study with what separate calls of `run`, `compare` and `modes` say of the same
+models; repeats it, on two ranks too, with other frequencies, with a reference that fails, and with
+lists that make no sense.
 """
 import csv
 import json
@@ -117,7 +118,8 @@ def same_as_separate_calls():
             tooljoint("compare", "alone", "alone_reference", "--to", "0.4").stdout.split())
         numbers = {
             name: float(value) for name, value in re.findall(
-                r"(eps_t max|mean|eps_n max|vibration error) (\S+?)(?:,|\s|$)", said)}
+                r"(eps_t max|mean|eps_n max|vibration error) (\S+?)(?:,|\s|$)", said)
+        }
         for name, key in (("vibration error", "vibration_error"), ("eps_t max", "eps_t_max"),
                           ("mean", "eps_t_mean"), ("eps_n max", "eps_n_max")):
             expect(f"{label}: {key} is that of `compare`", near(row[key], numbers[name], 1e-3),

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Maps over a grid of parameters: check_map.py PROGRAM MPIEXEC DECK
 
-DECK is xml/map_helical_170m.xml, here with a short motion and a few points. A value of a map is that of a run with the overrides of its
-point, on any ranks; a map that is killed goes on; a point that fails is a missing cell; a plan of commands gives the same table.
+DECK is xml/map_helical_170m.xml, here with a short motion and a few points. A value of a map is
+that of a run with the overrides of its point, on any ranks; a map that is killed goes on; a point
+that fails is a missing cell; a plan of commands gives the same table.
 """
 import csv
 import json
@@ -25,11 +26,13 @@ from screens import expect_screen  # noqa: E402
 DECK = sys.argv[3]
 SHORT = [
     "--set", "Transient/End Time=0.06", "--set", "Map/Grid/speed/Count=2", "--set",
-    "Map/Grid/weight on bit/Values={5 kN, 20 kN}", "--set", "Map/Pictures=false"]
+    "Map/Grid/weight on bit/Values={5 kN, 20 kN}", "--set", "Map/Pictures=false"
+]
 KEYS = {
     "stick-slip index": "transient.figures.stick_slip_index",
     "lateral acceleration": "transient.figures.lateral_acceleration.worst_rms",
-    "backward whirl": "transient.figures.whirl.worst_backward_contact_share"}
+    "backward whirl": "transient.figures.whirl.worst_backward_contact_share"
+}
 POINTS = [("60 rpm", "5 kN"), ("60 rpm", "20 kN"), ("180 rpm", "5 kN"), ("180 rpm", "20 kN")]
 
 
@@ -139,7 +142,8 @@ def killed():
 def failures():
     steps = [
         "--set", "Map/Grid/weight on bit/Parameter=Static/Max Iterations", "--set",
-        "Map/Grid/weight on bit/Values={200, 1}"]
+        "Map/Grid/weight on bit/Values={200, 1}"
+    ]
     done = tooljoint("map", DECK, "--output", "failed", *SHORT[:4], *SHORT[6:], *steps)
     rows = table("failed")
     expect(
@@ -175,7 +179,8 @@ def failures():
            and summary("limited")["map"]["done"] == 4)
     for what, arguments, sentence in [
         ("no list", ["--without", "Map"], "has no Map list"),
-        ("no such row", ["--row", "5", "--output", "x"], "the map has the rows 1 to 4"), ]:
+        ("no such row", ["--row", "5", "--output", "x"], "the map has the rows 1 to 4"),
+    ]:
         refused = tooljoint("map", DECK, *SHORT, *arguments) if what != "no list" else tooljoint(
             "map", DECK, *arguments)
         expect(f"{what} is refused", refused.returncode in (1, 2) and sentence in refused.stderr,
@@ -192,7 +197,8 @@ def refusals():
         "Rotary Speed/Law": "Constant", "Rotary Speed/Constant/Speed": "60 rpm",
         "Contact/Friction/Axial": "true", "Map/Grid/speed/Parameter": "Rotary Speed/Constant/Speed",
         "Map/Grid/weight on bit/Parameter": "Top Drive/Autodriller/Weight On Bit",
-        "Map/Grid/weight on bit/Values": "{50000 MN, 90000 MN}"}
+        "Map/Grid/weight on bit/Values": "{50000 MN, 90000 MN}"
+    }
     arguments = [word for name, value in driller.items() for word in ("--set", f"{name}={value}")]
     done = tooljoint("map", DECK, "--output", "refused", "--without", "Loads/Weight On Bit",
                      "--without", "Loads/Torque On Bit", *arguments)
@@ -204,26 +210,30 @@ def refusals():
 
 
 def parts():
-    """A map of imported parts whose axes are files and a text; a part without a model is a missing cell."""
+    """A map of imported parts whose axes are files and a text; a part without a model is a missing
+    cell."""
     root = pathlib.Path(__file__).resolve().parents[1] / "decks" / "parts"
-    imported = "".join(
-        f'<ParameterList name="{name}"><Parameter name="File" type="string" value="{root}/good"/></ParameterList>'
-        for name in "ab")
-    axes = (
-        f'<ParameterList name="part"><Parameter name="Parameter" type="string" value="Parts/Imported/a/File"/>'
-        f'<Parameter name="Values" type="Array(string)" value="{{{root}/good, {root}/indefinite_mass}}"/></ParameterList>'
-        '<ParameterList name="end"><Parameter name="Parameter" type="string" value="Transient/End Time"/>'
-        '<Parameter name="Values" type="Array(string)" value="{0.1, 0.2}"/></ParameterList>')
+    imported = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" '
+                       f'value="{root}/good"/></ParameterList>' for name in "ab")
+    axes = ('<ParameterList name="part"><Parameter name="Parameter" type="string" '
+            'value="Parts/Imported/a/File"/><Parameter name="Values" type="Array(string)" '
+            f'value="{{{root}/good, {root}/indefinite_mass}}"/></ParameterList><ParameterList '
+            'name="end"><Parameter name="Parameter" type="string" value="Transient/End Time"/>'
+            '<Parameter name="Values" type="Array(string)" value="{0.1, 0.2}"/></ParameterList>')
     pathlib.Path("parts.xml").write_text(
-        f'<ParameterList name="parts"><ParameterList name="Parts"><ParameterList name="Imported">{imported}</ParameterList>'
-        '<Parameter name="Joints" type="Array(string)" value="{a:right = b:left}"/><ParameterList name="Starts"><ParameterList name="pull">'
-        '<Parameter name="Part" type="string" value="a"/><Parameter name="Node" type="int" value="1"/><Parameter name="Component" type="string" value="u"/>'
-        '<Parameter name="Velocity" type="double" value="1"/></ParameterList></ParameterList></ParameterList>'
-        '<ParameterList name="Transient"><Parameter name="Integrator" type="string" value="Generalized-alpha"/><Parameter name="Step" type="double" value="1e-4"/>'
-        '<Parameter name="End Time" type="double" value="0.1"/></ParameterList>'
-        f'<ParameterList name="Map"><ParameterList name="Grid">{axes}</ParameterList><ParameterList name="Values"><ParameterList name="acceleration">'
-        '<Parameter name="Key" type="string" value="transient.figures.acceleration.rms"/></ParameterList></ParameterList></ParameterList></ParameterList>',
-        encoding="utf-8")
+        '<ParameterList name="parts"><ParameterList name="Parts"><ParameterList '
+        f'name="Imported">{imported}</ParameterList><Parameter name="Joints" type="Array(string)" '
+        'value="{a:right = b:left}"/><ParameterList name="Starts"><ParameterList name="pull">'
+        '<Parameter name="Part" type="string" value="a"/><Parameter name="Node" type="int" '
+        'value="1"/><Parameter name="Component" type="string" value="u"/><Parameter '
+        'name="Velocity" type="double" value="1"/></ParameterList></ParameterList></ParameterList>'
+        '<ParameterList name="Transient"><Parameter name="Integrator" type="string" '
+        'value="Generalized-alpha"/><Parameter name="Step" type="double" value="1e-4"/><Parameter '
+        'name="End Time" type="double" value="0.1"/></ParameterList><ParameterList name="Map">'
+        f'<ParameterList name="Grid">{axes}</ParameterList><ParameterList name="Values">'
+        '<ParameterList name="acceleration"><Parameter name="Key" type="string" '
+        'value="transient.figures.acceleration.rms"/></ParameterList></ParameterList>'
+        '</ParameterList></ParameterList>', encoding="utf-8")
     done = tooljoint("map", "parts.xml", "--output", "parts", "--set", "Map/Pictures=false")
     rows = table("parts") if done.returncode == 0 else []
     expect("a model that cannot be built is a missing cell",
@@ -260,11 +270,13 @@ def pictures():
 
 
 def inclined():
-    """The map of an inclined kilometre, with a short motion: steps fine enough, and a reduced model whose points are those of runs."""
+    """The map of an inclined kilometre, with a short motion: steps fine enough, and a reduced model
+    whose points are those of runs."""
     deck = str(pathlib.Path(DECK).with_name("map_inclined_1000m.xml"))
     short = [
         "--set", "Transient/End Time=0.2", "--set", "Map/Grid/speed/Count=2", "--set",
-        "Map/Grid/weight on bit/Values={20 kN, 60 kN}", "--set", "Map/Pictures=false"]
+        "Map/Grid/weight on bit/Values={20 kN, 60 kN}", "--set", "Map/Pictures=false"
+    ]
     done = tooljoint("map", deck, "--output", "inclined", *short)
     rows = table("inclined") if done.returncode == 0 else []
     expect("inclined kilometre: four points", [row["status"] for row in rows] == ["done"] * 4,
@@ -282,7 +294,8 @@ def inclined():
 
 
 def unsettled():
-    """A point whose stick-slip still grows counts as safe by its index; the map says that it has not settled, and names it."""
+    """A point whose stick-slip still grows counts as safe by its index; the map says that it has
+    not settled, and names it."""
     deck = pathlib.Path(__file__).resolve().parent / "unsettled.xml"
     done = tooljoint("map", deck, "--output", "unsettled")
     growth = []

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What `tooljoint study` leaves behind: check_study.py PROGRAM MPIEXEC DECK
 
-Runs a study of a few seconds and looks at its rows; compares an error with that of two separate runs; interrupts it and goes on; lets a
-method, and the reference, fail; changes one method and sees that the others are not run again; repeats it on two ranks.
+Runs a study of a few seconds and looks at its rows; compares an error with that of two separate
+runs; interrupts it and goes on; lets a method, and the reference, fail; changes one method and sees
+that the others are not run again; repeats it on two ranks.
 """
 import math
 import pathlib
@@ -67,14 +68,16 @@ def whole_study():
            f"({reference['sensitivity']['at_end']:.1e})")
     steps = [
         found[f"Generalized-alpha, full, Step {step} ms"]["vibration_error"]
-        for step in ("0.2", "0.5", "1")]
+        for step in ("0.2", "0.5", "1")
+    ]
     order = math.log(steps[2] / steps[0]) / math.log(5.0)
     expect("errors grow with the step, at an order between one and two", 1.0 < order < 2.2
            and steps[0] < steps[1] < steps[2], f"({order:.2f})")
     for state in ("Keep static", "Least squares"):
         errors = [
             found[f"Craig-Bampton, {state}, Modes {modes}"]["vibration_error"]
-            for modes in (0, 2, 8)]
+            for modes in (0, 2, 8)
+        ]
         expect(f"more modes, less error ({state})", errors[0] > errors[1] > errors[2])
     expect(
         "the kept static state is better than the projected one",
@@ -89,7 +92,8 @@ def whole_study():
 def fitted_reference():
     """Without the lists Reference and Check: a reference that fits the runs, with its cost."""
     fitted = [
-        "--without", "Study/Reference", "--without", "Study/Check", "--set", "Study/Repeats=1"]
+        "--without", "Study/Reference", "--without", "Study/Check", "--set", "Study/Repeats=1"
+    ]
     done = tooljoint("study", DECK, "--output", "fitted", *fitted)
     expect(
         "the reference takes a quarter of the shortest step, and its cost is told before it runs",
@@ -106,17 +110,20 @@ def fitted_reference():
     own = reference["self_error"]["vibration_error"]
     methods = {
         label: row["vibration_error"] for label, row in after.items()
-        if row["kind"] == "method" and row["status"] == "done"}
+        if row["kind"] == "method" and row["status"] == "done"
+    }
     expect("its error is a fraction of that of every run", own < 0.2 * min(methods.values()),
            f"({own:.1e}, {min(methods.values()):.1e})")
     apart = max(abs(value - before[label]["vibration_error"]) for label, value in methods.items())
-    # Halving the step halves the error of the reference at least, so that it is at most twice the distance to its check.
+    # Halving the step halves the error of the reference at least, so that it is at most twice the
+    # distance to its check.
     both = 2 * (own + summary("whole")["reference"]["self_error"]["vibration_error"])
     expect("errors are those against a much finer reference, within those of both", apart < both,
            f"({apart:.1e}, {both:.1e})")
     only = [
         argument for name in ("Generalized-alpha, full", "Craig-Bampton")
-        for argument in ("--without", f"Study/Methods/{name}")]
+        for argument in ("--without", f"Study/Methods/{name}")
+    ]
     done = tooljoint("check", DECK, *fitted, *only, "--set", "Study/Baseline=RK4, too coarse")
     expect("that of explicit runs is RK4", "3 of the reference (RK4)" in done.stdout,
            done.stdout[-400:] + done.stderr)
@@ -126,29 +133,33 @@ def step_limits():
     coarse = [
         "--set", "Study/Repeats=1", "--set",
         "Study/Methods/Craig-Bampton/Set={Transient/Step=1 ms}", "--set",
-        "Study/Methods/Craig-Bampton/Sweep/state/Values={Keep static}"]
+        "Study/Methods/Craig-Bampton/Sweep/state/Values={Keep static}"
+    ]
     for modes, limited in (("{12, 16, 20}", True), ("{0, 12}", False)):
         done = tooljoint("study", DECK, "--output", "limited", *coarse, "--set",
                          f"Study/Methods/Craig-Bampton/Sweep/modes/Values={modes}")
         said, told = summary(
             "limited")["step_limits"], "the step limits them, not the basis" in done.stdout
         expect(
-            f"modes {modes}: a study says {'that' if limited else 'nothing where not'} the step limits all reduced runs",
-            done.returncode == 0 and told == limited and len(said) == limited, f"{said}")
+            f"modes {modes}: a study says {'that' if limited else 'nothing where not'} the step "
+            "limits all reduced runs", done.returncode == 0 and told == limited
+            and len(said) == limited, f"{said}")
 
 
 def same_as_separate_runs():
     """The row is what two runs and `compare` give."""
     common = [
         "--without", "Study", "--set", "Transient/End Time=0.2", "--without", "Reduction",
-        "--without", "Substructures"]
+        "--without", "Substructures"
+    ]
     for folder, step in (("run_reference", "2e-5"), ("run_method", "1e-3")):
         tooljoint("run", DECK, "--output", folder, *common, "--set", f"Transient/Step={step}")
     said = " ".join(
         tooljoint("compare", "run_method", "run_reference", "--to", "0.2").stdout.split())
     compared = {
         key: float(value)
-        for key, value in re.findall(r"(vibration error|max) (\d\.\d+e[+-]\d+)", said)}
+        for key, value in re.findall(r"(vibration error|max) (\d\.\d+e[+-]\d+)", said)
+    }
     row = rows("whole")["Generalized-alpha, full, Step 1 ms"]
     expect("the vibration error is that of `tooljoint compare` of two runs",
            abs(compared["vibration error"] / row["vibration_error"] - 1) < 1e-3,
@@ -243,7 +254,8 @@ def pictures():
     said = "plots were not drawn" in done.stderr and "plot_study.py ranks" in done.stderr
     wanted = {
         "study_speed.png", "study_modes.png", "study_error_over_time.png", "study_bit_speed.png",
-        "study_static.png", "study_reference.png"}
+        "study_static.png", "study_reference.png"
+    }
     expect("pictures are drawn, or a warning says how", done.returncode == 0
            and (wanted <= set(drawn) or said), f"({', '.join(drawn) or 'warning'})")
     expect(f"no line has more than {COLUMNS} columns", not wide(done.stdout),

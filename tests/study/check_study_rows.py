@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Many rows of a study at a time: check_study_rows.py PROGRAM MPIEXEC DECK
 
-Groups of ranks that take rows, and a plan of one command per row, run by GNU parallel and collected, leave the table of a study that runs
-row after row.
+Groups of ranks that take rows, and a plan of one command per row, run by GNU parallel and
+collected, leave the table of a study that runs row after row.
 """
 import pathlib
 import resource
@@ -29,7 +29,8 @@ def same_errors(one, two):
     return [
         label for label, row in two.items() if row["status"] != one[label]["status"] or (
             row["kind"] == "method" and row["vibration_error"] is not None
-            and abs(row["vibration_error"] / one[label]["vibration_error"] - 1) > 1e-5)]
+            and abs(row["vibration_error"] / one[label]["vibration_error"] - 1) > 1e-5)
+    ]
 
 
 def groups_of_ranks():
@@ -101,7 +102,8 @@ def planned():
 
 
 def many():
-    """A plan of a hundred rows more, and their table: in a tenth of what a thousand may take, 2 s and 20 s, or the time of five starts."""
+    """A plan of a hundred rows more, and their table: in a tenth of what a thousand may take, 2 s
+    and 20 s, or the time of five starts."""
     steps = ", ".join(f"{0.5 + 0.0004 * i:.4f} ms" for i in range(100))
     deck = (DECK, "--set", "Study/Repeats=1", "--set", "Study/End Time=0.02", "--set",
             "Study/Window=0.02", "--set",
@@ -115,7 +117,8 @@ def many():
                done.stderr[-300:])
     cpu = [
         after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        for before, after in zip(used, used[1:])]
+        for before, after in zip(used, used[1:])
+    ]
     lines = pathlib.Path("many/rows.txt").read_text(encoding="utf-8").count("\n")
     expect("a command and a line of the table for each", (lines, len(rows("many"))) == (108, 111),
            f"({lines}, {len(rows('many'))})")
@@ -124,12 +127,13 @@ def many():
 
 
 def excluded():
-    """Options without effect beside others are refused; above all --fresh, which would forget the rows to collect."""
+    """Options without effect beside others are refused; above all --fresh, which would forget the
+    rows to collect."""
     before = table("plan")
     for first, second in (
-        (("--collect", "plan"), ("--fresh", )),
-        (("--plan", "plan"), ("--fresh", )),
-        (("--row", "4"), ("--fresh", )),
+        (("--collect", "plan"), ("--fresh",)),
+        (("--plan", "plan"), ("--fresh",)),
+        (("--row", "4"), ("--fresh",)),
         (("--row", "4"), ("--ranks-per-row", "1")),
         (("--row", "4"), ("--plan", "plan")),
         (("--row", "4"), ("--collect", "plan")),

@@ -39,8 +39,10 @@ def differences(whole, other, tolerance=0.0):
         figures = [
             json.loads(pathlib.Path(folder,
                                     "summary.json").read_text(encoding="utf-8"))["transient"]
-            for folder in (whole, other)]
+            for folder in (whole, other)
+        ]
         names += [
             f"summary.json transient.{key}: {figures[0][key]} and {figures[1][key]}"
-            for key in figures[0] if key not in OWN and figures[0][key] != figures[1][key]]
+            for key in figures[0] if key not in OWN and figures[0][key] != figures[1][key]
+        ]
     return names

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a person sees: the last screen of a run, the progress of a motion, colours on terminals only, --quiet and --verbose.
+"""What a person sees: the last screen of a run, the progress of a motion, colours on terminals
+only, --quiet and --verbose.
 
     check_terminal.py PROGRAM
 """
@@ -45,7 +46,8 @@ def on_terminal(*arguments, **environment):
     reader = threading.Thread(target=read)
     reader.start()
     inherited = {
-        name: value for name, value in of_ranks(1).items() if name not in ("NO_COLOR", "TERM")}
+        name: value for name, value in of_ranks(1).items() if name not in ("NO_COLOR", "TERM")
+    }
     done = subprocess.run([sys.argv[1], *arguments], stdin=inner, stdout=inner, stderr=inner,
                           check=False, timeout=120 * TIME_FACTOR,
                           env={**inherited, "TERM": "xterm", **environment})

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks the calibration of `tooljoint torque-drag`: against linear least squares in a straight hole, against known coefficients by interval, refusals, broomstick.
+"""Checks the calibration of `tooljoint torque-drag`: against linear least squares in a straight
+hole, against known coefficients by interval, refusals, broomstick.
 
     check_calibration.py PROGRAM MPIEXEC SOURCES
 """
@@ -37,17 +38,20 @@ def fitted(folder):
     return {
         row["parameter"]:
         {key: float(row[key] or "nan") for key in ("fitted", "lower", "upper", "at_bound", "deck")}
-        for row in rows(folder, "torque_drag_calibration.csv")}
+        for row in rows(folder, "torque_drag_calibration.csv")
+    }
 
 
 def straight():
-    """In a straight hole hook load and torque are linear in mu and in the block weight: the fit is that of numpy, its intervals those of Student's t."""
+    """In a straight hole hook load and torque are linear in mu and in the block weight: the fit is
+    that of numpy, its intervals those of Student's t."""
     survey = pathlib.Path("calibration_straight.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 50, 20\n2000, 50, 20\n", encoding="utf-8")
     inclination, joint = math.radians(50), 0.084
     stand = 7850 * 9.81 * math.pi * (9.0 * (0.0635**2 - 0.0543**2) + 0.5 * (0.084**2 - 0.0413**2))
     matrix, right, lines = [], [], [
-        "Bit Depth (ft); remark; Operation; Hook Load [t]; Torque [kft-lbf]"]
+        "Bit Depth (ft); remark; Operation; Hook Load [t]; Torque [kft-lbf]"
+    ]
     noise = numpy.random.default_rng(7)
     for stands in range(30, 151, 10):
         weight = stand * stands
@@ -61,9 +65,10 @@ def straight():
             torque = None if turn is None else 0.31 * turn + 200 * noise.standard_normal()
             if operation == "Rotate off bottom" and stands % 20 == 0:
                 hook = None  # a gap
-            lines.append(
-                f"{9.5 * stands / 0.3048:.9f}; n/a; {operation if stands % 2 else operation.upper()}; {'' if hook is None else repr(hook / (1e3 * 9.80665))}; {'' if torque is None else repr(torque / 1355.8179483314004)}"
-            )
+            lines.append(f"{9.5 * stands / 0.3048:.9f}; n/a; "
+                         f"{operation if stands % 2 else operation.upper()}; "
+                         f"{'' if hook is None else repr(hook / (1e3 * 9.80665))}; "
+                         f"{'' if torque is None else repr(torque / 1355.8179483314004)}")
             if hook is not None:
                 matrix.append((drag / 1e4, 1 / 1e4))
                 right.append((hook - along) / 1e4)
@@ -130,7 +135,8 @@ def intervals():
     settings = [f"{name}={value}" for name, value in truth.items()] + [
         "Contact/Friction/Static=0.4", "Torque and Drag/Block Weight=150 kN",
         "Torque and Drag/Depths={1500, 3000, 4200}",
-        "Torque and Drag/Operations={Trip out, Trip in, Rotate off bottom}"]
+        "Torque and Drag/Operations={Trip out, Trip in, Rotate off bottom}"
+    ]
     done = tooljoint("torque-drag", str(REACH), "--output", "reach_truth", "--set", QUIET[0],
                      *[part for setting in settings for part in ("--set", setting)])
     expect("the reach well is computed", done.returncode == 0, done.stderr)
@@ -138,9 +144,8 @@ def intervals():
     with open(measured, "w", encoding="utf-8") as file:
         file.write("operation,bit depth [m],hook load [N],surface torque [N m]\n")
         for row in rows("reach_truth", "torque_drag.csv"):
-            file.write(
-                f"{row['operation']},{row['bit_depth']},{row['hook_load']},{row['surface_torque']}\n"
-            )
+            file.write(f"{row['operation']},{row['bit_depth']},{row['hook_load']},"
+                       f"{row['surface_torque']}\n")
     done = run(REACH, "reach", f"Torque and Drag/Measured={measured}",
                "Torque and Drag/Broomstick={0.1, 0.3}")
     expect("it is fitted", done.returncode == 0, done.stderr)
@@ -160,7 +165,8 @@ def intervals():
 
 
 def bounds():
-    """Drag as of a coefficient of 1.2, beyond what is taken for one: it ends at 1, without an interval, and that is said."""
+    """Drag as of a coefficient of 1.2, beyond what is taken for one: it ends at 1, without an
+    interval, and that is said."""
     table = pathlib.Path("measured_bound.csv").resolve()
     done = run(STRAIGHT, "bound_truth", "Contact/Friction/Static=0.4",
                "Contact/Friction/Dynamic=0.4", "Torque and Drag/Depths={400, 800}",
@@ -184,7 +190,8 @@ def bounds():
     block = fitted("bound")["Torque and Drag/Block Weight"]
     apart = numpy.array([
         float(row["hook_load"]) - float(row["computed_hook_load"])
-        for row in rows("bound", "torque_drag_measured.csv")])
+        for row in rows("bound", "torque_drag_measured.csv")
+    ])
     half = stats.t.ppf(0.975,
                        len(apart) - 1) * math.sqrt(apart @ apart / (len(apart) - 1) / len(apart))
     expect(f"the interval of the block weight is that beside a held coefficient, {half}",

@@ -1,19 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mutation check: puts one small fault at a time into the product code and runs the test that has to notice it.
+"""Mutation check: puts one small fault at a time into the product code and runs the test that has
+to notice it.
 
-    run.py                      all entries of mutants.json, in a copy of the sources with a build tree of its own
-    run.py --only beam --only 'contact*'   entries whose name or file matches one of the patterns (shell style; a part of it is enough)
+    run.py                      all entries of mutants.json, in a copy of the sources with a build
+                                tree of its own
+    run.py --only beam --only 'contact*'   entries whose name or file matches one of the patterns
+                                           (shell style; a part of it is enough)
     run.py --list               names of the entries, their files and tests
-    run.py --check              every entry still applies exactly once and names a test that exists (seconds, builds nothing)
+    run.py --check              every entry still applies exactly once and names a test that exists
+                                (seconds, builds nothing)
     run.py --self-test          shows that --check finds what it is for
 
-An entry of mutants.json has `name`, `file`, `old`, `new`, `test` (of CTest) and, for a GoogleTest program, `filter`
-(Suite.Test, several joined by a colon). `old` is found in the file without regard to white space.
+An entry of mutants.json has `name`, `file`, `old`, `new`, `test` (of CTest) and, for a GoogleTest
+program, `filter` (Suite.Test, several joined by a colon). `old` is found in the file without regard
+to white space.
 
-A mutant is killed when its test fails, survives when the test passes. A mutant that does not compile or runs into the time
-limit of the test says nothing and counts as not killed. Exit code 0: at least --least percent are killed; 1: fewer;
-2: wrong use, an entry that does not apply, or a test that fails without any fault.
+A mutant is killed when its test fails, survives when the test passes. A mutant that does not
+compile or runs into the time limit of the test says nothing and counts as not killed. Exit code 0:
+at least --least percent are killed; 1: fewer; 2: wrong use, an entry that does not apply, or a test
+that fails without any fault.
 """
 import argparse
 import fnmatch
@@ -30,7 +36,8 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 KEYS = {"name", "file", "old", "new", "test"}
-# Kinds of tests that are one program per room: tests/KIND/ROOM is the CTest test KIND.ROOM (mpi: KIND.ROOM.npN), target KIND_ROOM.
+# Kinds of tests that are one program per room: tests/KIND/ROOM is the CTest test KIND.ROOM (mpi:
+# KIND.ROOM.npN), target KIND_ROOM.
 PROGRAM = re.compile(r"(unit|verification|stability|mpi)\.(\w+?)(\.np\d+)?$")
 
 
@@ -40,12 +47,12 @@ def pattern(text):
 
 
 def apply(text, entry):
-    """The text of a file with the fault in it. ValueError unless the old text stands there exactly once."""
+    """The text of a file with the fault in it.
+    ValueError unless the old text stands there exactly once."""
     found = list(pattern(entry["old"]).finditer(text))
     if len(found) != 1:
-        raise ValueError(
-            f"the old text is found {len(found)} times in {entry['file']}, expected once: {entry['old']}"
-        )
+        raise ValueError(f"the old text is found {len(found)} times in {entry['file']}, expected "
+                         f"once: {entry['old']}")
     return text[:found[0].start()] + entry["new"] + text[found[0].end():]
 
 
@@ -102,7 +109,8 @@ def complaints(project, entries):
 def self_test():
     good = {
         "name": "a", "file": "src/A.cpp", "old": "x = 1 + y;", "new": "x = 1 - y;",
-        "test": "unit.a", "filter": "A.adds"}
+        "test": "unit.a", "filter": "A.adds"
+    }
     cases = {
         "": good,
         "found 0 times": good | {"old": "x = 2 + y;"},
@@ -111,13 +119,15 @@ def self_test():
         "no file": good | {"file": "src/B.cpp"},
         "has no test": good | {"filter": "A.subtracts"},
         "takes no filter": good | {"test": "exit_codes"},
-        "has the keys": {"name": "a"}, }
+        "has the keys": {"name": "a"},
+    }
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         for path, text in {
-                "src/A.cpp": "int f(int y) {\n  int x =\n      1 + y;\n  if (y) return x;\n  return y;\n}\n",
-                "tests/unit/a/Test.cpp": "TEST(A, adds) {}\n"}.items():
+                "src/A.cpp": "int f(int y) {\n  int x =\n      1 + y;\n  if (y) return x;\n"
+                "  return y;\n}\n", "tests/unit/a/Test.cpp": "TEST(A, adds) {}\n"
+        }.items():
             (root / path).parent.mkdir(parents=True, exist_ok=True)
             (root / path).write_text(text, encoding="utf-8")
         for expected, entry in cases.items():
@@ -144,7 +154,8 @@ class Tree:
             capture_output=True).stdout
         wanted = {
             name for name in os.fsdecode(listed).split("\0")
-            if name and ((PROJECT / name).is_file() or (PROJECT / name).is_symlink())}
+            if name and ((PROJECT / name).is_file() or (PROJECT / name).is_symlink())
+        }
         for name in sorted(wanted):
             source, target = PROJECT / name, self.folder / name
             if source.is_symlink():  # tools/plots
@@ -172,7 +183,8 @@ class Tree:
         return done.stdout + done.stderr if done.returncode else None
 
     def run(self, test, filters):
-        """Outcome of a test: passed, failed, timed out, not run (none of that name); and its output."""
+        """Outcome of a test: passed, failed, timed out, not run (none of that name); and its
+        output."""
         environment = dict(os.environ)
         environment.pop("GTEST_FILTER", None)
         if filters:
@@ -231,7 +243,8 @@ def selected(entries, patterns):
     return [
         entry for entry in entries if any(
             fnmatch.fnmatchcase(text, f"*{one}*") for one in patterns
-            for text in (entry["name"], entry["file"]))]
+            for text in (entry["name"], entry["file"]))
+    ]
 
 
 def table(entries, arguments):
@@ -248,14 +261,13 @@ def table(entries, arguments):
         killed += outcome == "killed"
         test = " ".join([entry["test"], entry.get("filter", "")]).strip()
         print(
-            f"{entry['name']:{width}}  {outcome:11}  {time.monotonic() - begin:7.1f}  {entry['file']}: {test}",
-            flush=True)
+            f"{entry['name']:{width}}  {outcome:11}  {time.monotonic() - begin:7.1f}  "
+            f"{entry['file']}: {test}", flush=True)
         if why:
             print("    " + why.replace("\n", "\n    "), flush=True)
     share = 100.0 * killed / len(entries)
-    print(
-        f"{killed} of {len(entries)} mutants are killed ({share:.1f} %; at least {arguments.least:g} % are required)."
-    )
+    print(f"{killed} of {len(entries)} mutants are killed ({share:.1f} %; at least "
+          f"{arguments.least:g} % are required).")
     return 0 if share >= arguments.least else 1
 
 

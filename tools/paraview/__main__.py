@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the results of a run for ParaView: python3 tools/paraview DIR [--output FOLDER] [--magnify FACTOR] [--pictures COUNT]
+"""Writes the results of a run for ParaView: python3 tools/paraview DIR [--output FOLDER] [--magnify
+FACTOR] [--pictures COUNT]
 
-DIR is the folder of a run. FOLDER (DIR/paraview) gets string.pvd with a .vtp file for each picture and wall.vtp of a string in its well, or
-parts.pvd of parts. Points are moved by FACTOR times the displacement, and the wall stands at FACTOR times the clearance, so that contact
-stays contact; all fields keep their true values. Needs numpy, h5py and matplotlib.
-Exit codes: 0 done, 1 wrong usage, 5 nothing to show, a file that cannot be read or written.
+DIR is the folder of a run. FOLDER (DIR/paraview) gets string.pvd with a .vtp file for each picture
+and wall.vtp of a string in its well, or parts.pvd of parts. Points are moved by FACTOR times the
+displacement, and the wall stands at FACTOR times the clearance, so that contact stays contact; all
+fields keep their true values. Needs numpy, h5py and matplotlib. Exit codes: 0 done, 1 wrong usage,
+5 nothing to show, a file that cannot be read or written.
 """
 import argparse
 import math
@@ -15,7 +17,8 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[0] = str(HERE.parent)
 
-from report.files import USAGE, Unreadable, fail, failing, reading, write, writing  # noqa: E402: of the folder above
+from report.files import (USAGE, Unreadable, fail, failing, reading, write,
+                          writing)  # noqa: E402: of the folder above
 
 MOST_PICTURES = 200
 
@@ -25,9 +28,8 @@ try:
     from paraview import scenes, vtp
     from report.results import Run
 except ImportError as missing:
-    fail(
-        f"{missing}: files for ParaView need numpy and h5py (Debian: python3-h5py, then /usr/bin/python3)."
-    )
+    fail(f"{missing}: files for ParaView need numpy and h5py (Debian: python3-h5py, then "
+         "/usr/bin/python3).")
 
 
 class Arguments(argparse.ArgumentParser):
@@ -36,7 +38,8 @@ class Arguments(argparse.ArgumentParser):
 
 
 def pictures(scene, most):
-    """Samples that are shown: all, or `most` of them at equal distances, the first and the last among them."""
+    """Samples that are shown: all, or `most` of them at equal distances, the first and the last
+    among them."""
     return np.unique(
         np.linspace(0,
                     len(scene.times) - 1, min(len(scene.times), most)).round().astype(int))
@@ -80,8 +83,8 @@ def main():
     options = parser.parse_args()
     if not (math.isfinite(options.magnify) and options.magnify > 0):
         fail(
-            f"--magnify is {options.magnify}, expected a number above 0; 1 shows displacements as they are.",
-            USAGE)
+            f"--magnify is {options.magnify}, expected a number above 0; 1 shows displacements as "
+            "they are.", USAGE)
     if options.pictures < 1:
         fail(f"--pictures is {options.pictures}, expected at least 1.", USAGE)
     folder = options.output or options.folder / "paraview"

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Polydata in VTK's XML format (VTK User's Guide, 11th edition, section 19.3): arrays are base64 with a header of their length."""
+"""Polydata in VTK's XML format (VTK User's Guide, 11th edition, section 19.3): arrays are base64
+with a header of their length."""
 import base64
 import xml.sax.saxutils
 
 import numpy as np
 
 TYPES = {"f8": "Float64", "f4": "Float32", "i8": "Int64"}
-HEADER = '<?xml version="1.0"?>\n<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
+HEADER = ('<?xml version="1.0"?>\n<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" '
+          'header_type="UInt64">\n')
 
 
 def attribute(text):
@@ -19,7 +21,8 @@ def array(name, values, kind, components=()):
     data = np.array([values.nbytes], "<u8").tobytes() + values.tobytes()
     names = "".join(f" ComponentName{i}={attribute(each)}" for i, each in enumerate(components))
     size = f' NumberOfComponents="{values.shape[1]}"' if values.ndim == 2 else ""
-    return f'<DataArray type="{TYPES[kind]}" Name={attribute(name)}{size}{names} format="binary">{base64.b64encode(data).decode()}</DataArray>\n'
+    return (f'<DataArray type="{TYPES[kind]}" Name={attribute(name)}{size}{names} '
+            f'format="binary">{base64.b64encode(data).decode()}</DataArray>\n')
 
 
 def cells(name, corners):
@@ -37,8 +40,9 @@ def data(name, fields, components):
 
 
 def polydata(points, kinds, axes, point_fields=None, cell_fields=None, field_data=None):
-    """The text of a .vtp file. `points` n x 3; `kinds`: "Verts", "Lines", "Polys" -> corners of the cells, in this order; fields: name -> n
-    values or n x 3, with the names of `axes`; `field_data`: name -> number."""
+    """The text of a .vtp file.
+    `points` n x 3; `kinds`: "Verts", "Lines", "Polys" -> corners of the cells, in this order;
+    fields: name -> n values or n x 3, with the names of `axes`; `field_data`: name -> number."""
     numbers = {name: len(kinds.get(name, ())) for name in ("Verts", "Lines", "Polys")}
     text = HEADER.format(kind="PolyData") + "<PolyData>\n"
     if field_data:

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes one HTML file of what is in a results folder: python3 tools/report DIR [--output FILE]
 
-DIR is the folder of a run (results.h5, summary.json), of a study (study.csv, study.h5), of a map (map.csv), or of `torque-drag`, `bha`, `buckling`, `campbell`, `response` or `modes`. The file needs no
-network and nothing beside it. Needs numpy, h5py and matplotlib, and three.js (Debian: libjs-three) for the view in space.
-Exit codes: 0 done, 1 wrong usage, 5 nothing to report on, a file that cannot be read or written. Where one of several files is damaged the report shows the others, and the
-exit code is 5 as well.
+DIR is the folder of a run (results.h5, summary.json), of a study (study.csv, study.h5), of a map
+(map.csv), or of `torque-drag`, `bha`, `buckling`, `campbell`, `response` or `modes`. The file needs
+no network and nothing beside it. Needs numpy, h5py and matplotlib, and three.js (Debian:
+libjs-three) for the view in space. Exit codes: 0 done, 1 wrong usage, 5 nothing to report on, a
+file that cannot be read or written. Where one of several files is damaged the report shows the
+others, and the exit code is 5 as well.
 """
 import argparse
 import pathlib
@@ -14,7 +16,8 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[0] = str(HERE.parent)
 
-from report.files import USAGE, Unreadable, fail, failing, reading, write  # noqa: E402: of the folder above
+from report.files import (USAGE, Unreadable, fail, failing, reading,
+                          write)  # noqa: E402: of the folder above
 
 try:
     import h5py  # noqa: F401
@@ -22,9 +25,8 @@ try:
     from report import of_map, of_run, of_study, of_tables
     from report.page import viewer
 except ImportError as missing:
-    fail(
-        f"{missing}: the report needs numpy, h5py and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3)."
-    )
+    fail(f"{missing}: the report needs numpy, h5py and matplotlib (Debian: python3-h5py "
+         "python3-matplotlib, then /usr/bin/python3).")
 
 
 class Arguments(argparse.ArgumentParser):
@@ -37,9 +39,8 @@ class Arguments(argparse.ArgumentParser):
 def page_of(folder):
     """The page of what the folder holds."""
     if not folder.is_dir():
-        raise Unreadable(
-            f"\"{folder}\" is no folder. Name the results folder of a run, a study, a map, torque-drag, bha, buckling, campbell, response or modes."
-        )
+        raise Unreadable(f"\"{folder}\" is no folder. Name the results folder of a run, a study, a "
+                         "map, torque-drag, bha, buckling, campbell, response or modes.")
     if (folder / "study.csv").is_file() or (folder / "study.h5").is_file():
         return of_study.page_of(folder)
     if (folder / "results.h5").is_file():
@@ -49,15 +50,18 @@ def page_of(folder):
     if any((folder / name).is_file() for name in ("torque_drag.csv", "bha.csv", "buckling.csv",
                                                   "campbell.h5", "response.h5", "modes.csv")):
         return of_tables.page_of(folder)
-    for name, what in (("results.h5.part", "run"), ("study.csv.part", "study"), ("map.csv.part",
-                                                                                 "map")):
+    for name, what in (
+        ("results.h5.part", "run"),
+        ("study.csv.part", "study"),
+        ("map.csv.part", "map"),
+    ):
         if (folder / name).is_file():
-            raise Unreadable(
-                f"{folder} holds {name}, the results of a {what} that has not ended. Wait for its end, or start it again."
-            )
-    raise Unreadable(
-        f"{folder} holds no results.h5, study.csv, map.csv, torque_drag.csv, bha.csv, buckling.csv, campbell.h5, response.h5 or modes.csv. Name the results folder of a run, a study, a map, torque-drag, bha, buckling, campbell, response or modes."
-    )
+            raise Unreadable(f"{folder} holds {name}, the results of a {what} that has not ended. "
+                             "Wait for its end, or start it again.")
+    raise Unreadable(f"{folder} holds no results.h5, study.csv, map.csv, torque_drag.csv, bha.csv, "
+                     "buckling.csv, campbell.h5, response.h5 or modes.csv. Name the results "
+                     "folder of a run, a study, a map, torque-drag, bha, buckling, campbell, "
+                     "response or modes.")
 
 
 def main():

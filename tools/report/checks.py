@@ -15,7 +15,8 @@ CHECKS = (
 
 
 def measured(summary):
-    """(name, value, bound) of the checks that this run allows; a stage that did not run has none."""
+    """(name, value, bound) of the checks that this run allows; a stage that did not run has
+    none."""
     found = []
     for name, measure, bound in CHECKS:
         try:

@@ -10,7 +10,9 @@ from report.quantities import fixed
 BLUE, ORANGE, GREEN = COLOURS[:3]
 PICTURE_ROWS = 240  # of contact forces over time and depth
 JOINT = 15.0  # [m]: longer than a joint of drill pipe (API range 3, with its tool joint)
-RESOLVED = 8  # rows of the picture for each joint of pipe: then the pipe body between its tool joints is seen on its own
+# rows of the picture for each joint of pipe: then the pipe body between its tool joints is seen on
+# its own
+RESOLVED = 8
 STRETCHES = 100  # of a profile that changes from element to element; longer than a joint of pipe
 MOST_BARS = 400  # of nodes along a profile
 FLOOR = 1e-8  # of the largest value of a spectrum, where its picture ends
@@ -21,7 +23,8 @@ EVEN = 1e-3  # of its size: a quantity that changes less is a line, not a pictur
 class Figure:
     """An inline SVG with its caption; wide ones take two columns of the page, large ones a row."""
     def __init__(self, name, made, caption, wide=False, large=False):
-        self.name, self.caption, self.size = name, caption, "wide large" if large else "wide" if wide else "slender"
+        self.name, self.caption, self.size = (name, caption, "wide large"
+                                              if large else "wide" if wide else "slender")
         self.svg = plots.inline_svg(made, name, tight=large)
 
 
@@ -100,7 +103,8 @@ def static_profiles(run):
 
 
 def draw_clearance(axes, s, clearance):
-    """The clearance [mm], pale; where it changes within a stretch of depth, as at tool joints, the least of it darker."""
+    """The clearance [mm], pale; where it changes within a stretch of depth, as at tool joints, the
+    least of it darker."""
     depth, narrow, wide = plots.stretches(s, 1e3 * clearance, min(STRETCHES, len(s) - 1))
     changes = np.any(wide > 1.001 * narrow)
     axes.fill_betweenx(depth, 0, wide, step="mid", color="#ececec", linewidth=0,
@@ -111,14 +115,16 @@ def draw_clearance(axes, s, clearance):
 
 
 def bars(axes, depth, values, colour, width=1.1):
-    """A line from zero for each node; of many nodes the largest of each stretch, which is no wider on the page than a line."""
+    """A line from zero for each node; of many nodes the largest of each stretch, which is no wider
+    on the page than a line."""
     if len(depth) > MOST_BARS:
         depth, _, values = plots.stretches(depth, values, MOST_BARS)
     axes.hlines(depth, 0, values, color=colour, linewidth=width)
 
 
 def banded(axes, values, depth, colour):
-    """Values along the depth; of many elements the largest of each stretch, and pale the range down to the smallest."""
+    """Values along the depth; of many elements the largest of each stretch, and pale the range down
+    to the smallest."""
     if len(depth) > 4 * STRETCHES:
         depth, low, values = plots.stretches(depth, values, STRETCHES)
         axes.fill_betweenx(depth, low, values, color=colour, alpha=0.2, linewidth=0)
@@ -126,7 +132,8 @@ def banded(axes, values, depth, colour):
 
 
 def draw_bit_speed(axes, time, bit, rotary):
-    """Speeds [rad/s] of the bit and at the surface; a bit that turns evenly is a line, not a picture of rounding."""
+    """Speeds [rad/s] of the bit and at the surface; a bit that turns evenly is a line, not a
+    picture of rounding."""
     axes.plot(*plots.envelope(time, RPM * bit), color=BLUE, linewidth=0.8, label="bit")
     axes.plot(*plots.envelope(time, RPM * rotary), color=ORANGE, linewidth=1.4, label="surface")
     low, high = axes.get_ylim()
@@ -147,8 +154,9 @@ def bit_speed(run):
 def surface(run):
     """Torques and hook load over time, as far as they are recorded.
 
-    Torques have one sign, positive against the rotation: /transient/surface_torque is against the rotation of each sample (to the right where nothing turns),
-    /transient/torque_on_bit against a rotation to the right."""
+    Torques have one sign, positive against the rotation: /transient/surface_torque is against the
+    rotation of each sample (to the right where nothing turns), /transient/torque_on_bit against a
+    rotation to the right."""
     found = []
     sense = run.sense() or 1
     signs = {"surface_torque": sense * np.where(run.rotary() < 0, -1, 1), "torque_on_bit": sense}
@@ -159,7 +167,7 @@ def surface(run):
             ("torque_on_bit", "of the rock on the bit", BLUE),
         )),
         ("hook-loads", "hook load [kN]", "", (("hook_load", "what the hook carries, without block",
-                                               ORANGE), )),
+                                               ORANGE),)),
     ):
         recorded = [(signs.get(data, 1) * values, text, colour) for data, text, colour in lines
                     if (values := run.get(f"/transient/{data}")) is not None]
@@ -176,24 +184,26 @@ def surface(run):
         plots.legend_above(axes)
         found.append(
             Figure(
-                name, made,
-                f"{label.split(' [')[0].capitalize()} over time: {' and '.join(text for _, text, _ in recorded)}{said}.",
-                True))
+                name, made, f"{label.split(' [')[0].capitalize()} over time: "
+                f"{' and '.join(text for _, text, _ in recorded)}{said}.", True))
     return found
 
 
 def joint_length(s, radius):
-    """Largest distance [m] of neighbouring nodes that touch first, wider than the nodes beside them; 0 without such a pattern of tool joints."""
+    """Largest distance [m] of neighbouring nodes that touch first, wider than the nodes beside
+    them; 0 without such a pattern of tool joints."""
     above, own, below = radius[:-2], radius[1:-1], radius[2:]
     apart = np.diff(s[1:-1][(own >= above) & (own >= below) & (own > np.minimum(above, below))])
     return max(apart[apart <= JOINT], default=0.0)
 
 
 def contact_picture(s, middles, radius, force):
-    """Contact force over depth (rows, equal stretches) and time: the largest of the nodes whose stretch of the string is in a row.
+    """Contact force over depth (rows, equal stretches) and time: the largest of the nodes whose
+    stretch of the string is in a row.
 
-    Pipe bodies between tool joints seldom touch. A row that is finer than a joint of pipe, but too coarse to show it, would hold a pipe body here and
-    a tool joint there: it is made as long as a joint."""
+    Pipe bodies between tool joints seldom touch. A row that is finer than a joint of pipe, but too
+    coarse to show it, would hold a pipe body here and a tool joint there: it is made as long as a
+    joint."""
     rows, joint = PICTURE_ROWS, joint_length(s, radius)
     if joint * rows < RESOLVED * (s[-1] - s[0]):
         rows = min(rows, int((s[-1] - s[0]) / joint)) if joint > 0 else rows
@@ -220,9 +230,9 @@ def contact(run, found):
     made.colorbar(shown, ax=axes, label="contact force [kN]")
     return [
         Figure(
-            "contact", made,
-            f"Contact force over the motion, the largest of each {(s[-1] - s[0]) / len(picture):.2g} m of depth; white: no contact.",
-            True), *shares]
+            "contact", made, "Contact force over the motion, the largest of each "
+            f"{(s[-1] - s[0]) / len(picture):.2g} m of depth; white: no contact.", True), *shares
+    ]
 
 
 def contact_shares(run, found):
@@ -258,7 +268,8 @@ def vibration(run, motion):
 
 
 def whirl(run, motion, number, turned):
-    """What a caption says of the mean precession of a chosen node: positive in the sense of the rotation. `turned`: of results.sides."""
+    """What a caption says of the mean precession of a chosen node: positive in the sense of the
+    rotation. `turned`: of results.sides."""
     half = slice(motion.first, None)
     time = run.time[half]
     a, b = turned @ motion.histories[half, number, :2].T
@@ -269,16 +280,20 @@ def whirl(run, motion, number, turned):
     ratio = f", {fixed(turn / speed, 2)} of the surface speed" if speed > 0 else ""
     forward = {
         1: "clockwise is forward, positive", -1: "anticlockwise is forward, positive",
-        0: "clockwise is positive"}[sense]
+        0: "clockwise is positive"
+    }[sense]
     coarse = ""
     if motion.velocities is None and len(time) > 1:
-        turns = f"; {2 * np.pi / speed / np.median(np.diff(time)):.3g} samples a turn of the surface" if speed > 0 else ""
-        coarse = f"; from displacements alone, without velocity in Output/Fields: 1 % too small at 26 samples a turn of the orbit, 10 % at 8{turns}"
+        turns = (f"; {2 * np.pi / speed / np.median(np.diff(time)):.3g} samples a turn of the "
+                 "surface") if speed > 0 else ""
+        coarse = ("; from displacements alone, without velocity in Output/Fields: 1 % too small "
+                  f"at 26 samples a turn of the orbit, 10 % at 8{turns}")
     return f"mean precession {fixed(RPM * turn, 1)} rpm{ratio}; {forward}{coarse}"
 
 
 def orbits(run, motion, chosen):
-    """The path of the axis of the string in the bore at those of the chosen nodes that vibrate, in the second half of the motion, looking down the hole."""
+    """The path of the axis of the string in the bore at those of the chosen nodes that vibrate, in
+    the second half of the motion, looking down the hole."""
     found = []
     clearance = run.get("/model/clearance")
     half = slice(motion.first, None)
@@ -298,12 +313,13 @@ def orbits(run, motion, chosen):
         axes.plot(b[-1], a[-1], "o", color=ORANGE, markersize=4)
         plots.square(axes, 1.08 * largest)
         axes.set_xlabel(f"{right} [mm]"), axes.set_ylabel(f"{up} [mm]")
-        circle = "" if gap < 20 * largest else f"; the clearance of {gap:.0f} mm is out of the picture"
+        circle = "" if gap < 20 * largest else (f"; the clearance of {gap:.0f} mm is out of the "
+                                                "picture")
         found.append(
             Figure(
-                f"orbit-{number + 1}", made,
-                f"Orbit at {run.s[node]:.1f} m, {why}, second half of the motion, looking down the hole; {whirl(run, motion, number, turned)}{circle}."
-            ))
+                f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}, second half of "
+                "the motion, looking down the hole; "
+                f"{whirl(run, motion, number, turned)}{circle}."))
     return found
 
 
@@ -343,9 +359,8 @@ def spectra(run, motion, chosen):
             plots.legend_above(axes, 3)
             found.append(
                 Figure(
-                    "lateral-spectrum", made,
-                    f"Spectra of the lateral displacement at the nodes of the orbits, second half of the motion, {DOWN_TO}.",
-                    True))
+                    "lateral-spectrum", made, "Spectra of the lateral displacement at the nodes "
+                    f"of the orbits, second half of the motion, {DOWN_TO}.", True))
         else:
             plots.plt.close(made)
     bit = run.bit_speed()

@@ -33,14 +33,14 @@ def overview(run):
             f"{factor * row['rms_difference']:.3g}", f"{row['computed_index']:.3g}",
             f"{row['measured_index']:.3g}",
             peak("computed"),
-            peak("measured")])
+            peak("measured")
+        ])
     titles = ("column", "quantity", "unit", "mean computed", "measured", "mean difference",
               "rms difference", "(max - min)/(2 mean) computed", "measured", "peak [Hz] computed",
               "measured")
     return table(
-        titles, rows, range(3, len(titles)),
-        "Computed less measured over the common window; (max - min)/(2 mean) of a speed is the stick-slip index"
-    ) if rows else ""
+        titles, rows, range(3, len(titles)), "Computed less measured over the common window; (max "
+        "- min)/(2 mean) of a speed is the stick-slip index") if rows else ""
 
 
 def beside(run):

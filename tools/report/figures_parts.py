@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of a run of imported parts: displacements of all nodes, the nodes that move most, forces of point laws."""
+"""Figures of a run of imported parts: displacements of all nodes, the nodes that move most, forces
+of point laws."""
 import h5py
 import numpy as np
 
@@ -21,7 +22,8 @@ def label(name, unit):
 
 
 def node_name(run, row):
-    return f"node {run.get('/model/node')[row]} of {results.texts(run.file['/model/part_names'])[run.get('/model/part')[row] - 1]}"
+    return (f"node {run.get('/model/node')[row]} of "
+            f"{results.texts(run.file['/model/part_names'])[run.get('/model/part')[row] - 1]}")
 
 
 def start_of(run):
@@ -68,9 +70,8 @@ def displacements(run):
         plots.legend_above(axes)
         found.append(
             Figure(
-                f"nodes-{c + 1}", made,
-                f"Component {name} of all {'' if run.moves or not run.records else 'recorded '}nodes.",
-                True))
+                f"nodes-{c + 1}", made, f"Component {name} of all "
+                f"{'' if run.moves or not run.records else 'recorded '}nodes.", True))
     return found
 
 

@@ -14,7 +14,8 @@ DAMAGE = (OSError, RuntimeError, LookupError, ArithmeticError, AttributeError, T
           ValueError, csv.Error)  # what a damaged file raises while it is read and drawn
 REASONS = {
     errno.ENOSPC: "the disk is full", errno.EDQUOT: "the quota of the disk is used up",
-    errno.EFBIG: "the file would be larger than the limit of the process (ulimit -f)"}
+    errno.EFBIG: "the file would be larger than the limit of the process (ulimit -f)"
+}
 
 
 class Unreadable(Exception):
@@ -85,7 +86,8 @@ def write(path, text):
 
 
 def read_rows(path):
-    """Rows of a CSV file, its header first, as lists of texts. Unreadable where a row is cut off or has another number of cells."""
+    """Rows of a CSV file, its header first, as lists of texts.
+    Unreadable where a row is cut off or has another number of cells."""
     with reading(path):
         text = path.read_bytes().decode("utf-8")
         rows = list(csv.reader(io.StringIO(text, newline="")))
@@ -103,7 +105,8 @@ def read_rows(path):
 
 
 class Row(dict):
-    """A row of a table by the names of its columns: numbers, and texts where a cell holds no number."""
+    """A row of a table by the names of its columns: numbers, and texts where a cell holds no
+    number."""
     def __init__(self, cells, path):
         super().__init__(cells)
         self.path = path
@@ -113,7 +116,9 @@ class Row(dict):
 
 
 def read_table(path, *needed):
-    """A Row for each row of a CSV file; names without their units. Unreadable where a column with a unit holds a text, or where one of the columns `needed` is missing."""
+    """A Row for each row of a CSV file; names without their units.
+    Unreadable where a column with a unit holds a text, or where one of the columns `needed` is
+    missing."""
     def value(text, title, number):
         try:
             return float(text)
@@ -128,7 +133,8 @@ def read_table(path, *needed):
     titles, *rows = read_rows(path)
     found = [
         Row({title.split(" [")[0]: value(text, title, number)
-             for title, text in zip(titles, row)}, path) for number, row in enumerate(rows, 2)]
+             for title, text in zip(titles, row)}, path) for number, row in enumerate(rows, 2)
+    ]
     for name in needed:
         numbers(found, name)
     return found

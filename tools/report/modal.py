@@ -19,7 +19,8 @@ TITLES = {
     "full_damping": "damping ratio", "coupled_mode": "coupled mode",
     "coupled": "reduced model [Hz]", "coupled_im": "in motion [Hz]",
     "coupled_damping": "damping ratio", "mac": "MAC", "error": "error",
-    "estimate": "estimated error", "definite": "complete"}
+    "estimate": "estimated error", "definite": "complete"
+}
 FREQUENCIES, RATIOS, SHARES = ("full", "full_im", "coupled",
                                "coupled_im"), ("full_damping", "coupled_damping", "mac"), (
                                    "error",
@@ -52,7 +53,8 @@ def whole_numbers(axes):
 
 
 def modes_figure(name, rows, columns, label, caption, zero=False):
-    """Columns of a full and of a reduced model, a mark for each mode; none where all are missing or 0."""
+    """Columns of a full and of a reduced model, a mark for each mode; none where all are missing or
+    0."""
     made, axes = plots.figure(plots.WIDE, 2.4)
     for column, text, marker, colour in columns:
         if column in rows[0] and any(value
@@ -81,7 +83,8 @@ def errors_figure(rows):
     axes.plot(numbers(made_of, "mode"), [abs(x) for x in numbers(made_of, "error")], "o",
               color=COLOURS[0], markersize=4, label="error")
     estimated = [
-        row for row in made_of if isinstance(row.get("estimate"), float) and row["estimate"] > 0]
+        row for row in made_of if isinstance(row.get("estimate"), float) and row["estimate"] > 0
+    ]
     if estimated:
         axes.plot(numbers(estimated, "mode"), numbers(estimated, "estimate"), "s", markersize=4,
                   markerfacecolor="none", color=COLOURS[1], label="estimate")
@@ -92,7 +95,8 @@ def errors_figure(rows):
     return [
         Figure("mode-errors", made,
                "Errors of the coupled frequencies, and their estimates without the full model.",
-               True)]
+               True)
+    ]
 
 
 def shapes_figure(folder):
@@ -103,14 +107,16 @@ def shapes_figure(folder):
         made = rotating.mode_shapes_figure(results)
     return [] if made is None else [
         Figure("mode-shapes", made, "The lowest undamped modes of the full model in the hole.",
-               large=True)]
+               large=True)
+    ]
 
 
 def table_of(rows, damped):
     """All modes, each column with as many decimals as its largest number needs."""
     names = [
         name for name in TITLES
-        if name in rows[0] and (damped or not name.endswith(("_damping", "_im")))]
+        if name in rows[0] and (damped or not name.endswith(("_damping", "_im")))
+    ]
 
     def column(name):
         values = numbers(rows, name)
@@ -123,7 +129,8 @@ def table_of(rows, damped):
         return [
             percent(value)
             if name in SHARES else fixed(value, decimals) if math.isfinite(value) else "-"
-            for value in values]
+            for value in values
+        ]
 
     return tables.table([TITLES[name] for name in names], list(zip(*map(column, names))),
                         range(len(names)),
@@ -135,11 +142,13 @@ def grows(rows):
     return [
         row for row in rows if any(
             isinstance(row.get(name), float) and row[name] < 0
-            for name in ("full_damping", "coupled_damping"))]
+            for name in ("full_damping", "coupled_damping"))
+    ]
 
 
 def growing(count):
-    return "no mode grows" if count == 0 else "1 mode grows" if count == 1 else f"{count} modes grow"
+    return ("no mode grows"
+            if count == 0 else "1 mode grows" if count == 1 else f"{count} modes grow")
 
 
 def headline(results):

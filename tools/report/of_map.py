@@ -20,7 +20,8 @@ def limit(value):
     """"unsafe above 6.5" of a value; "" where it has no limit."""
     words = [
         f"{side} {value[f'unsafe_{side}']:g}" for side in ("below", "above")
-        if value[f"unsafe_{side}"] is not None]
+        if value[f"unsafe_{side}"] is not None
+    ]
     return "unsafe " + " and ".join(words) if words else ""
 
 
@@ -37,8 +38,9 @@ def point(made, row):
 
 
 def extremes(value, grid):
-    """(word, row of the table) of the best and the worst point of a value. A limit on one side tells which is which; without one they are the
-    least and the largest. Empty where no point has the value."""
+    """(word, row of the table) of the best and the worst point of a value.
+    A limit on one side tells which is which; without one they are the least and the largest. Empty
+    where no point has the value."""
     if not np.isfinite(grid).any():
         return []
     least, largest = int(np.nanargmin(grid)), int(np.nanargmax(grid))
@@ -49,13 +51,15 @@ def extremes(value, grid):
 
 
 def safe(made):
-    """Points whose values are known and safe, as far as they have a limit; None for a map without limits."""
+    """Points whose values are known and safe, as far as they have a limit; None for a map without
+    limits."""
     limited = [value for value in made.values if limit(value)]
     if not limited:
         return None
     return np.all([
         np.isfinite(made.grid[value["name"]]) & ~plot_map.unsafe(value, made.grid[value["name"]])
-        for value in limited], axis=0)
+        for value in limited
+    ], axis=0)
 
 
 def headline(made, summary):
@@ -133,7 +137,8 @@ def points_table(made):
     """A row per point, with the values that are unsafe there."""
     beyond = {
         value["name"]: plot_map.unsafe(value, made.grid[value["name"]]).ravel()
-        for value in made.values}
+        for value in made.values
+    }
     some_failed = any(row["reason"] for row in made.rows)
     names = [axis["name"] for axis in made.axes]
     rows = []
@@ -145,7 +150,8 @@ def points_table(made):
         rows.append([
             row["point"], *(pathlib.PurePath(row[name]).name for name in names), *values, unsafe,
             row["status"], *(plain(float(row[name]), 3) for name in ("cpu", "wall")),
-            *([reason(row)] if some_failed else [])])
+            *([reason(row)] if some_failed else [])
+        ])
     numeric = [1 + k for k, axis in enumerate(made.axes) if axis["numeric"]]
     after = 1 + len(names) + len(made.values)
     columns = {0, *numeric, *range(1 + len(names), after), after + 2, after + 3}
@@ -167,7 +173,8 @@ def computation(summary, attributes):
         ("Date", attributes.get("date", ""), ""),
         ("Ranks", plain(summary["ranks"]), ""),
         ("Wall time", f"{plain(summary['wall_s'], 3)} s",
-         "of the last command; points that were known from before took none of it"), ])
+         "of the last command; points that were known from before took none of it"),
+    ])
 
 
 def attributes_of(folder):
@@ -175,7 +182,8 @@ def attributes_of(folder):
     with results.open_results(folder / "map.h5") as file:
         return {
             name: value.decode() if isinstance(value, bytes) else value
-            for name, value in file.attrs.items()}
+            for name, value in file.attrs.items()
+        }
 
 
 def page_of(folder):
@@ -195,8 +203,8 @@ def page_of(folder):
     page.add("figures", "Figures", headline(made, summary["map"]))
     shown = draw_all(made)
     count = sum(1 for _ in made.pictures())
-    more = f'<p class="remark">The first {len(shown)} of {count} maps; tools/plot_map.py draws all into the folder.</p>' if count > len(
-        shown) else ""
+    more = (f'<p class="remark">The first {len(shown)} of {count} maps; tools/plot_map.py draws '
+            'all into the folder.</p>') if count > len(shown) else ""
     page.plots("maps", "Maps", shown, more)
     page.add("grid", "Parameters and values", grid_tables(made))
     page.add("points", "Points", points_table(made))
@@ -204,5 +212,7 @@ def page_of(folder):
     page.add("numerics", "Computation", computation(summary, attributes))
     rows = list(deck.rows(scene))
     page.add("deck", "Deck", tables.of_deck(rows) if rows else "")
-    page.footer = f"Written by tooljoint report from {folder}: program {attributes.get('program_version', '')} ({attributes.get('git_hash', '')}), {attributes.get('date', '')}."
+    page.footer = (f"Written by tooljoint report from {folder}: program "
+                   f"{attributes.get('program_version', '')} ({attributes.get('git_hash', '')}), "
+                   f"{attributes.get('date', '')}.")
     return page

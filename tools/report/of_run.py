@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a run: of a string in its well, or of imported parts."""
-from report import checks, deck, figures, figures_measured, figures_parts, frame, modal, results, scene3d, tables, torque_drag
+from report import (checks, deck, figures, figures_measured, figures_parts, frame, modal, results,
+                    scene3d, tables, torque_drag)
 from report.page import Page, cards
 from report.quantities import both, fixed, percent
 
@@ -59,9 +60,8 @@ def conditions(run, scene):
     if run.value("transient.model"):
         basis = f" ({run.value('reduction.basis')})" if run.value(
             "transient.model") == "reduced" else ""
-        words.append(
-            f"{run.value('transient.model')} model{basis}, {run.value('transient.start'):g} to {run.value('transient.end'):g} s"
-        )
+        words.append(f"{run.value('transient.model')} model{basis}, "
+                     f"{run.value('transient.start'):g} to {run.value('transient.end'):g} s")
     elif "/static" in run.file:
         words.append("static state")
     return ", ".join(words)
@@ -91,8 +91,8 @@ def motion_sections(page, run):
         motion = results.Motion(run, chosen)
         page.plots("motion", "Motion", [
             *over_time(run), *figures.contact(run, results.Contact(run)),
-            *figures.vibration(run, motion)],
-                   tables.pairs(results.merits(run, motion), results.times_of_merits(run, motion)))
+            *figures.vibration(run, motion)
+        ], tables.pairs(results.merits(run, motion), results.times_of_merits(run, motion)))
         page.plots("orbits", "Orbits", figures.orbits(run, motion, chosen))
         page.plots("spectra", "Spectra", figures.spectra(run, motion, chosen))
     elif run.time is not None:

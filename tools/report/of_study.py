@@ -14,17 +14,19 @@ CAPTIONS = {
     "bit_speed": "Bit speed of the reference and of methods.",
     "statistics": "Statistics beyond the window.",
     "static": "The state at rest that every run starts from.",
-    "reference": "How far the reference can be trusted.", }
+    "reference": "How far the reference can be trusted.",
+}
 
 
 def headline(summary):
     rows = [
         row for row in summary.get("study") or [] if row["kind"] == "method"
-        and row["status"] == "done" and row["vibration_error"] is not None]
+        and row["status"] == "done" and row["vibration_error"] is not None
+    ]
     found = []
     full, reduced = ([
-        row for row in rows if row["model"] == model and row["vibration_error"] <= 0.01]
-                     for model in ("full", "reduced"))
+        row for row in rows if row["model"] == model and row["vibration_error"] <= 0.01
+    ] for model in ("full", "reduced"))
     for name, own in (
         ("Fastest full run within 1 %", full),
         ("Fastest reduced run within 1 %", reduced),
@@ -55,9 +57,8 @@ def page_of(folder):
     summary = results.read_summary(folder)
     for name in ("study.csv", "study.h5"):
         if not (folder / name).is_file():
-            raise files.Unreadable(
-                f"{folder} holds no {name}: the study did not end. Run it again; it goes on from the runs it has."
-            )
+            raise files.Unreadable(f"{folder} holds no {name}: the study did not end. Run it "
+                                   "again; it goes on from the runs it has.")
     with files.reading(folder / "study.csv"):
         study = plot_study.Study(folder)
     page = Page(f"Study: {study.attribute('deck_name', folder.name)}",
@@ -78,7 +79,9 @@ def page_of(folder):
     scene = deck.read(study.attribute("deck_text", ""), study.attribute("overrides", ""))
     rows = list(deck.rows(scene))
     page.add("deck", "Deck", tables.of_deck(rows) if rows else "")
-    page.footer = f"Written by tooljoint report from {folder}: program {study.attribute('program_version', '')} ({study.attribute('git_hash', '')}), {study.attribute('date', '')}."
+    page.footer = (f"Written by tooljoint report from {folder}: program "
+                   f"{study.attribute('program_version', '')} ({study.attribute('git_hash', '')}), "
+                   f"{study.attribute('date', '')}.")
     return page
 
 

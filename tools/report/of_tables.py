@@ -20,7 +20,9 @@ def state_name(row):
     """Weight, hole and tool face of a row of bha.csv, and whether the string buckles."""
     face = "rotating" if row[
         "mode"] == "rotating" else f"tool face {math.degrees(row['tool_face']):.0f} deg"
-    return f"{row['weight_on_bit'] / 1e3:.0f} kN ({1e-3 * row['weight_on_bit'] / POUND:.0f} klbf), {math.degrees(row['inclination']):.0f} deg, {face}{', UNSTABLE' if unstable(row) else ''}"
+    return (f"{row['weight_on_bit'] / 1e3:.0f} kN ({1e-3 * row['weight_on_bit'] / POUND:.0f} "
+            f"klbf), {math.degrees(row['inclination']):.0f} deg, "
+            f"{face}{', UNSTABLE' if unstable(row) else ''}")
 
 
 def along_assembly(name, label, caption, states, value):
@@ -37,12 +39,14 @@ def along_assembly(name, label, caption, states, value):
 
 
 def without_common(states):
-    """What the names of all states begin with, for a caption, and the states by the rest of their names."""
+    """What the names of all states begin with, for a caption, and the states by the rest of their
+    names."""
     names = [name.split(", ") for name in states]
     count = len(os.path.commonprefix([parts[:-1] for parts in names])) if len(names) > 1 else 0
     common = ", ".join(names[0][:count]) if count else ""
     return f", {common}" if common else "", {
-        ", ".join(parts[count:]): own for parts, own in zip(names, states.values())}
+        ", ".join(parts[count:]): own for parts, own in zip(names, states.values())
+    }
 
 
 def unstable(row):
@@ -50,7 +54,8 @@ def unstable(row):
 
 
 def bha_headline(results):
-    """Cards of the state of the largest weight under which the string is stable, and of those under which it is not."""
+    """Cards of the state of the largest weight under which the string is stable, and of those under
+    which it is not."""
     rows = results.value("bha.rows") or []
     found = []
     lost = sum(map(unstable, rows))
@@ -73,7 +78,8 @@ def bha_headline(results):
             ("Largest bending moment", *both(row["largest_moment"], "torque"),
              f"at {row['largest_moment_from_bit']:.1f} m from the bit; {state}", False),
             ("Unstable states", str(lost), f"of {len(rows)}",
-             "the string buckles under that weight" if lost else "", lost > 0), ]
+             "the string buckles under that weight" if lost else "", lost > 0),
+        ]
     return cards(found) if found else ""
 
 
@@ -100,7 +106,8 @@ def add_bha(page, folder):
                        "The same to the right, looking down the hole.", states,
                        lambda row: 1e3 * row["deflection_right"]),
         along_assembly("bha-moment", "bending moment [kN m]", "Bending moment.", states,
-                       lambda row: math.hypot(row["moment_high"], row["moment_right"]) / 1e3)]
+                       lambda row: math.hypot(row["moment_high"], row["moment_right"]) / 1e3)
+    ]
     degree = 180 / math.pi
     shown = (
         ("side force, high [kN]", "side_force_high", 1e-3, 3),
@@ -114,15 +121,15 @@ def add_bha(page, folder):
         ("largest moment [kN m]", "largest_moment", 1e-3, 3),
         ("stress [MPa]", "largest_von_mises", 1e-6, 1),
     )
-    table = tables.table(("state", *(title for title, *_ in shown)), [
-        (state_name(row),
-         *(fixed(row[name] * factor, decimals) if isinstance(row.get(name), float) else "-"
-           for _, name, factor, decimals in shown)) for row in rows
-    ], range(
-        1,
-        len(shown) + 1
-    ), "Side force of the bit on the rock, to the high side and to the right side of the hole; tangency and sag as far from the bit as they are computed"
-                         )
+    table = tables.table(
+        ("state", *(title for title, *_ in shown)),
+        [(state_name(row),
+          *(fixed(row[name] * factor, decimals) if isinstance(row.get(name), float) else "-"
+            for _, name, factor, decimals in shown))
+         for row in rows], range(1,
+                                 len(shown) + 1), "Side force of the bit on the rock, to the high "
+        "side and to the right side of the hole; tangency and sag as far from the "
+        "bit as they are computed")
     page.plots("bha", "Bottom-hole assembly", found, after=table)
 
 
@@ -161,14 +168,15 @@ def add_buckling(page, folder):
     rows = read_table(folder / "buckling.csv")
     found = [
         against_weight(
-            "buckling-path", "displacement [mm]",
-            "Displacement of the bit down the hole, and the share of bending in it, up the hole; gaps are jumps.",
-            rows, (("bit_advance", "bit"), ("shortening", "shortening by bending")), 1e3),
+            "buckling-path", "displacement [mm]", "Displacement of the bit down the hole, and the "
+            "share of bending in it, up the hole; gaps are jumps.", rows,
+            (("bit_advance", "bit"), ("shortening", "shortening by bending")), 1e3),
         against_weight(
-            "buckling-contact", "contact force [N/m]",
-            "Contact force per length of the middle half of the compressed part, beside that of a helix, r F^2/(4 E I).",
-            rows, (("contact_force", "contact force"), ("helical_contact_force", "helix")), 1.0),
-        buckled_shape(read_table(folder / "buckling_profile.csv"))]
+            "buckling-contact", "contact force [N/m]", "Contact force per length of the middle "
+            "half of the compressed part, beside that of a helix, r F^2/(4 E I).", rows,
+            (("contact_force", "contact force"), ("helical_contact_force", "helix")), 1.0),
+        buckled_shape(read_table(folder / "buckling_profile.csv"))
+    ]
     shown = rows[::max(1, len(rows) // BUCKLING_ROWS)]
     table = tables.table(
         ("weight on bit [kN]", "bit [mm]", "largest contact force [kN]", "negative pivots",
@@ -179,7 +187,8 @@ def add_buckling(page, folder):
                                                 ("negative_pivots", 1, 0), ("half_waves", 1, 0),
                                                 ("contact_force", 1, 1),
                                                 ("helical_contact_force", 1, 1), ("branch", 1, 0)))
-             for row in shown], range(8), "States of the path; buckling.csv has all")
+             for row in shown
+         ], range(8), "States of the path; buckling.csv has all")
     page.plots("buckling", "Buckling", found, after=table)
 
 
@@ -202,22 +211,22 @@ def of_rotation(results, pictures):
     """Figures of functions of an open HDF5 file, name -> (function, caption)."""
     return [
         Figure(name, made, caption, True, large=True)
-        for name, (function, caption) in pictures.items()
-        if (made := function(results)) is not None]
+        for name, (function, caption) in pictures.items() if (made := function(results)) is not None
+    ]
 
 
 def rotation_error(results, analysis):
     """The card of the largest error of a reduced model, if there is one."""
     error = results.value(f"{analysis}.largest_error")
-    return [] if error is None else [
-        ("Largest error", percent(error), "", "of the reduced model, by spot checks", False)]
+    return [] if error is None else [("Largest error", percent(error), "",
+                                      "of the reduced model, by spot checks", False)]
 
 
 def campbell_headline(results):
     """Cards of critical speeds and of damping."""
     crossings = results.value("campbell.crossings") or []
-    found = [
-        ("Critical speeds", str(len(crossings)), "", "crossings with lines of excitations", False)]
+    found = [("Critical speeds", str(len(crossings)), "", "crossings with lines of excitations",
+              False)]
     once = sorted(one["speed_rpm"] for one in crossings if one["order"] == 1)
     if once:
         found.append(("Lowest at the rotary speed", f"{fixed(once[0], 1)} rpm",
@@ -239,13 +248,12 @@ def add_campbell(page, folder):
             results_["campbell/damping"][:] < -rotating.ROUNDING).any() else ""
         found = of_rotation(
             results_, {
-                "campbell": (
-                    rotating.campbell_figure,
-                    f"Damped modes against the rotary speed, lines of the excitations, critical speeds{grow}."
-                ),
+                "campbell": (rotating.campbell_figure, "Damped modes against the rotary speed, "
+                             f"lines of the excitations, critical speeds{grow}."),
                 "campbell-shapes": (
                     rotating.shapes_figure,
-                    "Modes in the hole: at critical speeds, and at one speed of the diagram."), })
+                    "Modes in the hole: at critical speeds, and at one speed of the diagram."),
+            })
         crossings = rotating.columns(results_, "crossings")
         names = {(order, offset): name for name, order, offset in zip(
             rotating.texts(results_["excitations"]), results_["orders"][:], results_["offsets"][:])}
@@ -254,7 +262,8 @@ def add_campbell(page, folder):
          fixed(plots.RPM * crossings["speed"][i], 2), fixed(crossings["frequency"][i], 4),
          fixed(crossings["damping"][i], 4) +
          (" UNSTABLE" if crossings["damping"][i] < -rotating.ROUNDING else ""),
-         rotating.whirl_word(crossings["whirl"][i])) for i in range(len(crossings["order"]))]
+         rotating.whirl_word(crossings["whirl"][i])) for i in range(len(crossings["order"]))
+    ]
     table = tables.table(("excitation", "mode", "speed [rpm]", "frequency [Hz]", "damping ratio",
                           "whirl"), rows, range(1, 5)) if rows else ""
     page.plots(
@@ -277,10 +286,9 @@ def response_headline(results):
               False) for output, peak in list(largest.items())[:MOST_PEAKS]]
     moment = results.value("response.bending_moment")
     if moment is not None:
-        found.append(("Bending moment", *both(
-            moment, "torque"
-        ), f"beside that at rest, at {both(results.value('response.bending_depth'), 'length')[0]} and {fixed(results.value('response.bending_speed_rpm'), 1)} rpm",
-                      False))
+        found.append(("Bending moment", *both(moment, "torque"), "beside that at rest, at "
+                      f"{both(results.value('response.bending_depth'), 'length')[0]} and "
+                      f"{fixed(results.value('response.bending_speed_rpm'), 1)} rpm", False))
     touch = results.value("response.contact_speed_rpm")
     if touch is not None:
         found.append(("Wall reached", f"{fixed(touch, 1)} rpm",
@@ -301,18 +309,18 @@ def add_response(page, folder):
                              "Amplitudes and phases; circles: largest amplitudes."),
                 "response-profile": (
                     rotating.profile_figure,
-                    "Bending moment beside that at rest, and distance left to the wall."), })
+                    "Bending moment beside that at rest, and distance left to the wall."),
+            })
     page.plots("response", "Harmonic response", found)
 
 
 # Of a name: tables that tell of it, title, headline figures, sections.
 ANALYSES = (
-    ("torque_drag", ("torque_drag.csv", ), "Torque and drag", torque_drag.headline,
-     torque_drag.add),
-    ("bha", ("bha.csv", ), "Bottom-hole assembly", bha_headline, add_bha),
-    ("buckling", ("buckling.csv", ), "Buckling", buckling_headline, add_buckling),
-    ("campbell", ("campbell.h5", ), "Campbell diagram", campbell_headline, add_campbell),
-    ("response", ("response.h5", ), "Harmonic response", response_headline, add_response),
+    ("torque_drag", ("torque_drag.csv",), "Torque and drag", torque_drag.headline, torque_drag.add),
+    ("bha", ("bha.csv",), "Bottom-hole assembly", bha_headline, add_bha),
+    ("buckling", ("buckling.csv",), "Buckling", buckling_headline, add_buckling),
+    ("campbell", ("campbell.h5",), "Campbell diagram", campbell_headline, add_campbell),
+    ("response", ("response.h5",), "Harmonic response", response_headline, add_response),
     ("modes", ("modes.csv", "damped_modes.csv"), "Modes", modal.headline, modal.add),
 )
 
@@ -321,7 +329,7 @@ def conditions(found, scene, names):
     """The string and what the deck says of the case."""
     length = found.value("model.length")
     said = deck.conditions(
-        scene, more=deck.OF_ANALYSES + ((deck.BLOCK, ) if "torque_drag" in names else ()))
+        scene, more=deck.OF_ANALYSES + ((deck.BLOCK,) if "torque_drag" in names else ()))
     return ", ".join(filter(None, (f"string of {length:.0f} m" if length else "", said)))
 
 

@@ -10,7 +10,8 @@ UNITS = {
     "hook load": (("kN", 1e-3, 1), ("klbf", 1e-3 / POUND, 1)),
     "pressure": (("MPa", 1e-6, 1), ("ksi", 1e-3 * FOOT**2 / (144 * POUND), 1)),
     "penetration": (("m/h", 3600.0, 2), ("ft/h", 3600 / FOOT, 1)),
-    "torque": (("kN m", 1e-3, 2), ("kft lbf", 1e-3 / (FOOT * POUND), 2)), }
+    "torque": (("kN m", 1e-3, 2), ("kft lbf", 1e-3 / (FOOT * POUND), 2)),
+}
 SMALLEST = 1e-6  # share that is printed in numbers
 
 

@@ -12,12 +12,15 @@ from report.quantities import both, fixed
 
 BLOCK = 8_000_000  # numbers of a time series that are in memory at once
 SECOND_HALF = 0.5  # statistics begin after this share of the motion, when its start has died away
-VIBRATES = 1e-6  # [m], [rad], [rad/s], rms: less is no vibration. Solvers leave 1e-10 to 1e-7 of it, a wall is rough by more.
+# [m], [rad], [rad/s], rms: less is no vibration. Solvers leave 1e-10 to 1e-7 of it, a wall is rough
+# by more.
+VIBRATES = 1e-6
 STEEP = math.sin(
     math.radians(3))  # a hole that is nearer to the vertical has no high side worth the name
 AGAINST = {
     1: "positive against the rotation", -1: "positive against the rotation",
-    0: "positive against a rotation to the right"}  # torques, by the sense of the rotation
+    0: "positive against a rotation to the right"
+}  # torques, by the sense of the rotation
 NONE, STILL = "none", f"less than {1e6 * VIBRATES:g} micrometre rms: rounding"
 # Without these datasets of a string there is nothing to draw.
 NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius",
@@ -48,7 +51,8 @@ def texts(dataset):
 
 
 class Folder:
-    """What a command left in its folder: summary.json and an HDF5 file, {} and None where there is none."""
+    """What a command left in its folder: summary.json and an HDF5 file, {} and None where there is
+    none."""
     def __init__(self, folder, summary, file):
         self.folder, self.summary, self.file = folder, summary, file
 
@@ -72,18 +76,19 @@ class Folder:
 
 
 class Run(Folder):
-    """results.h5 and summary.json of a run. Arrays have the shapes of docs/file-formats.md; None for what is not there."""
+    """results.h5 and summary.json of a run.
+    Arrays have the shapes of docs/file-formats.md; None for what is not there."""
     def __init__(self, folder):
         self.path = folder / "results.h5"
         super().__init__(folder, read_summary(folder), open_results(self.path))
         self.is_string = "/model/s" in self.file
         missing = [
             name for name in (NEEDED if self.is_string else ())
-            if name not in self.file and (name.startswith("/model") or "/static" in self.file)]
+            if name not in self.file and (name.startswith("/model") or "/static" in self.file)
+        ]
         if missing:
-            raise Unreadable(
-                f"{self.path} has no {', '.join(missing)}: it is damaged or of another program. Run the deck again."
-            )
+            raise Unreadable(f"{self.path} has no {', '.join(missing)}: it is damaged or of "
+                             "another program. Run the deck again.")
         self.s = self.get("/model/s")
         self.time = self.get("/transient/time")
         self.records = self.time is not None and len(
@@ -107,7 +112,8 @@ class Run(Folder):
         """Entry of the assembly of each element, or None."""
         names = self.file.get("/model/component_names")
         return None if names is None else [
-            texts(names)[i - 1] for i in self.get("/model/component")]
+            texts(names)[i - 1] for i in self.get("/model/component")
+        ]
 
     def component_at(self, node):
         """Entry of the assembly a node (from 0) belongs to: the upper one where two meet."""
@@ -135,7 +141,8 @@ class Run(Folder):
         return np.zeros(len(self.time)) if speed is None else speed
 
     def sense(self, samples=slice(None)):
-        """Sense of the rotation in the samples: 1 to the right (clockwise looking down the hole), -1 to the left, 0 where it changes or nothing turns."""
+        """Sense of the rotation in the samples: 1 to the right (clockwise looking down the hole),
+        -1 to the left, 0 where it changes or nothing turns."""
         speed = self.rotary()[samples]
         return int(np.any(speed > VIBRATES)) - int(np.any(speed < -VIBRATES))
 
@@ -151,7 +158,8 @@ class Run(Folder):
 
 
 def beside_releases(run, values):
-    """`values` (... x elements) with those of the next element where a joint above is released: results have the motion of the part above the joint."""
+    """`values` (... x elements) with those of the next element where a joint above is released:
+    results have the motion of the part above the joint."""
     below = run.get("/model/elements_below_releases")
     if below is not None:
         values = values.copy()
@@ -160,8 +168,9 @@ def beside_releases(run, values):
 
 
 def curvature(run, displacement):
-    """Curvature of the bent string in its elements [1/m]: turn of the axes of the cross sections from node to node, a' = a + theta x a, over the
-    length. `displacement` is ... x nodes x 6 in nodal frames."""
+    """Curvature of the bent string in its elements [1/m]: turn of the axes of the cross sections
+    from node to node, a' = a + theta x a, over the length. `displacement` is ... x nodes x 6 in
+    nodal frames."""
     rotations = displacement[..., 3:6]
     both = np.concatenate((rotations[..., :-1, :], rotations[..., 1:, :]), axis=-1)
     return beside_releases(
@@ -172,7 +181,8 @@ def curvature(run, displacement):
 
 
 def internal_forces(run, displacement):
-    """(effective tension [N], torque [N m]) of the elements in a displacement (... x nodes x 6); None for results without sections.
+    """(effective tension [N], torque [N m]) of the elements in a displacement (... x nodes x 6);
+    None for results without sections.
 
         T = T_s + E S (w' - w_s'),  M = M_s + G J (theta_z' - theta_zs')
 
@@ -189,11 +199,13 @@ def internal_forces(run, displacement):
 
 
 def von_mises(run, displacement):
-    """Largest von Mises stress of the elements [Pa] in a displacement (... x nodes x 6); None for results without sections.
+    """Largest von Mises stress of the elements [Pa] in a displacement (... x nodes x 6); None for
+    results without sections.
 
         sigma^2 = (|T|/S + E kappa R)^2 + 3 (M R/J)^2
 
-    at the outer wall, from effective tension, as for torque and drag (docs/guide/torque-drag.md)."""
+    at the outer wall, from effective tension, as for torque and drag
+    (docs/guide/torque-drag.md)."""
     forces = internal_forces(run, displacement)
     if forces is None:
         return None
@@ -205,13 +217,15 @@ def von_mises(run, displacement):
 
 
 def static_sense(run):
-    """Sense of the rotation of the state at rest: -1 where the surface torque of the summary has the sign of the torque in the first element, to the left."""
+    """Sense of the rotation of the state at rest: -1 where the surface torque of the summary has
+    the sign of the torque in the first element, to the left."""
     surface, top = run.value("static.surface_torque"), run.value("static.top_torque")
     return -1 if surface and top and surface * top > 0 else 1
 
 
 def static_torque(run, sense):
-    """Torque of the elements at rest [N m], positive against the rotation, as the surface torque."""
+    """Torque of the elements at rest [N m], positive against the rotation, as the surface
+    torque."""
     return -sense * run.get("/static/torque")
 
 
@@ -221,7 +235,8 @@ def lateral(run, displacement):
 
 
 class Motion:
-    """Statistics of the second half of a motion, of the recorded nodes, and the histories of a few of them."""
+    """Statistics of the second half of a motion, of the recorded nodes, and the histories of a few
+    of them."""
     def __init__(self, run, chosen=()):
         self.run = run
         self.first = run.second_half()
@@ -246,12 +261,14 @@ class Motion:
         self.velocities = None if velocity is None else velocity[self.first:, self.chosen, :2]
 
     def lateral_rms(self):
-        """Root mean square of the lateral vibration about the mean position [m], of the nodes of a string."""
+        """Root mean square of the lateral vibration about the mean position [m], of the nodes of a
+        string."""
         return np.hypot(self.rms[:, 0], self.rms[:, 1])
 
 
 class Contact:
-    """Contact forces over the motion: share of time in contact and largest force of each node, and a thinned history."""
+    """Contact forces over the motion: share of time in contact and largest force of each node, and
+    a thinned history."""
     def __init__(self, run, most=160):
         self.force, self.duty, self.largest = None, None, None
         if "/transient/normal_force" not in run.file or not run.records:
@@ -270,20 +287,23 @@ class Contact:
 
 
 def differences(values, time):
-    """Central differences. Those of a circle of n samples a turn are its velocity times sin(2 pi/n)/(2 pi/n)."""
+    """Central differences.
+    Those of a circle of n samples a turn are its velocity times sin(2 pi/n)/(2 pi/n)."""
     return np.gradient(values, time) if len(time) > 1 else np.zeros_like(values)
 
 
 def precession(u, v, u_rate, v_rate):
-    """Mean rate of an orbit about its centre [rad/s], positive from u to v: sum(u v' - v u') / sum(u^2 + v^2)."""
+    """Mean rate of an orbit about its centre [rad/s], positive from u to v: sum(u v' - v u') /
+    sum(u^2 + v^2)."""
     u, v = u - u.mean(), v - v.mean()
     size = np.sum(u**2 + v**2)
     return float(np.sum(u * v_rate - v * u_rate) / size) if size > 0 and len(u) > 2 else 0.0
 
 
 def sides(run, node):
-    """((a, b), matrix that turns (u, v) of a node into them): the high side of the hole and its right side, looking down the hole; north and east in a
-    hole that is all but vertical. Both turn clockwise from a to b, as the rotation does."""
+    """((a, b), matrix that turns (u, v) of a node into them): the high side of the hole and its
+    right side, looking down the hole; north and east in a hole that is all but vertical. Both turn
+    clockwise from a to b, as the rotation does."""
     x, y, tangent = run.get("/model/frame")[node].T
     names, up = (("high side", "right side"),
                  [0, 0, -1]) if np.hypot(*tangent[:2]) > STEEP else (("north", "east"), [1, 0, 0])
@@ -294,8 +314,9 @@ def sides(run, node):
 
 
 def chosen_nodes(run, rms, most=4):
-    """At most `most` recorded nodes (from 0) worth a look, by depth, with why: the largest lateral vibration, the largest static side force,
-    above the bit, then quarters of the length; of chosen nodes those that vibrate most."""
+    """At most `most` recorded nodes (from 0) worth a look, by depth, with why: the largest lateral
+    vibration, the largest static side force, above the bit, then quarters of the length; of chosen
+    nodes those that vibrate most."""
     found = {}
     if not run.moves:
         places = sorted(np.argsort(-rms)[:most])
@@ -318,7 +339,8 @@ def chosen_nodes(run, rms, most=4):
 
 
 def merits(run, motion=None):
-    """Figures of merit: rows of (name, value, what it is). `motion`: None where no displacements are recorded."""
+    """Figures of merit: rows of (name, value, what it is).
+    `motion`: None where no displacements are recorded."""
     if motion is None:
         return [*figures_of_bit(run), *figures_along(run, accelerates(run))]
     rms = motion.lateral_rms()
@@ -329,7 +351,8 @@ def merits(run, motion=None):
     rows = [
         (name, f"{1e3 * rms[largest]:.3g} mm rms",
          f"at {run.s[node]:.1f} m, {run.component_at(node) or f'node {node + 1}'}") if vibrates else
-        (name, NONE, STILL)]
+        (name, NONE, STILL)
+    ]
     if run.recorded[-1] == len(run.s) - 1:
         axial = motion.rms[-1, 2]
         rows.append(("Axial vibration of the bit",
@@ -345,18 +368,19 @@ def times_of_merits(run, motion=None):
     """Of which time the rows of merits() are."""
     found = run.value("transient.figures") or {}
     said = [] if found.get("begin") is None else [
-        f"Figures of {span(found['begin'], found['end'])} (transient.figures; Output/Figures chooses the window)"
+        f"Figures of {span(found['begin'], found['end'])} (transient.figures; Output/Figures "
+        "chooses the window)"
     ]
     if motion is not None:
-        said.append(
-            f"vibration in mm rms of the second half of the motion, {span(run.time[motion.first], run.time[-1])}"
-        )
+        said.append("vibration in mm rms of the second half of the motion, "
+                    f"{span(run.time[motion.first], run.time[-1])}")
     text = "; ".join(said)
     return text[:1].upper() + text[1:]
 
 
 def accelerates(run):
-    """Whether a motion without recorded displacements vibrates across the axis: more than VIBRATES of lateral acceleration [m/s2]."""
+    """Whether a motion without recorded displacements vibrates across the axis: more than VIBRATES
+    of lateral acceleration [m/s2]."""
     return ((run.value("transient.figures.lateral_acceleration") or {}).get("worst_rms")
             or 0.0) > VIBRATES
 
@@ -404,7 +428,8 @@ def figures_of_bit(run):
 
 
 def figures_along(run, vibrates):
-    """Of the nodes and elements, from summary.json; without a lateral vibration no figures of one."""
+    """Of the nodes and elements, from summary.json; without a lateral vibration no figures of
+    one."""
     found = run.value("transient.figures") or {}
     rows = []
     lateral, whirl, bending = (found.get(key) or {}
@@ -413,10 +438,12 @@ def figures_along(run, vibrates):
         rows.append(("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms",
                      f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most"))
     if vibrates and whirl.get("worst_backward_share"):
-        rows.append((
-            "Backward whirl", f"{fixed(100 * whirl['worst_backward_share'], 1)} % of the time",
-            f"at {whirl['worst_backward_share_depth']:.1f} m, mean precession {fixed((sense_of_figures(run, found) or 1) * whirl['worst_precession_rpm'], 1)} rpm; in contact as well at most {fixed(100 * whirl['worst_backward_contact_share'], 1)} %"
-        ))
+        rows.append(
+            ("Backward whirl", f"{fixed(100 * whirl['worst_backward_share'], 1)} % of the time",
+             f"at {whirl['worst_backward_share_depth']:.1f} m, mean precession "
+             f"{fixed((sense_of_figures(run, found) or 1) * whirl['worst_precession_rpm'], 1)} "
+             "rpm; in contact as well at most "
+             f"{fixed(100 * whirl['worst_backward_contact_share'], 1)} %"))
     if bending.get("range"):
         rows.append(("Largest range of the bending moment", f"{bending['range'] / 1e3:.3g} kN m",
                      f"at {bending['range_depth']:.1f} m, in a plane that turns with the pipe"))

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The data of the 3-D view: positions, displacements and fields of a thinned motion, as numbers of 16 and 32 bits in base64.
+"""The data of the 3-D view: positions, displacements and fields of a thinned motion, as numbers of
+16 and 32 bits in base64.
 
-Axes of the view are east, up, south (right-handed, up is y); of parts their x, z, -y. Displacements are lateral and axial in nodal frames of a string, x, y, z of
-parts. What moves is thinned to NUMBERS node-samples, so that a page stays below 5 MB.
+Axes of the view are east, up, south (right-handed, up is y); of parts their x, z, -y. Displacements
+are lateral and axial in nodal frames of a string, x, y, z of parts. What moves is thinned to
+NUMBERS node-samples, so that a page stays below 5 MB.
 """
 import base64
 
@@ -34,7 +36,8 @@ def to_view(vectors):
 
 
 def kept_nodes(run):
-    """At most NODES nodes: both ends, those around gauges and large side forces, and the others in equal distances."""
+    """At most NODES nodes: both ends, those around gauges and large side forces, and the others in
+    equal distances."""
     count = len(run.s)
     if count <= NODES:
         return np.arange(count)
@@ -64,13 +67,15 @@ def colours():
 
 
 def field(name, label, unit, static, motion=None):
-    """A coloured quantity of nodes: at rest and over the samples; the scale of colours spans both."""
+    """A coloured quantity of nodes: at rest and over the samples; the scale of colours spans
+    both."""
     largest = max(float(np.max(static)), float(np.max(motion)) if motion is not None else 0.0)
     if not largest > 0:
         return None
     entry = {
         "name": name, "label": label, "unit": unit, "largest": largest,
-        "rest": packed(static, "f4")}
+        "rest": packed(static, "f4")
+    }
     if motion is not None:
         entry["motion"] = packed(motion, "i2")
     return entry
@@ -104,7 +109,8 @@ def of_string(run):
         field("force", "contact force", "kN", force[kept] / 1e3, moving_force),
         field("displacement", "distance from the axis", "mm",
               1e3 * results.lateral(run, rest)[kept],
-              1e3 * results.lateral(run, motion)[:, kept] if run.moves else None)]
+              1e3 * results.lateral(run, motion)[:, kept] if run.moves else None)
+    ]
     data = {
         "kind": "string",
         "colours": colours(),
@@ -114,7 +120,8 @@ def of_string(run):
         "radius": packed(radius[kept], "f4"),
         "bore": packed(bore[kept], "f4"),
         "depth": packed(run.s[kept], "f4"),
-        "rest": packed(rest[kept][:, :3], "f4"), }
+        "rest": packed(rest[kept][:, :3], "f4"),
+    }
     names = run.components()
     if names is not None:
         data["places"] = [[f"{name} ({run.s[first]:.0f} m)",
@@ -134,9 +141,12 @@ def entries(names):
 def describe(run, at, shown, nodes):
     text = f"{shown} of {nodes} nodes are drawn." if shown < nodes else ""
     if run.records and not run.moves:
-        text += f" The motion of {len(run.recorded)} chosen nodes is recorded: the picture shows the state at rest."
+        text += (f" The motion of {len(run.recorded)} chosen nodes is recorded: the picture shows "
+                 "the state at rest.")
     if at is not None and len(at) > 1:
-        text += f" The motion is played back every {1e3 * (run.time[at[1]] - run.time[at[0]]):.3g} ms ({len(at)} of {len(run.time)} samples)."
+        text += (" The motion is played back every "
+                 f"{1e3 * (run.time[at[1]] - run.time[at[0]]):.3g} ms ({len(at)} of "
+                 f"{len(run.time)} samples).")
     return text.strip()
 
 
@@ -153,7 +163,8 @@ def in_space(displacement, columns):
 
 
 def held_edges(position, part, edges):
-    """Edges from nodes without any, which are held, to the nearest node of their part that has some."""
+    """Edges from nodes without any, which are held, to the nearest node of their part that has
+    some."""
     linked = np.unique(np.array(edges, int))
     found = []
     for node in np.setdiff1d(np.arange(len(part)), linked):
@@ -172,7 +183,8 @@ def of_parts(run):
     rows = run.get("/model/located") - 1
     columns = translations(run)
     if max(columns) < 0:
-        return None, "No component of the parts is a translation u, v or w: there is no view in space."
+        return None, ("No component of the parts is a translation u, v or w: there is no view in "
+                      "space.")
     position = run.get("/model/position")
     step = max(1, -(-len(rows) // 6000))
     rows, position = rows[::step], position[::step]
@@ -192,11 +204,13 @@ def of_parts(run):
         "kind": "parts",
         "colours": colours(),
         "fields": [
-            entry for entry in [field("displacement", "displacement", "mm", *size)] if entry],
+            entry for entry in [field("displacement", "displacement", "mm", *size)] if entry
+        ],
         "position": packed(position @ turn.T, "f4"),
         "rest": packed(rest @ turn.T, "f4"),
         "links": packed(np.array(edges, dtype="u4").reshape(-1, 2), "u4"),
-        "part": packed(part, "u4"), }
+        "part": packed(part, "u4"),
+    }
     if run.moves:
         data["time"] = packed(run.time[at], "f4")
         data["motion"] = packed(motion @ turn.T, "i2")

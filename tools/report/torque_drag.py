@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Section of torque and drag: hook loads, torques, tension with the loads at which the string buckles."""
+"""Section of torque and drag: hook loads, torques, tension with the loads at which the string
+buckles."""
 import math
 import shlex
 from html import escape
@@ -15,8 +16,11 @@ from report.quantities import FOOT, POUND, both, fixed, plain
 DASHES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1))
           )  # of the friction coefficients of a broomstick
 SAME = 1e-2  # of the largest: limits that differ less are one
-MARGINS = (("yield", "yield"), ("sinusoidal", "sinusoidal buckling"), ("helical",
-                                                                       "helical buckling"))
+MARGINS = (
+    ("yield", "yield"),
+    ("sinusoidal", "sinusoidal buckling"),
+    ("helical", "helical buckling"),
+)
 QUANTITIES = (
     ("hook_load", "hook load [kN]", "Hook load"),
     ("surface_torque", "surface torque [kN m]", "Surface torque"),
@@ -52,24 +56,26 @@ def against_depth(value, label, title, rows):
                       marker="o", markersize=6, markerfacecolor="none", linestyle="none")
     plots.legend_above(axes, 2, -0.4)
     return Figure(
-        value.replace("_", "-"), made,
-        f"{title} against the depth of the bit{'; rings: the string with bending stiffness' if rings else ''}."
-    )
+        value.replace("_", "-"), made, f"{title} against the depth of the "
+        f"bit{'; rings: the string with bending stiffness' if rings else ''}.")
 
 
 def least_around(values, reach=7):
-    """The least of each value and its `reach` neighbours on both sides: of tool joint and pipe body in turn, that of the one that buckles first."""
+    """The least of each value and its `reach` neighbours on both sides: of tool joint and pipe body
+    in turn, that of the one that buckles first."""
     return [min(values[max(0, i - reach):i + reach + 1]) for i in range(len(values))]
 
 
 def limits_of(rows):
     return {
         name: [-x / 1e3 for x in least_around(numbers(rows, f"{name}_limit"))
-               ] for name in ("sinusoidal", "helical")}
+               ] for name in ("sinusoidal", "helical")
+    }
 
 
 def alike(one, other):
-    """Whether two operations buckle under the same compressions; a limit that is not known is like none."""
+    """Whether two operations buckle under the same compressions; a limit that is not known is like
+    none."""
     return all(
         len(one[name]) == len(other[name]) and all(
             abs(a - b) <= SAME * max(abs(a), abs(b))
@@ -78,7 +84,8 @@ def alike(one, other):
 
 
 def tensions(profiles):
-    """Tension along the string of all operations that buckle under the same compressions, with these; one figure in most wells."""
+    """Tension along the string of all operations that buckle under the same compressions, with
+    these; one figure in most wells."""
     groups = []
     for number, (operation, rows) in enumerate(profiles.items()):
         limits = limits_of(rows)
@@ -103,9 +110,8 @@ def tensions(profiles):
         plots.legend_above(axes, 3)
         found.append(
             Figure(
-                f"buckling-{number}", made,
-                f"Tension along the string, bit at {max(depth):.0f} m, and the compressions at which pipe or tool joint buckles.",
-                True))
+                f"buckling-{number}", made, f"Tension along the string, bit at {max(depth):.0f} m, "
+                "and the compressions at which pipe or tool joint buckles.", True))
     return found
 
 
@@ -140,9 +146,9 @@ def broomsticks(folder, rows):
                       label=f"{operation}, measured")
         plots.legend_above(axes, 3)
         said = "; ".join(
-            filter(None, (
-                "a colour for each operation, a line style for each friction coefficient of the whole hole"
-                if broom else "", "marks: measured" if measured else "")))
+            filter(None,
+                   ("a colour for each operation, a line style for each friction coefficient of "
+                    "the whole hole" if broom else "", "marks: measured" if measured else "")))
         found.append(
             Figure(f"broomstick-{value.replace('_', '-')}", made,
                    f"{title} against the depth of the bit: {said}.", True))
@@ -156,16 +162,17 @@ def table_of(rows):
     def scaled(row, name, *factors):
         return [
             fixed(row[name] * factor, 1) if isinstance(row[name], float) else "-"
-            for factor in factors]
+            for factor in factors
+        ]
 
     return tables.table(
         ("operation", "hook load [kN]", "[klbf]", "torque [kN m]", "[kft lbf]",
-         *(name for name, _ in MARGINS), "lock-up [m]"), [
-             (row["operation"], *scaled(row, "hook_load", 1e-3, 1e-3 / POUND),
-              *scaled(row, "surface_torque", 1e-3, 1e-3 / (FOOT * POUND)),
-              *(fixed(row[f"{name}_margin"], 2) if isinstance(row[f"{name}_margin"], float) else "-"
-                for name, _ in MARGINS), plain(row["lock_up_depth"]))
-             for row in rows if row["bit_depth"] == deepest], range(1, 9),
+         *(name for name, _ in MARGINS), "lock-up [m]"),
+        [(row["operation"], *scaled(row, "hook_load", 1e-3, 1e-3 / POUND),
+          *scaled(row, "surface_torque", 1e-3, 1e-3 / (FOOT * POUND)),
+          *(fixed(row[f"{name}_margin"], 2) if isinstance(row[f"{name}_margin"], float) else "-"
+            for name, _ in MARGINS), plain(row["lock_up_depth"]))
+         for row in rows if row["bit_depth"] == deepest], range(1, 9),
         f"Bit at {deepest:.0f} m; margins are allowed over present load, above 1 there is reserve")
 
 
@@ -198,23 +205,29 @@ def headline(results):
 
 
 def invitation(run, scene):
-    """The command that adds torque, drag and buckling limits to the page of a run without them; "" where the deck lacks what they need."""
+    """The command that adds torque, drag and buckling limits to the page of a run without them; ""
+    where the deck lacks what they need."""
     if (run.folder / "torque_drag.csv").is_file() or deck.value(
             scene, "Contact/Friction/Dynamic") is None or "Loads" not in scene:
         return ""
     edits = [edit for edit in run.attribute("overrides").splitlines() if edit]
     switches = [
         part for edit in edits
-        for part in (("--without", edit[1:]) if edit.startswith("!") else ("--set", edit))]
+        for part in (("--without", edit[1:]) if edit.startswith("!") else ("--set", edit))
+    ]
     command = shlex.join([
         "tooljoint", "torque-drag",
         run.attribute("deck_file"), "--output",
-        str(run.folder), *switches])
-    return f'<p class="remark no-print">Torque, drag and buckling limits on this page: <code>{escape(command)}</code>, or <code>Torque and Drag/After Run</code> in the deck.</p>'
+        str(run.folder), *switches
+    ])
+    return ('<p class="remark no-print">Torque, drag and buckling limits on this page: '
+            f'<code>{escape(command)}</code>, or <code>Torque and Drag/After Run</code> in the '
+            'deck.</p>')
 
 
 def add(page, folder):
-    """Hook load and surface torque against the depth of the bit, and tension with buckling limits at the deepest bit."""
+    """Hook load and surface torque against the depth of the bit, and tension with buckling limits
+    at the deepest bit."""
     rows = read_table(folder / "torque_drag.csv") if (folder / "torque_drag.csv").is_file() else []
     if not rows:
         return

@@ -29,7 +29,8 @@ class Place(NamedTuple):
 
 
 class Labels:
-    """Texts beside points, put where they cover the least: other texts, markers and lines. The limits of the axes must be final."""
+    """Texts beside points, put where they cover the least: other texts, markers and lines.
+    The limits of the axes must be final."""
     def __init__(self, axes: Any):
         self.axes = axes
         self.boxes: list[tuple[float, float, float, float]] = []
@@ -84,7 +85,8 @@ class Labels:
 
     def put(self, text: str, anchors: Iterable[Any], colour: str, size: float = 9,
             weight: str = "normal", reach: Iterable[float] = NEAR) -> bool:
-        """The text around one of the anchors; False, and no text, where it would cover something everywhere."""
+        """The text around one of the anchors; False, and no text, where it would cover something
+        everywhere."""
         place = self.find(text, anchors, size, weight, reach)
         if place.cost > CLEAR:
             return False
@@ -112,8 +114,9 @@ class Labels:
 
 
 def name_lines(labels: Labels, lines: Mapping[str, Any], size: float = 9) -> bool:
-    """Names each line (name -> Line2D) beside it. Where one of the names has no free place, all stand in a legend below the axes
-    instead, in the order of the lines; the result is then False."""
+    """Names each line (name -> Line2D) beside it.
+    Where one of the names has no free place, all stand in a legend below the axes instead, in the
+    order of the lines; the result is then False."""
     names = {name: wrapped(name) for name in lines}
     before, found = len(labels.boxes), {}
     for name, line in lines.items():
@@ -146,16 +149,19 @@ def wrapped(name: str, width: int = 24) -> str:
 
 
 def overlaps(made: Any) -> list[str]:
-    """Texts of a figure that lie on one another or are cut off at its edge, each a line. Left out: turned texts, whose boxes are larger
-    than themselves, and texts for which another one keeps the room (a title for its conditions)."""
+    """Texts of a figure that lie on one another or are cut off at its edge, each a line.
+    Left out: turned texts, whose boxes are larger than themselves, and texts for which another one
+    keeps the room (a title for its conditions)."""
     made.canvas.draw()
     renderer, hidden, faults = made.canvas.get_renderer(), undrawn(made), []
     seen = [
         text for text in made.findobj(Text) if text.get_visible() and text.get_in_layout()
-        and text.get_text().strip() and text.get_rotation() % 90 == 0 and text not in hidden]
+        and text.get_text().strip() and text.get_rotation() % 90 == 0 and text not in hidden
+    ]
     boxes = [(text.get_text().strip(), text.get_window_extent(renderer)) for text in seen]
     for text, box in boxes:
-        if box.x0 < -SHARED or box.y0 < -SHARED or box.x1 > made.bbox.x1 + SHARED or box.y1 > made.bbox.y1 + SHARED:
+        if (box.x0 < -SHARED or box.y0 < -SHARED or box.x1 > made.bbox.x1 + SHARED
+                or box.y1 > made.bbox.y1 + SHARED):
             faults.append(f"\"{text}\" is cut off")
     for (text, a), (other, b) in itertools.combinations(boxes, 2):
         if min(a.x1, b.x1) - max(a.x0, b.x0) > SHARED and min(a.y1, b.y1) - max(a.y0,
@@ -165,7 +171,8 @@ def overlaps(made: Any) -> list[str]:
 
 
 def undrawn(made: Any) -> set[Any]:
-    """Texts that are there and not drawn: of hidden axes, and of ticks beyond the limits of an axis."""
+    """Texts that are there and not drawn: of hidden axes, and of ticks beyond the limits of an
+    axis."""
     hidden: set[Any] = set()
     for axes in made.axes:
         if not axes.get_visible():

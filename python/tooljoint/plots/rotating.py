@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots of campbell.h5 and response.h5: diagrams over the rotary speed, modes and amplitudes along a string with depth downwards."""
+"""Plots of campbell.h5 and response.h5: diagrams over the rotary speed, modes and amplitudes along
+a string with depth downwards."""
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
 
-from .style import COLOURS, GREY, MAP, PALE, RPM, depth_axis, label, legend_above, logarithmic, plt, whole_ticks
+from .style import (COLOURS, GREY, MAP, PALE, RPM, depth_axis, label, legend_above, logarithmic,
+                    plt, whole_ticks)
 
 FORWARD, BACKWARD = COLOURS[:2]
 UNSTABLE = "#B00020"  # of modes that grow
@@ -35,7 +37,8 @@ def whirl_word(whirl: float) -> str:
 
 
 def campbell_figure(results: Any) -> Any:
-    """Frequencies and damping ratios against the rotary speed, lines of the excitations, critical speeds."""
+    """Frequencies and damping ratios against the rotary speed, lines of the excitations, critical
+    speeds."""
     rows, crossings = columns(results, "campbell"), columns(results, "crossings")
     if rows is None:
         return None
@@ -49,7 +52,8 @@ def campbell_figure(results: Any) -> Any:
         words.add(whirl_word(whirl))
         look = {
             "color": whirl_colour(whirl), "linewidth": 1.1,
-            "marker": "." if np.sum(here) == 1 else ""}
+            "marker": "." if np.sum(here) == 1 else ""
+        }
         frequencies.plot(RPM * rows["speed"][here], rows["frequency"][here], **look)
         damping.plot(RPM * rows["speed"][here], rows["damping"][here], **look)
     for axes, name in ((frequencies, "frequency"), (damping, "damping")):
@@ -102,7 +106,8 @@ def semi_axis(u: Any, v: Any) -> Any:
 
 
 def shape_places(group: Any, most: int = MOST_SHAPES) -> list[int]:
-    """The shapes that are drawn: those at critical speeds, then those of the one speed, with what lateral displacement has first; by frequency."""
+    """The shapes that are drawn: those at critical speeds, then those of the one speed, with what
+    lateral displacement has first; by frequency."""
     at_speed = np.flatnonzero(group["excitation"][:] == 0)
     critical = np.flatnonzero(group["excitation"][:] > 0)
     chosen = list(critical[:most]) + list(at_speed[:max(0, most - len(critical))])
@@ -110,7 +115,8 @@ def shape_places(group: Any, most: int = MOST_SHAPES) -> list[int]:
 
 
 def in_hole(axes: Any, depth: Any, closed: Any, first: bool) -> None:
-    """Axes of a shape against depth, with ticks for nodes on the wall; the first ones have the depths."""
+    """Axes of a shape against depth, with ticks for nodes on the wall; the first ones have the
+    depths."""
     axes.plot(np.full(len(closed), -1.12), closed, "_", color="0.3", markersize=3)
     axes.set_xlim(-1.2, 1.2)
     whole_ticks(axes, 3, 8)
@@ -126,7 +132,8 @@ def row_of_shapes(count: int) -> tuple[Any, Any]:
 
 
 def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
-    """Modes in the hole: displacements across the axis against depth, at two instants a quarter period apart, and what the orbits reach; None without a string."""
+    """Modes in the hole: displacements across the axis against depth, at two instants a quarter
+    period apart, and what the orbits reach; None without a string."""
     if "shapes" not in results or "profile/s" not in results:
         return None
     group, depth = results["shapes"], results["profile/s"][:]
@@ -154,23 +161,27 @@ def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
         damping = float(group["damping"][place])
         grows = damping < -ROUNDING
         axes.set_title(
-            f"{format(group['frequency'][place], '#.4g').rstrip('.')} Hz\n{RPM * group['speed'][place]:.2f} rpm{', ' + met if met else ''}\n{said}\ndamping {damping if abs(damping) > ROUNDING else 0:.3f}{', grows' if grows else ''}",
+            f"{format(group['frequency'][place], '#.4g').rstrip('.')} Hz\n"
+            f"{RPM * group['speed'][place]:.2f} rpm{', ' + met if met else ''}\n{said}\n"
+            f"damping {damping if abs(damping) > ROUNDING else 0:.3f}{', grows' if grows else ''}",
             fontsize=7.5, fontweight="normal", color=UNSTABLE if grows else "black")
     made.supxlabel(
-        "displacement over the largest one; solid: u, dashed: v, grey: orbits; ticks on the left: nodes on the wall",
-        fontsize=8)
+        "displacement over the largest one; solid: u, dashed: v, grey: orbits; ticks on the left: "
+        "nodes on the wall", fontsize=8)
     return made
 
 
 def axial_or_torsional(shape: Any) -> tuple[Any, str]:
-    """What moves of a shape (nodes x components) without motion across the axis, over its largest, and the word for it."""
+    """What moves of a shape (nodes x components) without motion across the axis, over its largest,
+    and the word for it."""
     along, about = np.max(np.abs(shape[:, 2])), np.max(np.abs(shape[:, 5]))
     part, said = (shape[:, 2], "axial") if along > about else (shape[:, 5], "torsional")
     return part.real / np.max(np.abs(part)), said
 
 
 def mode_shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
-    """The lowest undamped modes of a string in the hole: displacements across the axis against depth, or along or about it; None without a string."""
+    """The lowest undamped modes of a string in the hole: displacements across the axis against
+    depth, or along or about it; None without a string."""
     if "modes/shape" not in results or "profile/s" not in results:
         return None
     depth, shapes, frequency = results["profile/s"][:], results["modes/shape"][:most], results[
@@ -190,8 +201,8 @@ def mode_shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
             f"mode {number + 1}\n{format(frequency[number], '#.4g').rstrip('.')} Hz\n{said}",
             fontsize=7.5, fontweight="normal", color=UNSTABLE if frequency[number] < 0 else "black")
     made.supxlabel(
-        "displacement over the largest one; solid: u, dashed: v; ticks on the left: nodes on the wall",
-        fontsize=8)
+        "displacement over the largest one; solid: u, dashed: v; ticks on the left: nodes on the "
+        "wall", fontsize=8)
     return made
 
 
@@ -232,7 +243,8 @@ def response_figure(results: Any) -> Any:
 
 
 def profile_figure(results: Any) -> Any:
-    """Bending moments and distances to the wall along a string: what each place reaches in the sweep, and where over speed or frequency; None without a string."""
+    """Bending moments and distances to the wall along a string: what each place reaches in the
+    sweep, and where over speed or frequency; None without a string."""
     rows = columns(results, "response")
     groups = [(name, group) for name in ("bending", "margins")
               if (group := columns(results, name)) is not None]
@@ -266,7 +278,8 @@ def profile_figure(results: Any) -> Any:
 
 
 def over(rows: dict[str, Any]) -> tuple[Any, str]:
-    """What a response is drawn over, and its label: the rotary speed, or the frequency at one speed."""
+    """What a response is drawn over, and its label: the rotary speed, or the frequency at one
+    speed."""
     return (RPM * rows["speed"], label(
         "rotary speed", "rpm")) if np.ptp(rows["speed"]) > 0 else (rows["frequency"],
                                                                    label("frequency", "Hz"))

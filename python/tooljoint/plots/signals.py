@@ -28,8 +28,9 @@ def envelope(times: Any, values: Any, most: int = 1200) -> tuple[Any, Any]:
 
 
 def stretches(depth: Any, values: Any, most: int = 240) -> tuple[Any, Any, Any]:
-    """Values along an increasing depth in at most `most` equal stretches of it: middle, smallest and largest value of each that holds some.
-    Where values change from element to element, a line through all of them is a smear."""
+    """Values along an increasing depth in at most `most` equal stretches of it: middle, smallest
+    and largest value of each that holds some. Where values change from element to element, a line
+    through all of them is a smear."""
     depth, values = np.asarray(depth, float), np.asarray(values, float)
     edges = np.linspace(depth[0], depth[-1], most + 1)
     first = np.unique(np.searchsorted(depth, edges[:-1]))
@@ -40,8 +41,9 @@ def stretches(depth: Any, values: Any, most: int = 240) -> tuple[Any, Any, Any]:
 
 
 def spectrum(values: Any, interval: float) -> tuple[Any, Any]:
-    """One-sided power spectral density by Welch's method (1967): Hann windows of a quarter of the samples (at least 64), half overlapping,
-    the mean of each taken out. Frequencies [Hz], density [unit^2/Hz]; its integral is the variance."""
+    """One-sided power spectral density by Welch's method (1967): Hann windows of a quarter of the
+    samples (at least 64), half overlapping, the mean of each taken out. Frequencies [Hz], density
+    [unit^2/Hz]; its integral is the variance."""
     values = np.asarray(values, float)
     length = min(len(values), max(64, len(values) // 4))
     if length < 8:

@@ -9,14 +9,16 @@ from matplotlib import ticker
 
 from .style import label
 
-LEAST_SHARE = 0.25  # of the longest axis that each axis has, so that a vertical well has room for its numbers
+# of the longest axis that each axis has, so that a vertical well has room for its numbers
+LEAST_SHARE = 0.25
 FEWEST = 2  # numbers of a short axis
 ZOOM = 0.8  # leaves room for the labels
 
 
 def space_axes(made: Any, place: Any, names: tuple[str, str,
                                                    str] = ("north", "east", "depth")) -> Any:
-    """Three-dimensional axes at a place of a grid (or 111), in metres; an axis "depth" is drawn downwards by equal_axes()."""
+    """Three-dimensional axes at a place of a grid (or 111), in metres; an axis "depth" is drawn
+    downwards by equal_axes()."""
     axes = made.add_subplot(place, projection="3d")
     axes.set_xlabel(label(names[0],
                           "m")), axes.set_ylabel(label(names[1],
@@ -24,9 +26,11 @@ def space_axes(made: Any, place: Any, names: tuple[str, str,
     axes.view_init(elev=18, azim=-150)
     axes.tick_params(labelsize=7, pad=0)
     axes.tick_params(axis="z", pad=9)
-    for axis, turn, pad in ((axes.xaxis, 0, 10), (axes.yaxis, 0, 10),
-                            (axes.zaxis, 90,
-                             24)):  # pads [pt] that leave room for numbers of four digits
+    for axis, turn, pad in (
+        (axes.xaxis, 0, 10),
+        (axes.yaxis, 0, 10),
+        (axes.zaxis, 90, 24),
+    ):  # pads [pt] that leave room for numbers of four digits
         axis.set_rotate_label(False)
         axis.label.set_rotation(turn)
         axis.labelpad = pad

@@ -3,7 +3,8 @@
 """What each strategy of an implicit step wins: hard cases and scenes with one left out at a time.
 
     ablation.py PROGRAM --short                     two cases (CTest)
-    ablation.py PROGRAM --write docs/strategies.md  all of them; writes the table and draws its figure
+    ablation.py PROGRAM --write docs/strategies.md  all of them; writes the table and draws its
+                                                    figure
 
 A strategy earns its place where a case is refused or changed without it, or takes 5 % longer. With
 --short the exit code is 1 when one that is left out is used, or none that is there is.
@@ -20,7 +21,7 @@ import sys
 import numpy as np
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
-import contact
+import impacts
 import report
 from program import FULL, ROOT, Program
 from scenes import HELICAL, LYING, STRESS, alpha, parts_deck, times
@@ -29,13 +30,17 @@ OWN = "Transient/Generalized-alpha/"
 STRATEGIES = {
     name: {OWN + "Leave Out": [name]}
     for name in ("Relaxation", "Near Solves", "Points Alone", "Point Paths", "Turns",
-                 "Resting Impacts", "Newton", "Troubled Points")}
+                 "Resting Impacts", "Newton", "Troubled Points")
+}
 STRATEGIES |= {
     "Halving": {OWN + "Max Halvings": 0},
     "Impacts resolved": {OWN + "Resolve Impacts": False},
-    "Phase correction": {OWN + "Phase Correction": False}, }
+    "Phase correction": {OWN + "Phase Correction": False},
+}
 WINS = 0.05  # of the time, below which a strategy does not earn its place
-SAME, NOISE = 0.01, 3.0  # vibration error that counts as the same motion, and how often that of a run with half the tolerance
+# vibration error that counts as the same motion, and how often that of a run with half the
+# tolerance
+SAME, NOISE = 0.01, 3.0
 JUDGED_ELSEWHERE = {"Transient/Energy Residual Limit": 1e9,
                     "Transient/Step Error Limit": 1e9}  # what is wrong with a case by itself
 HEAD = """# Strategies of a step
@@ -69,7 +74,8 @@ def friction(slip, speed, share=(0.55, 0.45)):
     return {
         "Contact/Friction/Static": share[0], "Contact/Friction/Dynamic": share[1],
         "Contact/Friction/Regularisation Velocity": slip,
-        "Rotary Speed/Exponential/Final Speed": f"{speed} rpm"}
+        "Rotary Speed/Exponential/Final Speed": f"{speed} rpm"
+    }
 
 
 def walls(stiffness):
@@ -78,17 +84,19 @@ def walls(stiffness):
 
 def balls(program):
     """The deck of forty linked balls on stops."""
-    count, height = 40, contact.DROP
+    count, height = 40, impacts.DROP
     K = 1e4 * (2 * np.eye(count) - np.eye(count, k=1) - np.eye(count, k=-1))
     K[0, 0] = K[-1, -1] = 1e4
-    file = program.part("balls", ["v"], contact.BALL * np.eye(count), K,
-                        loads=[-contact.BALL * contact.GRAVITY] * count)
+    file = program.part("balls", ["v"], impacts.BALL * np.eye(count), K,
+                        loads=[-impacts.BALL * impacts.GRAVITY] * count)
     starts = {
         f"drop {i}": {"Part": "ball", "Node": i, "Component": "v", "Displacement": height}
-        for i in range(1, count + 1)}
+        for i in range(1, count + 1)
+    }
     stops = {
         f"floor {i}": {"First": f"ball:{i}", "Component": "v", "Stiffness": 1e7, "Damping": 0.0}
-        for i in range(1, count + 1)}
+        for i in range(1, count + 1)
+    }
     return parts_deck(program, "balls", {"ball": file}, {**alpha(1e-3), **times(0.2, 1e-3)},
                       Parts={"Starts": starts}, Coupling={"Stops": stops})
 
@@ -98,13 +106,15 @@ def cases(program, short):
         "Rotary Speed/Law": "Table", "Rotary Speed/Table/Interpolation": "Linear",
         "Rotary Speed/Table/Times": [0.0, 0.3, 0.5, 1.0, 1.2],
         "Rotary Speed/Table/Speeds": [6.28, 6.28, 0.0, 0.0, -6.28],
-        "Contact/Friction/Regularisation Velocity": 1e-3, "Damping/Mass Coefficient": 2.0}
+        "Contact/Friction/Regularisation Velocity": 1e-3, "Damping/Mass Coefficient": 2.0
+    }
     sharp = {**alpha(1e-3), **times(0.3, 0.005), **friction(3e-5, 0.5)}
     if short:
         return [
             Case("sharp friction, stress_170m, 0.5 rpm", STRESS, {**sharp, **times(0.05, 0.005)}),
             Case("walls of 3e9 N/m, stress_170m", STRESS,
-                 {**alpha(1e-3), **times(0.05, 0.0025), **walls(3e9)})]
+                 {**alpha(1e-3), **times(0.05, 0.0025), **walls(3e9)})
+        ]
     return [
         Case("helical_170m, 1 ms", HELICAL, {**alpha(1e-3), **times(2.0, 0.01)}),
         Case("helical_170m, 2.5 ms", HELICAL, {**alpha(2.5e-3), **times(3.0, 0.01)}),
@@ -133,7 +143,8 @@ def cases(program, short):
              {**alpha(1e-3, 0.2), **times(0.15, 0.0025), **walls(3e9)}, ()),
         Case("forty balls", balls(program), {}, ()),
         Case("reversal, lying string", LYING, {**alpha(1e-3), **times(1.5, 0.005), **reverse},
-             (*FULL, "Rotary Speed/Constant")), ]
+             (*FULL, "Rotary Speed/Constant")),
+    ]
 
 
 def run(program, case, more):
@@ -159,7 +170,8 @@ def used(one, strategy):
 
 
 def least(program, case, more, repeats):
-    """The run, with the least CPU time of all repeats; its folder stays until the next one of that name."""
+    """The run, with the least CPU time of all repeats; its folder stays until the next one of that
+    name."""
     found = [run(program, case, more) for _ in range(repeats)]
     return found[-1], min(one.work() for one in found)
 
@@ -172,7 +184,8 @@ def set_aside(one):
 
 
 def compared(program, case, strategy, whole, cost, same, repeats):
-    """Cell of the table, what the strategy wins in time (infinite where the motion needs it), and the run."""
+    """Cell of the table, what the strategy wins in time (infinite where the motion needs it), and
+    the run."""
     if used(whole, strategy) == 0:
         return "-", 0.0, None
     one, own = least(program, case, STRATEGIES[strategy], repeats)

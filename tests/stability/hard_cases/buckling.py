@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Loss of stability: buckling with and without a wall, indefinite interiors, flutter, skew stiffness."""
+"""Loss of stability: buckling with and without a wall, indefinite interiors, flutter, skew
+stiffness."""
 import csv
 import math
 
@@ -11,17 +12,19 @@ from scenes import (AREA, BUCKLING, COLUMN, DENSITY, INERTIA, INNER, LENGTH, OUT
                     alpha, arkode, growth, growth_of_pair, parts_deck, planar_beam, reduced, rk4,
                     times)
 
-ALONE = ("Contact", )
+ALONE = ("Contact",)
 WAVE = math.pi / LENGTH
 MODAL_MASS = DENSITY * (AREA + INERTIA * WAVE**2)  # of the half wave, per length [kg/m]
 PUSH = {
     f"Loads/Forces/push/{key}": value
     for key, value in (("Node", 13), ("Component", "u"), ("Value", 1.0), ("End Time", 0.01),
-                       ("Start Time", 0.001))}
+                       ("Start Time", 0.001))
+}
 
 
 def rate(load):
-    """Signed: growth rate of the half wave beyond the buckling load, frequency [rad/s] below, negative."""
+    """Signed: growth rate of the half wave beyond the buckling load, frequency [rad/s] below,
+    negative."""
     square = (load - 1) * BUCKLING * WAVE**2 / MODAL_MASS
     return math.copysign(math.sqrt(abs(square)), square)
 
@@ -29,8 +32,8 @@ def rate(load):
 def table(run, name):
     with open(run.folder / name, encoding="utf-8") as file:
         return [{
-            key.split(" ")[0]: float(value) if value else math.nan for key, value in row.items()}
-                for row in csv.DictReader(file)]
+            key.split(" ")[0]: float(value) if value else math.nan for key, value in row.items()
+        } for row in csv.DictReader(file)]
 
 
 def damped(run, which):
@@ -56,18 +59,18 @@ def ways(short):
         ("generalized-alpha 1 ms, radius 0", alpha(1e-3, 0.0)),
         ("generalized-alpha 1 ms, radius 1", alpha(1e-3, 1.0)),
         ("RK4", rk4()),
-        ("ARKODE 1e-6", arkode(1e-6)), ]
+        ("ARKODE 1e-6", arkode(1e-6)),
+    ]
 
 
-@case(
-    11, "Near the buckling load, without a wall",
-    "weight on bit 0.5 to 3 of the buckling load of 12 m of pipe; three integrators, full and reduced",
-    "omega_1 -> 0 as sqrt(1 - P/P_c); beyond, growth at sqrt(abs(lambda)), and the static state is said to be unstable",
-    "half of the load")
+@case(11, "Near the buckling load, without a wall", "weight on bit 0.5 to 3 of the buckling load "
+      "of 12 m of pipe; three integrators, full and reduced",
+      "omega_1 -> 0 as sqrt(1 - P/P_c); beyond, growth at "
+      "sqrt(abs(lambda)), and the static state is said to be unstable", "half of the load")
 def buckling(program, short):
     series = {"truth": [(x, abs(rate(x))) for x in np.linspace(0.5, 3, 200)]}
-    for load in (0.99, ) if short else (0.5, 0.9, 0.99, 0.999):
-        for model, more in (("full", {}), ) if short else (("full", {}), ("reduced", reduced(6))):
+    for load in (0.99,) if short else (0.5, 0.9, 0.99, 0.999):
+        for model, more in (("full", {}),) if short else (("full", {}), ("reduced", reduced(6))):
             run = program.run("c11_modes", COLUMN,
                               {"Loads/Weight On Bit": load * BUCKLING, **more, **times(1.0, 0.1)},
                               ALONE, command="modes", extra=("--count", "4"))
@@ -79,16 +82,19 @@ def buckling(program, short):
 
             yield judged(run, f"modes, {model}: omega_1 [rad/s]", f"P/P_c {load:g}", first, 0.01,
                          required=True)
-    for load in (1.05, ) if short else (1.01, 1.1, 1.5, 3.0):
+    for load in (1.05,) if short else (1.01, 1.1, 1.5, 3.0):
         exact = rate(load)
         easy = None
         for label, way in ways(short):
-            for model, more in (("full", {}), ) if short else (("full", {}), ("reduced",
-                                                                              reduced(6))):
+            for model, more in (("full", {}),) if short else (
+                ("full", {}),
+                ("reduced", reduced(6)),
+            ):
                 end = min(12.0 / exact, 8.0)
                 settings = {
                     **PUSH, **times(end, 0.002), **way,
-                    **more, "Loads/Weight On Bit": load * BUCKLING}
+                    **more, "Loads/Weight On Bit": load * BUCKLING
+                }
                 run = program.run("c11", COLUMN, settings, ALONE)
                 easy = easy or run
                 if run.done:
@@ -114,26 +120,27 @@ def buckling(program, short):
                    "[1/s]", series)
 
 
-@case(
-    12, "Buckled in a bore",
-    "1.01 to 9 times the buckling load; walls 1e6 to 1e10 N/m; clearance 5 to 44 mm",
-    "rest on the wall is found and is stable, and the check is printed; a motion from the straight state ends there",
-    "below the buckling load")
+@case(12, "Buckled in a bore",
+      "1.01 to 9 times the buckling load; walls 1e6 to 1e10 N/m; clearance 5 to 44 mm",
+      "rest on the wall is found and is stable, and the check is printed; a motion from the "
+      "straight state ends there", "below the buckling load")
 def in_a_bore(program, short):
     easy = program.run("c12_easy", COLUMN,
                        {"Loads/Weight On Bit": 0.9 * BUCKLING, "Static/Unstable State": "Perturb"})
-    for clearance in (0.0445, ) if short else (0.005, 0.0445):
-        for wall in (1e8, ) if short else (1e6, 1e8, 1e10):
-            for load in (1.5, ) if short else (1.01, 1.5, 2.5, 4.0, 9.0):
+    for clearance in (0.0445,) if short else (0.005, 0.0445):
+        for wall in (1e8,) if short else (1e6, 1e8, 1e10):
+            for load in (1.5,) if short else (1.01, 1.5, 2.5, 4.0, 9.0):
                 settings = {
                     "Well/Bore Radius": OUTER + clearance, "Contact/Stiffness": wall,
-                    "Loads/Weight On Bit": load * BUCKLING}
+                    "Loads/Weight On Bit": load * BUCKLING
+                }
                 run = program.run("c12", COLUMN, {**settings, "Static/Unstable State": "Perturb"})
 
                 def rest():
                     static = run.summary["static"]
-                    good = static["stable"] and static["negative_pivots"] == 0 and static["contact_nodes"] > 0 and \
-                        static["perturbations"] > 0 and static["residual"] < 1e-9 and "stable" in run.output
+                    good = (static["stable"] and static["negative_pivots"] == 0
+                            and static["contact_nodes"] > 0 and static["perturbations"] > 0
+                            and static["residual"] < 1e-9 and "stable" in run.output)
                     return (
                         "stable, on the wall, printed",
                         f"stable {static['stable']}, {static['negative_pivots']} negative pivots, "
@@ -147,7 +154,8 @@ def in_a_bore(program, short):
                     "c12_motion", COLUMN, {
                         **settings, **PUSH, "Loads/Forces/push/Value": 100.0,
                         "Damping/Mass Coefficient": 8.0, **times(45.0 if load < 1.2 else 5.0, 0.05),
-                        **alpha(2.5e-4)})
+                        **alpha(2.5e-4)
+                    })
 
                 def ends():
                     u, v = (moved.nodes(c)[-1] for c in (U, V))
@@ -167,7 +175,8 @@ def thrust_beam(thrust, elements=8, length=2.0):
 
 
 def starts(displacement, elements):
-    """Lists that displace two joined beams; dofs (v, theta_z) node by node, the joined one by its name on the left."""
+    """Lists that displace two joined beams; dofs (v, theta_z) node by node, the joined one by its
+    name on the left."""
     lists = {}
     for i, x in enumerate(displacement):
         node, component = i // 2, ("v", "theta_z")[i % 2]
@@ -175,27 +184,29 @@ def starts(displacement, elements):
         if x != 0.0:
             lists[f"{part} {node} {component}"] = {
                 "Part": part, "Node": node - first + 1, "Component": component,
-                "Displacement": float(x)}
+                "Displacement": float(x)
+            }
     return lists
 
 
-@case(
-    13, "Indefinite interior of a part",
-    "thrust 0.5 to 4 of the critical load of the interior of each of two joined beams; 2 to 8 modes",
-    "negative pivots are counted; modes of negative omega^2 are kept, or the part is refused; the growth rate is that of the whole beam",
-    "half of the critical load")
+@case(13, "Indefinite interior of a part", "thrust 0.5 to 4 of the critical load of the interior "
+      "of each of two joined beams; 2 to 8 modes",
+      "negative pivots are counted; modes of negative omega^2 are kept, or "
+      "the part is refused; the growth rate is that of the whole beam", "half of the critical load")
 def indefinite_interior(program, short):
     critical = 20.19 / 2.0**2  # one half: pinned, and clamped at the interface
     elements = 8
-    for share in (1.5, ) if short else (0.5, 0.99, 1.01, 1.5, 4.0):
+    for share in (1.5,) if short else (0.5, 0.99, 1.01, 1.5, 4.0):
         K, M = thrust_beam(share * critical)
         half = lambda held: program.part(
             f"half_{'left' if held else 'right'}", ["v", "theta_z"], M, K, sets={
                 "middle": [elements + 1 if held else 1],
-                "end": [1 if held else elements + 1], })
+                "end": [1 if held else elements + 1],
+            })
         parts = {
             "left": {"File": half(True), "Fixed": ["end v"]},
-            "right": {"File": half(False), "Fixed": ["end v"]}, }
+            "right": {"File": half(False), "Fixed": ["end v"]},
+        }
         n = len(M)
         K2, M2 = (np.zeros((2 * n - 2, 2 * n - 2)) for _ in range(2))
         for A, B in ((K2, K), (M2, M)):
@@ -210,7 +221,7 @@ def indefinite_interior(program, short):
         joints = {"Joints": ["left:middle = right:middle"], "Starts": starts(start, elements)}
         inner = int(np.sum(np.linalg.eigvalsh(K[np.ix_(range(1, n - 2), range(1, n - 2))]) < 0))
         ways = [(modes, f"{modes} modes", alpha(0.005 / truth))
-                for modes in ((4, ) if short else (2, 4, 8))]
+                for modes in ((4,) if short else (2, 4, 8))]
         if not short:
             ways += [(4, "4 modes, RK4", rk4()), (4, "4 modes, ARKODE 1e-6", arkode(1e-6))]
         for modes, label, way in ways:
@@ -234,19 +245,19 @@ def indefinite_interior(program, short):
                 lowest = table(listed, "modes.csv")
                 found = [row["coupled"] for row in lowest if row["coupled"] < 0]
                 true = [row["full"] for row in lowest if row["full"] < 0]
-                return f"{len(true)} negative, interior {inner}", f"{len(found)} negative", \
-                    max([abs(a / b - 1) for a, b in zip(sorted(found), sorted(true))], default=0.0) if len(found) == len(true) else math.inf
+                return (f"{len(true)} negative, interior {inner}", f"{len(found)} negative",
+                        max([abs(a / b - 1) for a, b in zip(sorted(found), sorted(true))],
+                            default=0.0) if len(found) == len(true) else math.inf)
 
             yield judged(listed, f"modes of omega^2 < 0, {label}", f"thrust {share:g}", pivots,
                          0.01 if modes > 2 else 0.05, required=True)
 
 
-@case(
-    14, "Flutter, Greenhill's torque, flowing mud",
-    "skew stiffness 0.5 to 5 of the flutter threshold; torque 0.9 to 2 of Greenhill's; mud speed 0.9 to 1.5 of the "
-    "divergence speed; spectral radii 0 to 1, three integrators",
-    "the growth rate is that of the complex eigenvalue within 1 %; the integrator does "
-    "not damp it away; below the threshold nothing grows", "below the threshold")
+@case(14, "Flutter, Greenhill's torque, flowing mud", "skew stiffness 0.5 to 5 of the flutter "
+      "threshold; torque 0.9 to 2 of Greenhill's; mud speed 0.9 to 1.5 of the divergence speed; "
+      "spectral radii 0 to 1, three integrators",
+      "the growth rate is that of the complex eigenvalue within 1 %; the integrator does "
+      "not damp it away; below the threshold nothing grows", "below the threshold")
 def flutter(program, short):
     yield from circulatory(program, short)
     yield from greenhill(program, short)
@@ -258,14 +269,16 @@ def circulatory(program, short):
     k1, k2 = (2 * math.pi * 5)**2, (2 * math.pi * 4)**2
     threshold = 0.5 * (k1 - k2)
     series = {"truth": []}
-    for share in (1.5, ) if short else (0.9, 1.05, 1.5, 5.0):
+    for share in (1.5,) if short else (0.9, 1.05, 1.5, 5.0):
         K = np.array([[k1, share * threshold], [-share * threshold, k2]])
         truth = rightmost(np.eye(2), np.zeros((2, 2)), K)
         series["truth"].append((share, max(0.0, truth.real)))
         file = program.part("flutter", ["u", "v"], np.eye(2), K)
         kick = {
             "Starts": {
-                "kick": {"Part": "rotor", "Node": 1, "Component": "u", "Displacement": 1e-3}}}
+                "kick": {"Part": "rotor", "Node": 1, "Component": "u", "Displacement": 1e-3}
+            }
+        }
         easy = None
         for label, way in ways(short):
             end = 10.0 / truth.real if truth.real > 0.5 else 3.0
@@ -294,7 +307,7 @@ def circulatory(program, short):
 
 def greenhill(program, short):
     torque = 2 * math.pi * YOUNG * INERTIA / LENGTH
-    for share in (1.3, ) if short else (0.9, 1.05, 1.3, 2.0):
+    for share in (1.3,) if short else (0.9, 1.05, 1.3, 2.0):
         loads = {"Loads/Weight On Bit": 0.0, "Loads/Torque On Bit": share * torque}
         static = program.run("c14_static", COLUMN, loads, ALONE)
         if not static.done:
@@ -312,10 +325,10 @@ def greenhill(program, short):
             (truth, float(max(damped(listed, "full").real)),
              abs(max(0.0, max(damped(listed, "full").real)) - truth) / max(truth, 1.0)), 0.01)
         for label, way in ways(short):
-            for model, more in (("full",
-                                 {}), ) if short or "alpha" not in label else (("full", {}),
-                                                                               ("reduced",
-                                                                                reduced(16))):
+            for model, more in (("full", {}),) if short or "alpha" not in label else (
+                ("full", {}),
+                ("reduced", reduced(16)),
+            ):
                 end = 10.0 / truth if truth > 0.5 else 3.0
                 run = program.run("c14", COLUMN,
                                   {**loads, **PUSH, **times(end, 0.002), **way, **more}, ALONE)
@@ -344,7 +357,8 @@ def mud(program, short):
         settings = {
             "Mud/Density": density, "Mud/Flow Rate": share * flow, "Mud/Friction Coefficient": 0.0,
             "Mud/Kinematic Viscosity": 1e-6, "Mud/Coriolis": False, "Mud/Axial Drag": False,
-            "Loads/Weight On Bit": 0.0}
+            "Loads/Weight On Bit": 0.0
+        }
         run = program.run("c14_mud", COLUMN, settings, ALONE)
 
         def verdict():
@@ -360,26 +374,27 @@ def mud(program, short):
                      note="unstable as it must be" if share > 1 else "")
 
 
-@case(
-    23, "Skew stiffness as large as the symmetric one",
-    "skew stiffness 0.1 to 1 of the springs of a chain of 12 masses; 6 to all modes",
-    "modes of the symmetric part are said to be so; the full matrix is projected: the motion grows as the rightmost eigenvalue of the full model"
-)
+@case(23, "Skew stiffness as large as the symmetric one",
+      "skew stiffness 0.1 to 1 of the springs of a chain of 12 masses; 6 to all modes",
+      "modes of the symmetric part are said to be so; the full matrix is projected: the motion "
+      "grows as the rightmost eigenvalue of the full model")
 def skew(program, short):
     n, stiffness = 12, 1e4
     S = stiffness * (2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
     M = np.eye(2 * n)
-    for share in (0.5, ) if short else (0.1, 0.3, 1.0):
+    for share in (0.5,) if short else (0.1, 0.3, 1.0):
         K = np.kron(S, np.eye(2)) + share * stiffness * np.kron(np.eye(n),
                                                                 np.array([[0.0, 1.0], [-1.0, 0.0]]))
         truth = rightmost(M, 0 * M, K).real
         file = program.part("chain", ["u", "v"], M, K, sets={"end": [n]})
         imported = {"chain": {"File": file, "Retained": ["6"]}}
         kick = {
-            "Starts": {"kick": {"Part": "chain", "Node": 6, "Component": "u", "Velocity": 1e-3}}}
-        for modes in (22, ) if short else (6, 12, 22):
+            "Starts": {"kick": {"Part": "chain", "Node": 6, "Component": "u", "Velocity": 1e-3}}
+        }
+        for modes in (22,) if short else (6, 12, 22):
             settings = {
-                **times(20.0 / truth, 0.05 / truth), **alpha(0.01 / truth), **reduced(modes)}
+                **times(20.0 / truth, 0.05 / truth), **alpha(0.01 / truth), **reduced(modes)
+            }
             deck = parts_deck(program, "c23", imported, settings, Parts=kick)
             run = program.run("c23", deck)
             listed = program.run("c23_modes", deck, command="modes", extra=("--count", "8"))

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the numbers of src/transient/Tuned.hpp do: short hard cases with one of them halved and doubled.
+"""What the numbers of src/transient/Tuned.hpp do: short hard cases with one of them halved and
+doubled.
 
-    constants.py BUILD                builds the program in BUILD from a copy of the sources whose numbers can be set, and runs all
+    constants.py BUILD                builds the program in BUILD from a copy of the sources whose
+                                      numbers can be set, and runs all
     constants.py BUILD --only NAME... these numbers
     constants.py BUILD --built        with the program that is there, or the one named
 
-Prints, for each number, value and case: refused, the vibration error against the values of Tuned.hpp, and the work (iterations,
-and factorisations at the price of Tuned::factorPrice) over theirs. docs/step-constants.md says what was found.
+Prints, for each number, value and case: refused, the vibration error against the values of
+Tuned.hpp, and the work (iterations, and factorisations at the price of Tuned::factorPrice) over
+theirs. docs/step-constants.md says what was found.
 """
 import argparse
 import os
@@ -33,19 +36,21 @@ inline double variation(const char* name, double usual) {
 """
 PRICE = 45  # Tuned::factorPrice
 FACTORS = (0.5, 2.0)
-SMOOTH, PHASE, FRICTION, STIFF, BALLS = "helical 1 ms", "helical 2.5 ms", "sharp friction", "walls of 3e9 N/m", "forty balls"
+SMOOTH, PHASE, FRICTION, STIFF, BALLS = ("helical 1 ms", "helical 2.5 ms", "sharp friction",
+                                         "walls of 3e9 N/m", "forty balls")
 CASES = {
-    "slowestRate": (PHASE, FRICTION), "slowestRelaxation": (FRICTION, ), "progress": (FRICTION, ),
-    "mostIdle": (FRICTION, ), "decrease": (FRICTION, ), "mostTries": (FRICTION, ),
+    "slowestRate": (PHASE, FRICTION), "slowestRelaxation": (FRICTION,), "progress": (FRICTION,),
+    "mostIdle": (FRICTION,), "decrease": (FRICTION,), "mostTries": (FRICTION,),
     "counted": (PHASE, FRICTION), "rightEnough": (SMOOTH, PHASE), "mostGrowth": (PHASE, FRICTION),
     "rounding": (SMOOTH, STIFF), "factorPrice": (SMOOTH, PHASE), "positionsPerPoint": (SMOOTH,
                                                                                        FRICTION),
     "dropped": (SMOOTH, FRICTION), "pointTolerance": (FRICTION, STIFF),
-    "mostPointIterations": (FRICTION, ), "mostPathSteps": (FRICTION, ), "patience": (FRICTION, ),
-    "mostTroubled": (FRICTION, ), "mostLost": (STIFF, BALLS), "mostMisplaced": (STIFF, BALLS),
+    "mostPointIterations": (FRICTION,), "mostPathSteps": (FRICTION,), "patience": (FRICTION,),
+    "mostTroubled": (FRICTION,), "mostLost": (STIFF, BALLS), "mostMisplaced": (STIFF, BALLS),
     "resolved": (STIFF, BALLS), "calmSteps": (STIFF, BALLS), "lookStride": (STIFF, BALLS),
     "quiet": (STIFF, BALLS), "mostHalvings": (STIFF, BALLS), "atATime": (STIFF, BALLS),
-    "mostPhase": (SMOOTH, PHASE), "lookAhead": (SMOOTH, STIFF)}
+    "mostPhase": (SMOOTH, PHASE), "lookAhead": (SMOOTH, STIFF)
+}
 
 
 def build(folder):
@@ -65,7 +70,8 @@ def build(folder):
         "cmake", "-S",
         str(copy), "-B",
         str(folder / "build"), "-G", "Ninja", "-D", "CMAKE_BUILD_TYPE=Release", "-D",
-        "BUILD_TESTING=OFF"], check=True)
+        "BUILD_TESTING=OFF"
+    ], check=True)
     subprocess.run(["cmake", "--build",
                     str(folder / "build"), "-j", "2", "--target", "tooljoint"], check=True)
     return folder / "build" / "tooljoint"
@@ -79,7 +85,8 @@ def decks(program):
         PHASE: (HELICAL, {**alpha(2.5e-3), **times(1.0, 0.01)}, FULL, 1.0),
         FRICTION: (STRESS, {**sharp, **friction(3e-5, 0.5)}, FULL, 0.3),
         STIFF: (STRESS, {**alpha(1e-3, 0.2), **times(0.15, 0.0025), **walls(3e9)}, FULL, 0.15),
-        BALLS: (balls(program), {}, (), 0.2), }
+        BALLS: (balls(program), {}, (), 0.2),
+    }
 
 
 def work(run):
@@ -104,7 +111,8 @@ def main():
 
     values = {
         name: float(value)
-        for _, name, value in NUMBER.findall((ROOT / HEADER).read_text(encoding="utf-8"))}
+        for _, name, value in NUMBER.findall((ROOT / HEADER).read_text(encoding="utf-8"))
+    }
     for name, value in values.items():
         if options.only and name not in options.only:
             continue
@@ -120,9 +128,8 @@ def main():
                     cells.append(f"{value * factor:g}: refused")
                     continue
                 apart = program.vibration_error(one, usual[case], cases[case][3])
-                cells.append(
-                    f"{value * factor:g}: {100 * apart:.2g} %, work {work(one) / work(usual[case]):.2f}"
-                )
+                cells.append(f"{value * factor:g}: {100 * apart:.2g} %, work "
+                             f"{work(one) / work(usual[case]):.2f}")
             print(f"{name} = {value:g}, {case}: " + "; ".join(cells), flush=True)
     return 0
 

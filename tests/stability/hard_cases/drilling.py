@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bit and rock with a delay: the linear limits of the axial loop and of both loops, and a bit that leaves the bottom."""
+"""Bit and rock with a delay: the linear limits of the axial loop and of both loops, and a bit that
+leaves the bottom."""
 import math
 import pathlib
 import sys
@@ -37,12 +38,14 @@ def both_loops(speed):
 
 def deck(program, name, stiffness, speed, end, wear=0.0, sampling=0.005, feed=FEED, damping=DAMPING,
          held="theta_z"):
-    """A bit of cutting stiffness n a zeta eps on that element, kicked by half a sine of 10 N over 0.1 s."""
+    """A bit of cutting stiffness n a zeta eps on that element, kicked by half a sine of 10 N over
+    0.1 s."""
     bit = {
         "Blades": BLADES, "Radius": RADIUS, "Inclination": INCLINATION,
-        "Specific Energy": stiffness / (BLADES * RADIUS * INCLINATION), "Wear Flat": wear}
+        "Specific Energy": stiffness / (BLADES * RADIUS * INCLINATION), "Wear Flat": wear
+    }
     lists = models.string_deck(
-        ((PIPE, 1), ), **{
+        ((PIPE, 1),), **{
             "Supports": {"Dofs": "axial torsional", "Bit": held},
             "Damping": {"Mass Coefficient": damping},
             "Rotary Speed": {"Law": "Constant", "Constant": {"Speed": speed}},
@@ -52,13 +55,18 @@ def deck(program, name, stiffness, speed, end, wear=0.0, sampling=0.005, feed=FE
                 "Forces": {
                     "kick": {
                         "Node": 2, "Component": "w", "Value": 10.0, "Frequency": 5.0,
-                        "Phase": -math.pi / 2, "End Time": 0.1}}},
-            "Transient": {"End Time": end, "Sampling Interval": sampling, "Progress": False}, })
+                        "Phase": -math.pi / 2, "End Time": 0.1
+                    }
+                }
+            },
+            "Transient": {"End Time": end, "Sampling Interval": sampling, "Progress": False},
+        })
     return program.deck(name, lists)
 
 
 def torsion(program, ways, speeds, easy):
-    """The bit free to twist, where the torsional loop decides: the axial one alone has limits five times as large. Growth is 2e-3 1/s, so that 40 s are looked at."""
+    """The bit free to twist, where the torsional loop decides: the axial one alone has limits five
+    times as large. Growth is 2e-3 1/s, so that 40 s are looked at."""
     for label, way in ways.items():
         for speed in speeds if label.endswith(" 1 ms") else speeds[:1]:
             delay, loops = 2 * math.pi / (BLADES * speed), both_loops(speed)
@@ -87,20 +95,21 @@ def torsion(program, ways, speeds, easy):
                                 note=f"{100 * (at - 1):+.2f} %; at {frequency:.1f} rad/s")
 
 
-@case(
-    30, "Bit-rock interaction with delay",
-    "cutting stiffness 5 % below and above the limit of the axial loop, and of both loops with a bit that is free to twist, several delays and integrators; "
-    "three times the limit; wear flats",
-    "growth and decay at the rates of the characteristic equation, the limit within 2 %; a bit off bottom cuts nothing, the weight is "
-    "never negative and the mean advance is the feed", "generalized-alpha 1 ms")
+@case(30, "Bit-rock interaction with delay",
+      "cutting stiffness 5 % below and above the limit of the axial loop, and of both loops with a "
+      "bit that is free to twist, several delays and integrators; three times the limit; wear "
+      "flats", "growth and decay at the rates of the characteristic equation, the limit within 2 "
+      "%; a bit off bottom cuts nothing, the weight is never negative and the mean advance is the "
+      "feed", "generalized-alpha 1 ms")
 def bit_rock(program, short):
     loop = axial_loop()
     ways = {"generalized-alpha 1 ms": alpha(1e-3)}
     if not short:
         ways |= {
             "generalized-alpha 0.25 ms": alpha(2.5e-4), "RK4 1 ms": rk4(1e-3),
-            "ARKODE 1e-9": arkode(1e-9)}  # 1e-6 of 1 cm is as large as the motion
-    speeds = (8.0, ) if short else (6.0, 8.0, 10.0, 12.0, 14.0, 18.0)
+            "ARKODE 1e-9": arkode(1e-9)
+        }  # 1e-6 of 1 cm is as large as the motion
+    speeds = (8.0,) if short else (6.0, 8.0, 10.0, 12.0, 14.0, 18.0)
     series, easy = {}, None
     for label, way in ways.items():
         for speed in speeds if label.endswith(" 1 ms") else speeds[:2]:
@@ -127,15 +136,16 @@ def bit_rock(program, short):
                 yield statement(f"{label}, delay {1e3 * delay:.0f} ms",
                                 "limit of the cutting stiffness [N/m]", f"{limit:.5g}",
                                 f"{at * limit:.5g}", good, note=f"{100 * (at - 1):+.2f} %")
-    yield from torsion(program, ways, (20.0, ) if short else (20.0, 24.0), easy)
-    for wear in (0.0, ) if short else (0.0, 1e-4):
+    yield from torsion(program, ways, (20.0,) if short else (20.0, 24.0), easy)
+    for wear in (0.0,) if short else (0.0, 1e-4):
         limit, _ = loop.critical(2 * math.pi / (BLADES * 8.0))
         run = program.run("c30_off", deck(program, "c30_off", 3 * limit, 8.0, 60.0, wear),
                           alpha(1e-3))
         what = f"three times the limit, wear flat {1e3 * wear:g} mm"
 
         def bounded():
-            # depths of cut of all passes add up to the advance: their mean over 50 s, 100 mm, errs by the range of U, some mm
+            # depths of cut of all passes add up to the advance: their mean over 50 s, 100 mm, errs
+            # by the range of U, some mm
             weight, late = run.data("transient/weight_on_bit"), run.time() > 10
             mean = 3 * limit * FEED * 2 * math.pi / (BLADES * 8.0) + BLADES * RADIUS * wear * 60e6
             off = float(np.mean(weight[late] == 0.0))
@@ -149,7 +159,8 @@ def bit_rock(program, short):
                      required=True, easy=easy)
     if not short:
         theory = [
-            (x, loop.critical(2 * math.pi / (BLADES * x))[0]) for x in np.linspace(6, 18, 121)]
+            (x, loop.critical(2 * math.pi / (BLADES * x))[0]) for x in np.linspace(6, 18, 121)
+        ]
         yield Plot("bit_rock", "Limit of the axial loop", "rotary speed [rad/s]",
                    "cutting stiffness n a zeta eps [N/m]",
                    {"truth characteristic equation": theory, **series})

@@ -19,7 +19,8 @@ def long_strings(program, short):
         settings = {
             "Well/Vertical/Length": float(length), "Drillstring/Assembly": f"{{{pipes}*pipe}}",
             "Drillstring/Components/pipe/Elements": 24, "Well/Vertical/Inclination": "5 deg",
-            **times(0.1, 0.01), **alpha(1e-3)}
+            **times(0.1, 0.01), **alpha(1e-3)
+        }
         for model, more, without in models(settings)[:1 if length > 5000 else 2]:
             run = program.run("c17", LYING, more, without, seconds=1200)
             dofs = run.summary.get("model", {}).get("free_dofs") or 0
@@ -28,7 +29,8 @@ def long_strings(program, short):
                 cost = run.motion["cpu_s"] / run.motion["newton_iterations"] / dofs
                 series.setdefault(model, []).append((dofs, 1e9 * cost))
                 first = shortest.setdefault(model, cost)
-                return f"at most 3 x {1e9 * first:.3g} ns", f"{1e9 * cost:.3g} ns per iteration and dof", cost / first
+                return f"at most 3 x {1e9 * first:.3g} ns", (
+                    f"{1e9 * cost:.3g} ns per iteration and dof"), cost / first
 
             yield judged(run, f"work of a step, {model}", f"{length} m, {dofs} dofs", linear, 3.0,
                          required=True)
@@ -40,30 +42,31 @@ def long_strings(program, short):
         yield Plot("length", "Work of an iteration per dof", "dofs", "[ns]", series, "xy")
 
 
-@case(
-    21, "Spin-up with large angular acceleration",
-    "400 rpm in 1 ms to 0.1 s, with and without gravity's contact; steps 0.1 to 2 ms; full and reduced",
-    "the twist is that of ARKODE on the same model; the end state that of the slow limit; the ledger closes (the skew part does no work)",
-    "spin-up in 0.5 s")
+@case(21, "Spin-up with large angular acceleration", "400 rpm in 1 ms to 0.1 s, with and without "
+      "gravity's contact; steps 0.1 to 2 ms; full and reduced",
+      "the twist is that of ARKODE on the same model; the end state that "
+      "of the slow limit; the ledger closes (the skew part does no work)", "spin-up in 0.5 s")
 def spin_up(program, short):
     speed, end = 400 * math.pi / 30, 0.6
     series = {}
-    for contact in (False, ) if short else (False, True):
+    for contact in (False,) if short else (False, True):
         base = {
             "Loads/Gravity": 9.81 if contact else 0.0, "Damping/Mass Coefficient": 0.5,
-            "Rotary Speed/Law": "Ramp", "Rotary Speed/Ramp/Final Speed": speed}
-        gone = ("Rotary Speed/Constant", ) if contact else ("Rotary Speed/Constant", "Contact")
+            "Rotary Speed/Law": "Ramp", "Rotary Speed/Ramp/Final Speed": speed
+        }
+        gone = ("Rotary Speed/Constant",) if contact else ("Rotary Speed/Constant", "Contact")
         easy = program.run(
             "c21_easy", LYING,
             {**base, **times(end, 0.005), **alpha(1e-3), "Rotary Speed/Ramp/Duration": 0.5},
             (*FULL, *gone))
-        for duration in (0.01, ) if short else (1e-3, 1e-2, 0.1) if not contact else (1e-2, ):
+        for duration in (0.01,) if short else (1e-3, 1e-2, 0.1) if not contact else (1e-2,):
             settings = {**base, **times(end, 0.005), "Rotary Speed/Ramp/Duration": duration}
             truths = {
                 model: program.run(f"c21_truth_{model}", LYING, more, (*without, *gone))
-                for model, more, without in models({**settings, **arkode(1e-6)})}
+                for model, more, without in models({**settings, **arkode(1e-6)})
+            }
             ways = [(f"step {1e3 * step:g} ms", alpha(step))
-                    for step in ((1e-3, ) if short else (1e-4, 1e-3, 2.5e-3))]
+                    for step in ((1e-3,) if short else (1e-4, 1e-3, 2.5e-3))]
             if not short:
                 ways.append(("RK4 adaptive 1e-3", rk4_adaptive(1e-3)))
             for label, way in ways:
@@ -93,21 +96,23 @@ def spin_up(program, short):
                    "relative error", series, "xy")
 
 
-@case(
-    22, "Steps ten and a hundred times too large",
-    "steps of 0.5 to 100 ms; stress_170m, helical_170m and the lying string, full and reduced",
-    "an error above 20 % is warned of, one above 50 % refused; a step of 1 ms is accepted; smooth motion converges with the order of the scheme",
-    "1 ms")
+@case(22, "Steps ten and a hundred times too large",
+      "steps of 0.5 to 100 ms; stress_170m, helical_170m and the lying string, full and reduced",
+      "an error above 20 % is warned of, one above 50 % refused; a step of 1 ms is accepted; "
+      "smooth motion converges with the order of the scheme", "1 ms")
 def large_steps(program, short):
     series = {}
     end = 0.6 if short else 2.0
-    for name, deck in (("lying", LYING), ) if short else (("stress_170m", STRESS),
-                                                          ("helical_170m", HELICAL), ("lying",
-                                                                                      LYING)):
+    for name, deck in (("lying", LYING),) if short else (
+        ("stress_170m", STRESS),
+        ("helical_170m", HELICAL),
+        ("lying", LYING),
+    ):
         tweak = {
             "Rotary Speed/Constant/Speed": "120 rpm", "Loads/Forces/shake/Node": 20,
             "Loads/Forces/shake/Component": "v", "Loads/Forces/shake/Value": 2000.0,
-            "Loads/Forces/shake/Frequency": 3.0} if name == "lying" else {}
+            "Loads/Forces/shake/Frequency": 3.0
+        } if name == "lying" else {}
         for model, more, without in models({**tweak, **times(end, 0.1)}):
             truth = program.run("c22_truth", deck, {**more, **alpha(5e-5)}, without)
             easy = program.run("c22_easy", deck, {**more, **alpha(1e-3)}, without)
@@ -130,7 +135,8 @@ def large_steps(program, short):
 
 
 def orders(program, short):
-    """Two coupled oscillators of 8 and 30 rad/s that swing freely: error beside exp(A t) by the step, and its order."""
+    """Two coupled oscillators of 8 and 30 rad/s that swing freely: error beside exp(A t) by the
+    step, and its order."""
     K, c, end, sampling = np.array([[500.0, -430.0], [-430.0, 480.0]]), 0.5, 1.6, 0.032
     file = program.part("orders", ["u", "v"], np.eye(2), K, C=c * np.eye(2))
     start = {"pull": {"Part": "mass", "Node": 1, "Component": "u", "Displacement": 0.01}}
@@ -142,14 +148,16 @@ def orders(program, short):
             2, lambda step: alpha(step, Tolerance=1e-10, Phase_Correction=False)),
         "generalized-alpha, radius 1, uncorrected": (
             2, lambda step: alpha(step, 1.0, Tolerance=1e-10, Phase_Correction=False)),
-        "RK4": (4, rk4), }
+        "RK4": (4, rk4),
+    }
     series = {}
     for label in ("generalized-alpha, radius 0.8", "RK4") if short else ways:
         (order, way), errors = ways[label], []
         for step in steps:
             settings = {
                 **times(end, sampling), **way(step), "Transient/Step Error Warning": 5.0,
-                "Transient/Step Error Limit": 5.0}
+                "Transient/Step Error Limit": 5.0
+            }
             run = program.run(
                 "c22_orders",
                 parts_deck(program, "c22_orders", {"mass": file}, settings,

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes and parts: massless dofs, uneven elements, repeated modes, empty and single parts, floating ones."""
+"""Meshes and parts: massless dofs, uneven elements, repeated modes, empty and single parts,
+floating ones."""
 import math
 
 import numpy as np
@@ -22,12 +23,10 @@ def modal_motion(M, K, x0, times_):
     return (shapes * amplitude) @ np.cos(np.sqrt(np.maximum(squares, 0.0))[:, None] * times_)
 
 
-@case(
-    15, "Massless and nearly massless rotations",
-    "rotary mass 1e-2 to 1e-10 of a lumped element's, and none; beam of 6 elements, full and reduced, "
-    "three integrators",
-    "generalized-alpha condenses a massless rotation; RK4 and ARKODE refuse it; nearly massless ones keep the motion",
-    "rotary mass 1e-2")
+@case(15, "Massless and nearly massless rotations", "rotary mass 1e-2 to 1e-10 of a lumped "
+      "element's, and none; beam of 6 elements, full and reduced, three integrators",
+      "generalized-alpha condenses a massless rotation; RK4 and ARKODE refuse it; "
+      "nearly massless ones keep the motion", "rotary mass 1e-2")
 def massless(program, short):
     elements, end = 6, 0.5
     K, consistent = planar_beam(elements, 1.0, 10.0, 1.0)
@@ -37,7 +36,7 @@ def massless(program, short):
     lumped = np.zeros((n, n))
     lumped[0::2, 0::2] = np.diag([0.5 if i in (0, elements) else 1.0
                                   for i in range(elements + 1)]) / elements
-    for share in (0.0, ) if short else (1e-2, 1e-4, 1e-7, 1e-10, 0.0):
+    for share in (0.0,) if short else (1e-2, 1e-4, 1e-7, 1e-10, 0.0):
         M = lumped.copy()
         M[1::2, 1::2] += share / elements**3 * np.eye(elements + 1)
         file = program.part("thin", ["v", "theta_z"], M, K, sets={"ends": [1, elements + 1]})
@@ -50,16 +49,22 @@ def massless(program, short):
             "Starts": {
                 f"s{i}": {
                     "Part": "beam", "Node": i // 2 + 1, "Component": ("v", "theta_z")[i % 2],
-                    "Displacement": float(x0[i])} for i in keep}}
+                    "Displacement": float(x0[i])
+                } for i in keep
+            }
+        }
         all_ways = [
             ("generalized-alpha", alpha(1e-3), "both"),
             ("RK4", rk4(), "full"),
-            ("ARKODE 1e-6", arkode(1e-6), "full"), ]
+            ("ARKODE 1e-6", arkode(1e-6), "full"),
+        ]
         for label, way, which in all_ways:
             if label == "RK4" and 0 < share < 1e-4:
                 continue  # its step falls as the root of the mass
-            for model, more in (("full", {}),
-                                ("reduced", reduced(4))) if which == "both" else (("full", {}), ):
+            for model, more in (
+                ("full", {}),
+                ("reduced", reduced(4)),
+            ) if which == "both" else (("full", {}),):
                 settings = {**times(end, 0.01), **way, **more}
                 run = program.run(
                     "c15",
@@ -68,7 +73,7 @@ def massless(program, short):
                                settings, Parts=starts))
                 variant = f"{label}, {model}"
                 if share == 0.0 and label != "generalized-alpha":
-                    yield refusal(run, variant, "no rotary mass", ("mass", ))
+                    yield refusal(run, variant, "no rotary mass", ("mass",))
                     continue
 
                 def motion():
@@ -77,8 +82,9 @@ def massless(program, short):
                                              run.time())
                         exact = exact[[keep.index(i) for i in translations]]
                     else:
-                        condensed = K[np.ix_(translations, translations)] - K[np.ix_(translations, rest)] @ \
-                            np.linalg.solve(K[np.ix_(rest, rest)], K[np.ix_(rest, translations)])
+                        condensed = (K[np.ix_(translations, translations)] -
+                                     K[np.ix_(translations, rest)] @ np.linalg.solve(
+                                         K[np.ix_(rest, rest)], K[np.ix_(rest, translations)]))
                         exact = modal_motion(M[np.ix_(translations, translations)], condensed,
                                              x0[translations], run.time())
                     found = run.nodes(0)[:, [i // 2 for i in translations]]
@@ -89,7 +95,8 @@ def massless(program, short):
 
 
 def uneven(ratio):
-    """Settings: in the middle of the column a piece that short, as one element, between long ones."""
+    """Settings: in the middle of the column a piece that short, as one element, between long
+    ones."""
     size = 1.0
     short = size / ratio
     half = (LENGTH - short) / 2
@@ -99,12 +106,14 @@ def uneven(ratio):
             f"Drillstring/Components/{name}/Length": length,
             f"Drillstring/Components/{name}/Elements": elements,
             f"Drillstring/Components/{name}/Outer Radius": OUTER,
-            f"Drillstring/Components/{name}/Inner Radius": INNER})
+            f"Drillstring/Components/{name}/Inner Radius": INNER
+        })
     return {**pieces, "Drillstring/Assembly": "{a, b, c}"}
 
 
 def square_of(waves, load=0.5):
-    """omega^2 of a half wave number of the column under that share of its buckling load, shear and rotary inertia included."""
+    """omega^2 of a half wave number of the column under that share of its buckling load, shear and
+    rotary inertia included."""
     q = waves * WAVE
     euler = YOUNG * INERTIA * q**2
     return (euler / (1 + euler /
@@ -112,11 +121,10 @@ def square_of(waves, load=0.5):
                                                                         (AREA + INERTIA * q**2))
 
 
-@case(
-    16, "Neighbouring elements of very different length",
-    "ratio 1:1 to 1:20000 in the middle of 12 m of pipe; three integrators, full and reduced",
-    "the implicit error does not change; the explicit step falls as the shortest element; lost conditioning is reported",
-    "ratio 1:1")
+@case(16, "Neighbouring elements of very different length",
+      "ratio 1:1 to 1:20000 in the middle of 12 m of pipe; three integrators, full and reduced",
+      "the implicit error does not change; the explicit step falls as the shortest element; lost "
+      "conditioning is reported", "ratio 1:1")
 def uneven_elements(program, short):
     end, load = 0.3, {"Loads/Weight On Bit": 0.5 * BUCKLING}
     push = {
@@ -125,22 +133,25 @@ def uneven_elements(program, short):
     }
     exact = math.sqrt(square_of(1))
     steps, easy = [], {}
-    for ratio in (100, ) if short else (1, 9, 100, 1000, 5000, 20000):
-        listed = program.run("c16_modes", COLUMN, {**uneven(ratio), **load}, ("Contact", ),
+    for ratio in (100,) if short else (1, 9, 100, 1000, 5000, 20000):
+        listed = program.run("c16_modes", COLUMN, {**uneven(ratio), **load}, ("Contact",),
                              command="modes", extra=("--count", "4"))
         yield judged(listed, "omega_1 [rad/s]", f"1:{ratio}",
                      lambda: against(exact, 2 * math.pi * table(listed, "modes.csv")[0]["full"]),
                      0.01)
-        for label, way in (("generalized-alpha 1 ms", alpha(1e-3)),) if short else \
-                (("generalized-alpha 1 ms", alpha(1e-3)), ("ARKODE 1e-6", arkode(1e-6)), ("RK4", rk4())):
+        for label, way in ((("generalized-alpha 1 ms", alpha(1e-3)),) if short else
+                           (("generalized-alpha 1 ms", alpha(1e-3)), ("ARKODE 1e-6", arkode(1e-6)),
+                            ("RK4", rk4()))):
             if label == "RK4" and ratio > 100:
                 continue
-            for model, more in (("full", {}), ("reduced",
-                                               reduced(6))) if label != "RK4" else (("full", {}), ):
+            for model, more in (
+                ("full", {}),
+                ("reduced", reduced(6)),
+            ) if label != "RK4" else (("full", {}),):
                 run = program.run(
                     "c16", COLUMN,
                     {**uneven(ratio), **load, **push, **way, **more, **times(end, 0.005)},
-                    ("Contact", ))
+                    ("Contact",))
                 easy.setdefault(label, run)
                 if not short and label == "RK4" and run.done:
                     steps.append((1.0 / ratio, run.motion["max_step"]))
@@ -168,7 +179,8 @@ def uneven_elements(program, short):
 
 
 def round_beam(elements, difference, length=2.0):
-    """Beam bending in two planes, stiffness 100 and 100 (1 + difference); components u, theta_y, v, theta_x."""
+    """Beam bending in two planes, stiffness 100 and 100 (1 + difference); components u, theta_y, v,
+    theta_x."""
     K1, M1 = planar_beam(elements, length, 100.0, 1.0)
     n = len(K1)
     K, M = np.zeros((2 * n, 2 * n)), np.zeros((2 * n, 2 * n))
@@ -181,22 +193,21 @@ def round_beam(elements, difference, length=2.0):
     return K, M
 
 
-@case(
-    18, "Repeated and nearly repeated modes",
-    "stiffness of the two planes equal to 0 ... 1e-2; 3 to 7 modes asked for; parts turned by 0 to 90 degrees",
-    "no cut through a cluster; frequencies those of the full model; the motion does not change when a pair is turned",
-    "not turned")
+@case(18, "Repeated and nearly repeated modes", "stiffness of the two planes equal to 0 ... 1e-2; "
+      "3 to 7 modes asked for; parts turned by 0 to 90 degrees",
+      "no cut through a cluster; frequencies those of the full model; "
+      "the motion does not change when a pair is turned", "not turned")
 def repeated(program, short):
     elements, end = 8, 0.6
     components = ["u", "theta_y", "v", "theta_x"]
-    for difference in (0.0, ) if short else (0.0, 1e-12, 1e-8, 1e-5, 1e-2):
+    for difference in (0.0,) if short else (0.0, 1e-12, 1e-8, 1e-5, 1e-2):
         K, M = round_beam(elements, difference)
         file = program.part("round", components, M, K, sets={"near": [1], "far": [elements + 1]})
-        for modes in (3, ) if short else (3, 5, 7):
+        for modes in (3,) if short else (3, 5, 7):
             for angle in (0.0, 37.0) if short else (0.0, 37.0, 90.0):
                 turned = {
-                    "File": file, "Rotation Axis": [0.0, 0.0, 1.0],
-                    "Rotation Angle": f"{angle} deg"}
+                    "File": file, "Rotation Axis": [0.0, 0.0, 1.0], "Rotation Angle": f"{angle} deg"
+                }
                 direction = math.radians(angle)
                 kick = {
                     "Starts": {
@@ -205,11 +216,14 @@ def repeated(program, short):
                         for c, x in (
                             ("u", 0.1 * math.cos(0.3 - direction)),
                             ("v", 0.1 * math.sin(0.3 - direction)),
-                        )},
-                    "Joints": ["left:far = right:near"], }
+                        )
+                    },
+                    "Joints": ["left:far = right:near"],
+                }
                 files = {
                     "left": {**turned, "Fixed": ["near"]},
-                    "right": {**turned, "Fixed": ["far"]}, }
+                    "right": {**turned, "Fixed": ["far"]},
+                }
                 settings = {**times(end, 0.005), **alpha(1e-3), **reduced(modes)}
                 deck = parts_deck(program, "c18", files, settings, Parts=kick)
                 run = program.run("c18", deck)
@@ -239,19 +253,19 @@ def repeated(program, short):
                         required=True)
 
 
-@case(
-    19, "No modes, all modes, empty and single parts",
-    "modes 0 and all; a part without interior; a part of one node; frame of five parts and stress_170m",
-    "no modes are Guyan's condensation; all modes and parts without interior equal the full model to 1e-9 (1e-4 with friction, whose iteration ends at 1e-5); a single node passes through",
-    "the full model")
+@case(19, "No modes, all modes, empty and single parts", "modes 0 and all; a part without "
+      "interior; a part of one node; frame of five parts and stress_170m",
+      "no modes are Guyan's condensation; all modes and parts "
+      "without interior equal the full model to 1e-9 (1e-4 with friction, whose iteration ends at "
+      "1e-5); a single node passes through", "the full model")
 def extremes(program, short):
     settings = {**times(0.2, 0.005), **alpha(1e-3)}
-    scenes = [("frame", FRAME, ("Reduction", ), {})]
+    scenes = [("frame", FRAME, ("Reduction",), {})]
     if not short:
         scenes += [("stress_170m", STRESS, FULL, {})]
     for name, deck, without, more in scenes:
         full = program.run("c19_full", deck, {**settings, **more}, without)
-        clear = ("Reduction/Mode Selection", )
+        clear = ("Reduction/Mode Selection",)
         every = program.run("c19", deck,
                             {**settings, **more, "Reduction/Mode Selection/All Modes": True}, clear)
         yield judged(every, name, "all modes", lambda:
@@ -278,7 +292,8 @@ def extremes(program, short):
                         sets={"here": [1]})
     lists = {
         "Joints": ["beam:tip = weight:here"],
-        "Starts": {"kick": {"Part": "beam", "Node": 5, "Component": "v", "Velocity": 0.1}}, }
+        "Starts": {"kick": {"Part": "beam", "Node": 5, "Component": "v", "Velocity": 0.1}},
+    }
     files = {"beam": {"File": beam, "Fixed": ["root"]}, "weight": node}
     full = program.run("c19_full", parts_deck(program, "c19", files, settings, Parts=lists))
     every = {"Reduction/Mode Selection/All Modes": True}
@@ -293,11 +308,10 @@ def difference(run, reference):
     return relative_error(a, b)
 
 
-@case(
-    20, "Floating parts, floating strings, mechanisms",
-    "free beam in space of two parts; a string with w, theta_z or nothing held; an interior node on no spring",
-    "rigid modes are found and counted and move as a rigid body, or the model is refused with the dof named"
-)
+@case(20, "Floating parts, floating strings, mechanisms", "free beam in space of two parts; a "
+      "string with w, theta_z or nothing held; an interior node on no spring",
+      "rigid modes are found and counted and move as a rigid "
+      "body, or the model is refused with the dof named")
 def floating(program, short):
     import structures
     beam = structures.beam(6, length=2.0)
@@ -305,8 +319,9 @@ def floating(program, short):
     files = {"left": "free_half.h5", "right": {"File": "free_half.h5"}}
     lists = {
         "Joints": ["left:far = right:near"],
-        "Loads": {"push": {"Part": "left", "Node": 7, "Component": "u", "Value": 100.0}}, }
-    for modes in (4, ) if short else (0, 4, 12):
+        "Loads": {"push": {"Part": "left", "Node": 7, "Component": "u", "Value": 100.0}},
+    }
+    for modes in (4,) if short else (0, 4, 12):
         settings = {**times(0.5, 0.01), **alpha(1e-3), **reduced(modes)}
         deck = parts_deck(program, "c20", files, settings, Parts=lists)
         listed = program.run("c20_modes", deck, command="modes", extra=("--count", "8"))
@@ -330,11 +345,11 @@ def floating(program, short):
         yield judged(run, "free beam, path of the centre of mass [m]", f"{modes} modes", centre,
                      1e-3, required=True)
     for held, dof in (("u v w", "theta_z"), ("u v theta_z", "w")) if not short else (("u v w",
-                                                                                      "theta_z"), ):
+                                                                                      "theta_z"),):
         run = program.run("c20_string", COLUMN, {"Supports/Top": held, "Supports/Bit": "u v"},
-                          ("Contact", ))
+                          ("Contact",))
         yield refusal(run, "string, top holds " + held, f"{dof} held nowhere", ("floats", dof))
-    for which in ("stiffness", ) if short else ("stiffness", "stiffness and mass"):
+    for which in ("stiffness",) if short else ("stiffness", "stiffness and mass"):
         K, M = (np.pad(A, (0, 2)) for A in planar_beam(4, 1.0, 100.0, 1.0))
         M[10:, 10:] = np.eye(2) * (1.0 if which == "stiffness" else 0.0)
         file = program.part("c20_mechanism", ["v", "theta_z"], M, K, sets={"root": [1], "tip": [5]})
@@ -346,5 +361,4 @@ def floating(program, short):
             yield judged(run, "interior node on no spring", "with mass: path of the node [m]",
                          lambda: against(0.5 * 0.2**2, float(run.nodes(0)[-1, 5])), 1e-3)
         else:
-            yield refusal(run, "interior node on no spring", "without mass", ("node 6", ),
-                          (2, 3, 4))
+            yield refusal(run, "interior node on no spring", "without mass", ("node 6",), (2, 3, 4))

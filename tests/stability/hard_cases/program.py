@@ -57,7 +57,8 @@ class Run:
         """Warnings that tell of the accuracy of the result."""
         return [
             " ".join(w.split()) for w in self.summary.get("warnings") or []
-            if not w.startswith(OTHER_WARNINGS) and "has no stiffness" not in w]
+            if not w.startswith(OTHER_WARNINGS) and "has no stiffness" not in w
+        ]
 
     def work(self):
         """CPU time of the motion [s], or of the command where nothing moves."""
@@ -94,8 +95,8 @@ class Program:
         return [*parallel, self.executable, *map(str, arguments)]
 
     def overrides(self, settings, without):
-        return [x for name in without for x in ("--without", name)] + \
-            [x for path, value in settings.items() for x in ("--set", f"{path}={text(value)}")]
+        return ([x for name in without for x in ("--without", name)] +
+                [x for path, value in settings.items() for x in ("--set", f"{path}={text(value)}")])
 
     def run(self, name, deck, settings=None, without=(), command="run", ranks=1, seconds=900,
             extra=()):
@@ -135,8 +136,8 @@ class Program:
         return path
 
     def with_lists(self, name, deck, settings):
-        """A copy of a deck with parameters in lists named by the user, which --set does not make; the
-        deck must not name files."""
+        """A copy of a deck with parameters in lists named by the user, which --set does not make;
+        the deck must not name files."""
         tree = ElementTree.parse(deck)
         for path, value in settings.items():
             *lists, last = path.split("/")
@@ -161,7 +162,8 @@ class Program:
             "dofs": labels or [[i // width + 1, components[i % width]] for i in range(len(M))],
             "mass": rows(M),
             "stiffness": rows(K),
-            "interfaces": sets or {}, }
+            "interfaces": sets or {},
+        }
         if C is not None:
             content["damping"] = rows(C)
         if loads is not None:

@@ -18,7 +18,8 @@ LIVELY = ROOT / "tests/effects/scene.xml"
 
 
 def interrupted(program, deck, settings, without, after, ranks):
-    """A run stopped by a signal some time after its first checkpoint, gone on with on other ranks; None when it ended before."""
+    """A run stopped by a signal some time after its first checkpoint, gone on with on other ranks;
+    None when it ended before."""
     folder = program.work / "c26"
     subprocess.run(["rm", "-rf", str(folder)], check=True)
     options = program.overrides({**QUIET, **settings}, without)
@@ -56,28 +57,34 @@ def farthest(run, whole):
     return worst
 
 
-@case(
-    26, "Restart anywhere, with other ranks",
-    "interrupted 0 to 1 s after the first checkpoint; five integrators; 1, 2 ranks; lying string, full and reduced",
-    "bitwise with the same ranks, 1e-10 with others (of a divided motion in contact, the tolerance of its steps)",
-    "the run that is not interrupted")
+@case(26, "Restart anywhere, with other ranks", "interrupted 0 to 1 s after the first checkpoint; "
+      "five integrators; 1, 2 ranks; lying string, full and reduced",
+      "bitwise with the same ranks, 1e-10 with others (of "
+      "a divided motion in contact, the tolerance of its steps)", "the run that is not interrupted")
 def restart(program, short):
     settings = {
         "generalized-alpha 1 ms": {
-            **alpha(1e-3), **times(40.0, 0.01), "Transient/Checkpoint Interval": 1.0}}
+            **alpha(1e-3), **times(40.0, 0.01), "Transient/Checkpoint Interval": 1.0
+        }
+    }
     if not short:
         settings.update({
             "Step Tolerance 1e-6": {
                 **alpha(4e-3, Step_Tolerance=1e-6),
-                **times(40.0, 0.02), "Transient/Checkpoint Interval": 1.0},
+                **times(40.0, 0.02), "Transient/Checkpoint Interval": 1.0
+            },
             "RK4": {**rk4(1e-4), **times(4.0, 0.01), "Transient/Checkpoint Interval": 0.1},
             "RK4 adaptive": {
-                **rk4_adaptive(1e-2), **times(1.0, 0.01), "Transient/Checkpoint Interval": 0.05},
+                **rk4_adaptive(1e-2), **times(1.0, 0.01), "Transient/Checkpoint Interval": 0.05
+            },
             "ARKODE 1e-4": {
-                **arkode(1e-4), **times(2.0, 0.01), "Transient/Checkpoint Interval": 0.2}, })
+                **arkode(1e-4), **times(2.0, 0.01), "Transient/Checkpoint Interval": 0.2
+            },
+        })
     for label, way in settings.items():
         for model, more, without in models(way):
-            if model == "reduced" and label != "generalized-alpha 1 ms" or short and model == "full":
+            if (model == "reduced" and label != "generalized-alpha 1 ms"
+                    or short and model == "full"):
                 continue
             whole = program.run("c26_whole", LYING, more, without)
             cases = [(0.0, (1, 1))] if short else [(0.0, (1, 1)), (0.2, (1, 1)), (0.1, (1, 2)),
@@ -95,12 +102,13 @@ def restart(program, short):
 
 
 def tolerances(program, short):
-    """20 s of shipped scenes for tolerances of Newton's method: what it leaves over makes no energy. Steps of 1 ms make some of their own at
-    any tolerance: stress_170m 0.1 to 0.3 %, 0.007 % in steps of 0.5 ms."""
-    scenes = ("helical_170m", ) if short else ("helical_170m", "stress_170m", "inclined_1000m",
-                                               "vertical_1000m", "build_hold_1400m", "frame")
+    """20 s of shipped scenes for tolerances of Newton's method: what it leaves over makes no
+    energy. Steps of 1 ms make some of their own at any tolerance: stress_170m 0.1 to 0.3 %, 0.007 %
+    in steps of 0.5 ms."""
+    scenes = ("helical_170m",) if short else ("helical_170m", "stress_170m", "inclined_1000m",
+                                              "vertical_1000m", "build_hold_1400m", "frame")
     for scene in scenes:
-        for tolerance in (1e-3, ) if short else np.logspace(-1, -12, 12):
+        for tolerance in (1e-3,) if short else np.logspace(-1, -12, 12):
             end = 1.0 if short else 20.0
             run = program.run(
                 "c28_tolerance", ROOT / f"xml/{scene}.xml",
@@ -113,11 +121,11 @@ def tolerances(program, short):
             yield judged(run, scene, f"{end:g} s, tolerance {tolerance:.0e}", made, 1e-3)
 
 
-@case(
-    28, "600 s",
-    "a turning string at rest (damped by 0.5 1/s; with 0.1 1/s friction makes it unstable): generalized-alpha steps of 1 and 5 ms, spectral radius 0 to 1; 60 s of RK4; a shaken string; 20 s of six scenes for 12 tolerances of Newton's method",
-    "no drift of energy or position at rest; statistics of the shaken string do not change from third to third; no tolerance makes energy",
-    "10 s")
+@case(28, "600 s", "a turning string at rest (damped by 0.5 1/s; with 0.1 1/s friction makes it "
+      "unstable): generalized-alpha steps of 1 and 5 ms, spectral radius 0 to 1; 60 s of RK4; a "
+      "shaken string; 20 s of six scenes for 12 tolerances of Newton's method",
+      "no drift of energy or position at rest; statistics of the shaken string do not "
+      "change from third to third; no tolerance makes energy", "10 s")
 def long_runs(program, short):
     yield from tolerances(program, short)
     end = 20.0 if short else 600.0
@@ -127,7 +135,8 @@ def long_runs(program, short):
             ("generalized-alpha 5 ms, radius 1", alpha(5e-3, 1.0), end, "full"),
             ("generalized-alpha 5 ms, radius 0", alpha(5e-3, 0.0), end, "full"),
             ("generalized-alpha 1 ms, radius 0.8", alpha(1e-3), 100.0, "full"),
-            ("RK4, 0.1 ms", rk4(1e-4), 10.0, "full"), ]
+            ("RK4, 0.1 ms", rk4(1e-4), 10.0, "full"),
+        ]
     for label, way, last, which in ways:
         for model, more, without in models(
             {**way,
@@ -146,9 +155,10 @@ def long_runs(program, short):
                 yield statement(f"at rest, {label}, {model}", f"{last:g} s: energy residual", "0",
                                 f"{residual:.2g}",
                                 abs(residual) < 1e-3)
-    # 25 kg m keep the string rubbing irregularly against this damping; with 2 kg m it settles on a periodic motion, of
-    # which three thirds are the same whatever a scheme loses. An irregular motion scatters by chance: quantiles of
-    # thirds of 18 s by up to 0.1 of the range, of 180 s by up to 0.05; the bounds are twice and more of that.
+    # 25 kg m keep the string rubbing irregularly against this damping; with 2 kg m it settles on a
+    # periodic motion, of which three thirds are the same whatever a scheme loses. An irregular
+    # motion scatters by chance: quantiles of thirds of 18 s by up to 0.1 of the range, of 180 s by
+    # up to 0.05; the bounds are twice and more of that.
     shaken, end = {"Loads/Unbalance/collar/Moment": 25.0,
                    "Damping/Mass Coefficient": 0.5}, 60.0 if short else 600.0
     for model, more, without in models({**shaken, **alpha(1e-3),
@@ -160,7 +170,8 @@ def long_runs(program, short):
             edges = np.linspace(0.1 * end, end, 4)
             thirds = [
                 np.percentile(speeds[(clock >= a) & (clock <= b)], (5, 25, 50, 75, 95))
-                for a, b in zip(edges, edges[1:])]
+                for a, b in zip(edges, edges[1:])
+            ]
             return "the same", "largest change of a quantile over the range", float(
                 np.ptp(thirds, axis=0).max() / (thirds[0][4] - thirds[0][0]))
 

@@ -61,7 +61,8 @@ class Case:
 
 
 def case(number, title, sweep, must, easy=""):
-    """Registers a generator of rows and plots; it takes the program and whether the run is short."""
+    """Registers a generator of rows and plots; it takes the program and whether the run is
+    short."""
     def register(function):
         if number in CASES:
             raise ValueError(f"case {number} is there twice")

@@ -5,8 +5,8 @@
     suite.py PROGRAM --short                    a few points of every case (CTest)
     suite.py PROGRAM --write docs/hard-cases.md all of them; writes the table and its figures
 
-Cases whose rows are in the work folder are not run again unless --fresh is given. Exit code 1 when a
-row is silently wrong, or a row that must be met is refused.
+Cases whose rows are in the work folder are not run again unless --fresh is given. Exit code 1 when
+a row is silently wrong, or a row that must be met is refused.
 """
 import argparse
 import dataclasses
@@ -25,6 +25,7 @@ import buckling  # noqa: F401
 import contact  # noqa: F401
 import drilling  # noqa: F401
 import friction  # noqa: F401
+import impacts  # noqa: F401
 import motion  # noqa: F401
 import parts  # noqa: F401
 import records  # noqa: F401
@@ -35,8 +36,9 @@ NUMBERS = range(1, 32)
 def show(row):
     mark = "FAILED" if row.failed else "ok    "
     print(
-        f"  {mark} {row.verdict:8}{row.variant}, {row.parameter}: found {row.found}, true {row.truth}, "
-        f"deviation {row.deviation:.2g} of {row.bound:.2g} {row.note[:160]}", flush=True)
+        f"  {mark} {row.verdict:8}{row.variant}, {row.parameter}: found {row.found}, true "
+        f"{row.truth}, deviation {row.deviation:.2g} of {row.bound:.2g} "
+        f"{row.note[:160]}", flush=True)
 
 
 def stored(path):
@@ -50,15 +52,18 @@ def store(path, found, complete):
     """Writes what a case has found so far, so that a stopped one leaves its rows."""
     kinds = {
         name: [dataclasses.asdict(item) for item in found if isinstance(item, kind)
-               ] for name, kind in (("rows", table.Row), ("plots", table.Plot))}
+               ] for name, kind in (("rows", table.Row), ("plots", table.Plot))
+    }
     path.write_text(json.dumps({**kinds, "complete": complete}), encoding="utf-8")
 
 
 def results(case, options, program):
-    """Rows and plots of a case, from the work folder or by running it, and which part of it they are: "", "short" or "stopped"."""
+    """Rows and plots of a case, from the work folder or by running it, and which part of it they
+    are: "", "short" or "stopped"."""
     paths = {
         short: program.work / f"case_{case.number:02d}{'_short' if short else ''}.json"
-        for short in (False, True)}
+        for short in (False, True)
+    }
     path = paths[options.short]
     if path.exists() and not options.fresh:
         rows, plots, complete = stored(path)
@@ -94,9 +99,8 @@ def main():
         "run nothing: take what is in the work folder, short rows where the whole case is not there"
     )
     parser.add_argument(
-        "--write", help=
-        "file of the table, renewed for the cases that are chosen; figures go into figures/ beside it"
-    )
+        "--write", help="file of the table, renewed for the cases that are chosen; figures go into "
+        "figures/ beside it")
     options = parser.parse_args()
     missing = sorted(set(NUMBERS) - set(table.CASES))
     if missing:
