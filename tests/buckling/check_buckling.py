@@ -119,8 +119,8 @@ def helix():
         near("advance of the bit", -state["bit_advance"], state["weight_on_bit"] * 60.0 /
              (YOUNG * AREA) + state["shortening"], 1e-6) if state["weight_on_bit"] else None
     first, second = found[-3], found[-1]
-    slope = (first["bit_advance"] - second["bit_advance"]) / (second["weight_on_bit"] -
-                                                              first["weight_on_bit"])
+    added = second["weight_on_bit"] - first["weight_on_bit"]
+    slope = (first["bit_advance"] - second["bit_advance"]) / added
     near("slope of load and displacement, L/(E S) + r^2 L/(4 E I)", slope,
          60.0 / (YOUNG * AREA) + CLEARANCE**2 * 60.0 / (4 * RIGIDITY), 2e-2)
 

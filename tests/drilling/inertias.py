@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import models
 from checks import expect
-from models import near
+from agreement import near
 from scenes import parts_deck
 
 # Two inertias on a torsion spring: the drive J1 and the bit J2 (numbers of the size of

@@ -310,9 +310,8 @@ class Campbell(Style):
             }
             for name, values in rows.items():
                 file[f"campbell/{name}"] = values
-            file["excitations"], file["orders"], file["offsets"] = ["1x", "2x", "3x",
-                                                                    "blades"], [1.0, 2.0, 3.0,
-                                                                                5.0], np.zeros(4,)
+            file["excitations"] = ["1x", "2x", "3x", "blades"]
+            file["orders"], file["offsets"] = [1.0, 2.0, 3.0, 5.0], np.zeros(4)
             made = rotating.campbell_figure(file)
         self.check(made)
         return made.axes[0], [text.get_text() for text in made.axes[0].get_legend().get_texts()]

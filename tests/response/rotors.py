@@ -78,8 +78,8 @@ def shaft_matrices(x, inner, outer, young, density, shear=np.inf):
                                                    35 * p * p) * l, (6 + 14 * p + 7 * p * p) * l * l
         moved = density * area * l / (840 * (1 + p)**2) * symmetric(
             [near, a, far, -b, turned, b, -c, near, -a, turned])
-        d, turned, other = (3 - 15 * p) * l, (4 + 5 * p + 10 * p * p) * l * l, (5 * p * p - 5 * p -
-                                                                                1) * l * l
+        d, turned = (3 - 15 * p) * l, (4 + 5 * p + 10 * p * p) * l * l
+        other = (5 * p * p - 5 * p - 1) * l * l
         turn = density * inertia / (30 * l * (1 + p)**2) * symmetric(
             [36, d, -36, d, turned, -d, other, 36, -d, turned])
         M[span, span] += moved + turn

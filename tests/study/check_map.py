@@ -255,8 +255,8 @@ def planned():
            and "is not there" in done.stderr, done.stderr[-300:])
     subprocess.run(commands[3], shell=True, check=True, stdout=subprocess.DEVNULL, env=of_ranks(1))
     tooljoint("map", DECK, "--collect", "plan", *SHORT)
-    expect("and the collected table is that of a map", np.array_equal(values("plan"),
-                                                                      values("np1")))
+    same = np.array_equal(values("plan"), values("np1"))
+    expect("and the collected table is that of a map", same)
 
 
 def pictures():

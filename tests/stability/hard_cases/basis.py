@@ -85,9 +85,10 @@ def beyond_basis(program, short):
             yield judged(run, f"stop {stiffness:.0e} N/m", f"{modes} modes", said, factor(run),
                          easy=full)
             if run.done:
-                where, key = ("at the cut-off",
-                              "cut_off_energy") if modes > 0 else ("of missing modes",
-                                                                   "missing_energy")
+                if modes > 0:
+                    where, key = "at the cut-off", "cut_off_energy"
+                else:
+                    where, key = "of missing modes", "missing_energy"
                 error, share = points[-1][0], run.summary["transient"][key]
                 yield statement(f"stop {stiffness:.0e} N/m",
                                 f"{modes} modes: kinetic energy {where}",
