@@ -21,7 +21,7 @@ sys.path.insert(0, str(SOURCE / "tools"))
 import plot_results  # noqa: E402
 import plot_study  # noqa: E402
 import redraw_studies  # noqa: E402
-import scale  # noqa: E402
+import scale_blocks  # noqa: E402
 import scale_figures  # noqa: E402
 import strategies_figure  # noqa: E402
 
@@ -421,12 +421,12 @@ class Studies(Style):
         cut = scale_figures.table_with(scale_figures.tables(page), "largest estimate")
         lines = [(int(row["dofs"]), int(row["ranks"]), row["wall [s]"], "", "", "",
                   row["whole: wall [s]"]) for row in cut]
-        self.assertIn(scale.faster_from(lines), " ".join(page.split()))
+        self.assertIn(scale_blocks.faster_from(lines), " ".join(page.split()))
         lines = [(10, 1, "1", "", "", "", "2"), (20, 1, "3", "", "", "", "2"),
                  (30, 1, "1", "", "", "", "2"), (10, 2, "3", "", "", "", "2"),
                  (40, 2, "1", "", "", "", "")]
         self.assertEqual(
-            scale.faster_from(lines), "The parts take less time than the whole on 1 rank from 30 "
+            scale_blocks.faster_from(lines), "The parts take less time than the whole on 1 rank from 30 "
             "dofs on, on 2 ranks at no size up to 10 dofs.")
 
     def test_profiles_of_the_static_state(self):
