@@ -426,7 +426,8 @@ class Studies(Style):
                  (30, 1, "1", "", "", "", "2"), (10, 2, "3", "", "", "", "2"),
                  (40, 2, "1", "", "", "", "")]
         self.assertEqual(
-            scale_blocks.faster_from(lines), "The parts take less time than the whole on 1 rank from 30 "
+            scale_blocks.faster_from(lines),
+            "The parts take less time than the whole on 1 rank from 30 "
             "dofs on, on 2 ranks at no size up to 10 dofs.")
 
     def test_profiles_of_the_static_state(self):
