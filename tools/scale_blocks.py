@@ -136,10 +136,11 @@ def cuts(options):
         cut_row(options, counts, ranks) for counts in (chosen[:1] if options.short else chosen)
         for ranks in CUT_RANKS if ranks > 1 or counts != CUT_BLOCKS[-1]
     ]
-    said = faster_from(lines)
+    said = ""
     if not options.short and 3 * math.prod(n + 1 for n in CUT_CUBE) <= options.most:
         lines.append(cut_row(options, CUT_CUBE, 2))
-        said = "The last row is a cube. " + said
+        said = "The last row is a cube. "
+    said += faster_from(lines)
     if not all(line[-1] for line in lines):
         said += " Where its columns are empty, the machine has not\nenough memory for the whole."
     return chapter(
