@@ -330,8 +330,8 @@ def refused(what, sentence, code, *arguments):
 def refusals():
     good = deck("good", 20.0, 20, 1e5)
     refused("no wall", "Add the list Contact", 2, deck("no_wall", 20.0, 20, 1e5, contact=False))
-    refused("a bit that is held", "cannot move the bit", 2, deck("held", 20.0, 20, 1e5,
-                                                                 bit="u v w"))
+    held = deck("held", 20.0, 20, 1e5, bit="u v w")
+    refused("a bit that is held", "cannot move the bit", 2, held)
     refused("no last weight", "the last weight on bit is not given", 2,
             deck("no_weight", 20.0, 20, 0))
     refused("steps the wrong way round", "has to lie between Smallest Step", 2, good, "--set",

@@ -136,8 +136,8 @@ def outside_basis(program, short):
                     misfit = run.summary["reduction"].get("start_misfit")
                     warned = any(
                         "does not represent the initial state" in w for w in run.warnings())
-                    good = misfit is not None and warned == (misfit > 0.01) and (not vectors
-                                                                                 or misfit < 1e-6)
+                    good = misfit is not None and warned == (misfit > 0.01)
+                    good = good and (not vectors or misfit < 1e-6)
                     yield statement(
                         variant, f"{modes} modes: the misfit",
                         "said above 1 %" if not vectors else "none",
