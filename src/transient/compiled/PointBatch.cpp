@@ -104,7 +104,7 @@ model::PointLaw::Power PointBatch::power(double t, const double* q, const double
 model::PointLaw::Power PointBatch::meanPower(double t, double h, const double* q, const double* v,
                                              const double* dq, const double* dv,
                                              const std::vector<int>& points) {
-  static const double g = 1 / std::sqrt(12.0);
+  static const double g = 0.5 / std::sqrt(3.0);
   gatherThese(points, q, v);
   rows_.gather(points, dq, dd_.data());
   rows_.gather(points, dv, dv_.data());
@@ -115,7 +115,7 @@ model::PointLaw::Power PointBatch::meanPower(double t, double h, const double* q
       const double bow = smooth * (h * (2 * v_[r] - dv_[r]) - 2 * chord);
       dd_[r] = g * (smooth * chord - bow / 6);
       dv_[r] = g * change;
-      d_[r] -= 0.5 * chord + h * change / 12 + dd_[r];
+      d_[r] -= 0.5 * chord + g * g * h * change + dd_[r];
       v_[r] = chord / h - dv_[r];
     }
   }
