@@ -256,14 +256,17 @@ def example():
     """The steerable motor of xml/: the length that is modelled does not matter, tables, summary and
     report agree, ranks too."""
     motor = str(SOURCES / "xml/bha_motor_1500m.xml")
-    setting = "Bottom-Hole Assembly/Tool Face={30 deg}"
-    found = run(motor, setting, folder="motor")
+    setting = [
+        f"Bottom-Hole Assembly/{what}"
+        for what in ("Tool Face={30 deg}", "Rotating Tool Faces=3", "Element Length=1")
+    ]
+    found = run(motor, *setting, folder="motor")
     whole = json.loads(pathlib.Path("motor/summary.json").read_text(encoding="utf-8"))["bha"]
     expect(
         "a length is found and checked", 30 <= whole["length"] < 200
         and whole["checked_length"] < whole["length"] and whole["length_change"] < 0.01,
         whole["length"])
-    longer = run(motor, setting, "Bottom-Hole Assembly/Length=90 m", folder="longer")
+    longer = run(motor, *setting, "Bottom-Hole Assembly/Length=90 m", folder="longer")
     for row, other, summary in zip(found, longer, whole["rows"]):
         near(f"side force with 90 m, twice as much, {row['mode']}", other["side_force_high"],
              row["side_force_high"], 0.01, max(abs(row["side_force_high"]), 1e3))
@@ -293,7 +296,7 @@ def example():
              sum(row[key] for row in faces[:3]) / 3, 1e-6, max(abs(row[key]) for row in faces))
     expect("of stresses it has the largest",
            faces[3]["largest_von_mises"] == max(row["largest_von_mises"] for row in faces[:3]))
-    run(motor, setting, folder="two_ranks", ranks=2)
+    run(motor, *setting, folder="two_ranks", ranks=2)
     for table in ("bha.csv", "bha_contacts.csv", "bha_profile.csv"):
         expect(
             f"two ranks write the same {table}",

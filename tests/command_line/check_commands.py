@@ -41,7 +41,11 @@ SHORT = {
         "Transient/End Time=0.02", "Map/Pictures=false", "Map/Grid/speed/Count=2",
         "Map/Grid/weight on bit/Values={10 kN, 20 kN}"
     ],
-    "bha": ["Bottom-Hole Assembly/Tool Face={0 deg}"],
+    "bha": [
+        "Bottom-Hole Assembly/Tool Face={0 deg}", "Bottom-Hole Assembly/Rotating Tool Faces=3",
+        "Bottom-Hole Assembly/Element Length=2"
+    ],
+    "buckling": ["Buckling/Last Weight On Bit=300 kN"],
     "torque-drag": ["Torque and Drag/Count=1", "Torque and Drag/Operations={Drill rotating}"],
     "campbell": ["Campbell/Points=2", "Campbell/Modes=2"],
     "response": ["Response/Points=3"],

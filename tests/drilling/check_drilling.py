@@ -153,8 +153,8 @@ def among_bending(program):
     run = program.run("among_bending", deck, settings, lists)
     window = {
         "Campbell/Lowest Speed": "45 rpm", "Campbell/Highest Speed": "45.1 rpm",
-        "Campbell/Points": 2, "Campbell/Lowest Frequency": "0.4 Hz",
-        "Campbell/Highest Frequency": "0.8 Hz", "Campbell/Friction": "Sliding"
+        "Campbell/Points": 2, "Campbell/Lowest Frequency": "0.54 Hz",
+        "Campbell/Highest Frequency": "0.62 Hz", "Campbell/Friction": "Sliding"
     }
     diagram = program.run("among_bending_campbell", deck, {**settings, **window}, lists[:-1],
                           command="campbell")
@@ -176,7 +176,7 @@ def stuck_with_arkode(program):
     """A bit that dry friction holds stays, also where Newton of a stage meets the way on which it
     turns."""
     run = program.run("stuck_with_arkode", HERE.parents[1] / "xml/stick_slip_2500m.xml",
-                      {"Transient/Integrator": "SUNDIALS ARKODE", "Transient/End Time": 0.6},
+                      {"Transient/Integrator": "SUNDIALS ARKODE", "Transient/End Time": 0.44},
                       ("Transient/Step",))
     near("speed of the bit that is held [rad/s]",
          np.abs(run.data("transient/motion")[:, 2]).max(), 0.0, 0.5)

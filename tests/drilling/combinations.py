@@ -56,12 +56,12 @@ SCENES = {
 # their usual tolerances. A steep law makes forces of what is small in velocities: they may be ten
 # times as wrong as the advance.
 REFERENCE = ("RK4", {"Transient/Integrator": "RK4", "Transient/Step": 1e-4})
+HALF = "generalized-alpha, half the step"
 INTEGRATORS = (
     ("RK4 adaptive", {"Transient/Integrator": "RK4 adaptive"}, 1e-6, 1e-5),
     ("generalized-alpha", {"Transient/Integrator": "Generalized-alpha",
                            "Transient/Step": 1e-3}, 2e-5, 3e-3),
-    ("generalized-alpha, half the step",
-     {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 5e-4}, 5e-6, 8e-4),
+    (HALF, {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 5e-4}, 5e-6, 8e-4),
     ("generalized-alpha, step by its error", {
         "Transient/Integrator": "Generalized-alpha", "Transient/Step": 5e-3,
         "Transient/Generalized-alpha/Step Tolerance": 1e-7
@@ -167,9 +167,10 @@ def combinations(program, sundials=True):
                        str(run.motion["energy_residual"]))
                 wrong = figures_of(run, weight is None)
                 expect(f"{what}: figures of merit", not wrong, str(wrong))
-                wrong = goes_on(program, name, path, run, settings, without)
-                expect(f"{what}: goes on from its checkpoint to the same numbers", not wrong,
-                       "; ".join(wrong[:4]))
+                if integrator != HALF:  # the same scheme goes on with the other step
+                    wrong = goes_on(program, name, path, run, settings, without)
+                    expect(f"{what}: goes on from its checkpoint to the same numbers", not wrong,
+                           "; ".join(wrong[:4]))
                 if true is None:
                     true, true_forces = moved(run), forces(run, weight is None)
                     continue
@@ -186,7 +187,6 @@ def combinations(program, sundials=True):
                     f"{what}: errors of angle and advance {found[0]:.1e}, {found[1]:.1e} within "
                     f"{bounds[0]:.0e}, {bounds[1]:.0e}",
                     all(error <= bound for error, bound in zip(found, bounds)))
-            whole, half = (errors.get(name, [np.nan])[0]
-                           for name in ("generalized-alpha", "generalized-alpha, half the step"))
+            whole, half = (errors.get(name, [np.nan])[0] for name in ("generalized-alpha", HALF))
             expect(f"{title}, {model}: half the step has a quarter of the error",
                    0.2 < half / whole < 0.3, f"{whole:.2e} and {half:.2e}")

@@ -33,7 +33,7 @@ STUDY = "../study/study.xml"
 MAP = "../study/map.xml"
 COMMANDS = {STUDY: "study", MAP: "map"}  # of decks that are not run
 SHORT = {
-    STUDY: ["Study/End Time=0.2", "Study/Window=0.1"],
+    STUDY: ["Study/End Time=0.1", "Study/Window=0.05"],
     MAP: ["Map/Pictures=false"],
 }  # before the overrides of a row
 ANALYSES = {  # command -> its tables; the keys of its figures begin with its name

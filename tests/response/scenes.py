@@ -104,6 +104,9 @@ def estimates(folder):
         np.c_[checks["full"], checks["error"], checks["estimate"]][large])
 
 
+# Assembly of the reference scene with half of its pipes and collars.
+SHORTER = "{pipe, last pipe, collar, stabiliser, 2*collar, stabiliser, collar, bit}"
+
 SHAFT = """<ParameterList name="shaft">
   <ParameterList name="Well"><Parameter name="Trajectory" type="string" value="Vertical"/>
   <Parameter name="Bore Radius" type="double" value="1"/>

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Analyses that are stopped and go on."""
 import pathlib
+import re
 import signal
 import subprocess
 import time
@@ -28,23 +29,26 @@ def analyses():
     bha = [
         word
         for name, value in (("Inclination", "{20 deg}"), ("Build Rate", "3 deg/30m"),
-                            ("Weight On Bit", "{20 kN, 60 kN}"), ("Tool Face", "{0 deg, 90 deg}"))
+                            ("Weight On Bit", "{20 kN, 60 kN}"), ("Tool Face", "{0 deg, 90 deg}"),
+                            ("Rotating Tool Faces", "3"), ("Element Length", "1"))
         for word in ("--set", f"Bottom-Hole Assembly/{name}={value}")
     ]
+    shorter = "{pipe, last pipe, collar, stabiliser, bit}"
     campbell = [
-        "--set", "Campbell/Highest Speed=120 rpm", "--set", "Campbell/Points=8", "--set",
-        "Campbell/Modes=4"
+        "--set", f"Drillstring/Assembly={shorter}", "--set", "Campbell/Highest Speed=120 rpm",
+        "--set", "Campbell/Points=8", "--set", "Campbell/Modes=4"
     ]
     response = pathlib.Path("response.xml")
     text = (ROOT / "xml/helical_170m.xml").read_text(encoding="utf-8").replace(
         'value="components/', f'value="{ROOT}/xml/components/')
-    place = ('<Parameter name="Node" type="int" value="60"/><Parameter name="Component" '
+    text = re.sub('("Assembly".*value=)"[^"]*"', f'\\1"{shorter}"', text)
+    place = ('<Parameter name="Node" type="int" value="12"/><Parameter name="Component" '
              'type="string" value="u"/>')
     response.write_text(
         text[:text.rindex("</ParameterList>")] + f"""<ParameterList name="Response">
         <Parameter name="Excitation" type="string" value="Harmonic"/>
         <Parameter name="Highest Frequency" type="double" value="4"/>
-        <Parameter name="Points" type="int" value="41"/><ParameterList name="Loads">
+        <Parameter name="Points" type="int" value="121"/><ParameterList name="Loads">
         <ParameterList name="push">{place}<Parameter name="Value" type="double" value="100"/>
         </ParameterList></ParameterList><ParameterList name="Outputs">
         <ParameterList name="there">{place}</ParameterList></ParameterList></ParameterList>
@@ -53,8 +57,11 @@ def analyses():
         ("bha", "states", 2, assembly, bha, ("bha", "bha_contacts", "bha_profile")),
         ("response", "points", 5, str(response), FULL, ("response", "peaks", "bending", "margins")),
         ("campbell", "speeds", 1, string, [*campbell, *FULL], ("campbell", "crossings")),
-        ("buckling", "states", 1, str(ROOT / "xml/buckling_100m.xml"),
-         ["--set", "Buckling/Last Weight On Bit=600 kN"], ("buckling", "buckling_profile")),
+        ("buckling", "states", 1, str(ROOT / "xml/buckling_100m.xml"), [
+            "--set", "Buckling/Last Weight On Bit=600 kN", "--set",
+            "Drillstring/Components/pipe/Length=50", "--set",
+            "Drillstring/Components/pipe/Elements=100"
+        ], ("buckling", "buckling_profile")),
     ):
 
         def read(folder):

@@ -12,9 +12,10 @@ TIME_FACTOR = float(os.environ.get("TOOLJOINT_TIME_FACTOR",
 
 def of_ranks(ranks):
     """Environment of a run: Open MPI needs no daemon and no folders for one rank that mpiexec does
-    not start, and starts faster without."""
+    not start, and starts faster without. Ranks that fail have met in MPI_Finalize: mpiexec need
+    not wait a second for them."""
     single = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_orte_create_session_dirs": "0"}
-    return {**os.environ, **(single if ranks == 1 else {})}
+    return {**os.environ, **(single if ranks == 1 else {"OMPI_MCA_odls_base_sigkill_timeout": "0"})}
 
 
 COLUMNS = 100  # of a line that is printed

@@ -10,7 +10,8 @@ import numpy as np
 from rows import Plot, against, case, judged, statement
 from scenes import THETA_Z, alpha, arkode, growth_of_pair, rk4
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "drilling"))
+TESTS = pathlib.Path(__file__).resolve().parents[2]
+sys.path += [str(TESTS / "drilling"), str(TESTS / "support")]
 import models  # noqa: E402
 
 BLADES, RADIUS, INCLINATION, FEED, DAMPING = 4, 0.108, 0.6, 2e-3, 3.0

@@ -189,7 +189,7 @@ def reversals(run):
 def low_speed(program, short):
     decks = {"stress": STRESS, "helical": HELICAL}
     for name, deck in decks.items():
-        end = 1.5 if not short else 0.1 if name == "stress" else 0.6
+        end = 1.5 if not short else 0.1 if name == "stress" else 0.3
         settings = {
             **times(end, 0.005), **alpha(1e-3), "Contact/Friction/Static": 0.55,
             "Contact/Friction/Dynamic": 0.45
