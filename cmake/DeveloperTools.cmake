@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Targets for developers: `cms-variants` runs all bases anew and rewrites docs/cms-variants.md, `records` writes all tables and figures of record, `format` rewrites the sources with clang-format, `tidy` runs clang-tidy (in a build of its own, over the sources that are compiled together), `mutants` runs the mutation check of tools/mutants in a copy of the sources.
+# Targets for developers: `cms-variants` runs all bases anew and rewrites docs/cms-variants.md, `records` writes all tables and figures of record, `format` rewrites the sources with clang-format and yapf3, `tidy` runs clang-tidy (in a build of its own, over the sources that are compiled together), `mutants` runs the mutation check of tools/mutants in a copy of the sources.
 find_program(CLANG_FORMAT clang-format)
-if(CLANG_FORMAT)
+find_program(YAPF yapf3)
+if(CLANG_FORMAT AND YAPF)
   file(GLOB_RECURSE formatted CONFIGURE_DEPENDS src/*.[ch]pp substructures/*.[ch]pp tests/*.[ch]pp examples/*.[ch]pp benchmarks/*.[ch]pp)
-  add_custom_target(format COMMAND ${CLANG_FORMAT} -i ${formatted} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
+  add_custom_target(format COMMAND ${CLANG_FORMAT} -i ${formatted}
+    COMMAND ${YAPF} --in-place --parallel --recursive docs examples python tests tools xml WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
 endif()
 
 find_program(RUN_CLANG_TIDY run-clang-tidy)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sphinx configuration of the documentation site (target `docs`, cmake/Documentation.cmake).
 
-The source folder is the project's, not docs/: links between docs/, README.md, CONTRIBUTING.md and examples/ are then the same on the site
-and on a repository page.
+The source folder is the project's, not docs/: links between docs/, README.md, CONTRIBUTING.md and
+examples/ are then the same on the site and on a repository page.
 """
 import pathlib
 import re
@@ -13,10 +13,13 @@ sys.path.insert(0, str(PROJECT / "docs"))
 
 project = "Tooljoint"
 author = "The Tooljoint authors"
-release = re.search(r"project\(Tooljoint VERSION (\S+)", (PROJECT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+release = re.search(r"project\(Tooljoint VERSION (\S+)",
+                    (PROJECT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
 
 root_doc = "docs/index"
-include_patterns = ["docs/**.md", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/*/README.md"]
+include_patterns = [
+    "docs/**.md", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/*/README.md"
+]
 exclude_patterns = ["build", "results", ".*", "src", "substructures", "tests", "tools", "xml"]
 extensions = ["myst_parser", "sphinx.ext.mathjax", "breathe", "python_reference"]
 add_module_names = False
@@ -27,17 +30,21 @@ myst_dmath_allow_space = False
 myst_dmath_allow_digits = False
 highlight_language = "none"
 
-# KaTeX of the distribution (libjs-katex) draws the formulas, so that the site needs no network; sphinx.ext.mathjax only writes their markup.
+# KaTeX of the distribution (libjs-katex) draws the formulas, so that the site needs no network;
+# sphinx.ext.mathjax only writes their markup.
 KATEX = "/usr/share/javascript/katex"
 html_static_path = [KATEX, "site.css"]
 html_css_files = ["katex.min.css", "site.css"]
-html_js_files = [("katex.min.js", {"defer": "defer"}),
-                 ("contrib/auto-render.js", {"defer": "defer", "onload": "renderMathInElement(document.body)"})]
+html_js_files = [
+    ("katex.min.js", {"defer": "defer"}),
+    ("contrib/auto-render.js", {"defer": "defer", "onload": "renderMathInElement(document.body)"}),
+]
 mathjax_path = "katex.min.js"
 mathjax_options = {"defer": "defer"}
 myst_update_mathjax = False
 
-# Doxygen's XML of the headers; its folder is given on the command line, -D breathe_projects.tooljoint=FOLDER.
+# Doxygen's XML of the headers; its folder is given on the command line, -D
+# breathe_projects.tooljoint=FOLDER.
 breathe_projects = {"tooljoint": ""}
 breathe_default_project = "tooljoint"
 breathe_default_members = ("members",)
@@ -54,13 +61,17 @@ linkcheck_retries = 2
 def write_entry(app, exception):
     """The root page lies in docs/; index.html at the top of the site leads there."""
     if exception is None and app.builder.name == "html":
-        entry = '<!doctype html>\n<meta charset="utf-8">\n<title>Tooljoint</title>\n<meta http-equiv="refresh" content="0; url=docs/index.html">\n<a href="docs/index.html">Tooljoint</a>\n'
+        entry = ('<!doctype html>\n<meta charset="utf-8">\n<title>Tooljoint</title>\n'
+                 '<meta http-equiv="refresh" content="0; url=docs/index.html">\n'
+                 '<a href="docs/index.html">Tooljoint</a>\n')
         (pathlib.Path(app.outdir) / "index.html").write_text(entry, encoding="utf-8")
 
 
 def join_scripts(app, exception):
-    """Debian's furo ships the source of its script, an ES module that imports another file; pages load it as a plain script, in which `import` is a
-    syntax error: no theme switch, no scroll spy. Both files become one plain script. (Modules would not help: browsers refuse them from file://.)"""
+    """Debian's furo ships the source of its script, an ES module that imports another file; pages
+    load it as a plain script, in which `import` is a syntax error: no theme switch, no scroll spy.
+    Both files become one plain script. (Modules would not help: browsers refuse them from
+    file://.)"""
     script = pathlib.Path(app.outdir) / "_static/scripts/furo.js"
     if exception is not None or app.builder.name != "html" or not script.is_file():
         return
@@ -72,14 +83,17 @@ def join_scripts(app, exception):
 
 
 def inline_normalize(app, exception):
-    """Debian's furo imports normalize.css by a path of a web server; its text takes the place of the import."""
+    """Debian's furo imports normalize.css by a path of a web server; its text takes the place of
+    the import."""
     style = pathlib.Path(app.outdir) / "_static/styles/furo.css"
     if exception is not None or app.builder.name != "html" or not style.is_file():
         return
     text = style.read_text(encoding="utf-8")
     normalize = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")
     own = normalize.read_text(encoding="utf-8") if normalize.is_file() else ""
-    changed = re.sub(r'@import\s*(?:url\()?["\']?/javascript/normalize\.css/normalize\.css["\']?\)?;', lambda _: own, text)
+    changed = re.sub(
+        r'@import\s*(?:url\()?["\']?/javascript/normalize\.css/normalize\.css["\']?\)?;',
+        lambda _: own, text)
     if changed != text:
         style.write_text(changed, encoding="utf-8")
 

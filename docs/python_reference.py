@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Directive of the documentation site for the Python package, whose sources are read and not imported.
+"""Directive of the documentation site for the Python package, whose sources are read and not
+imported.
 
     ```{python-reference} tooljoint
     part
     Deck
     ```
 
-shows the signatures and docstrings of these names of the module, of classes with all public members. A name that the module does not have is
-an error; so is a public name of a module that no page shows.
+shows the signatures and docstrings of these names of the module, of classes with all public
+members. A name that the module does not have is an error; so is a public name of a module that no
+page shows.
 """
 import ast
 import inspect
@@ -20,8 +22,12 @@ from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
 
 PROJECT = pathlib.Path(__file__).resolve().parents[1]
-MODULES = {"tooljoint": PROJECT / "python/tooljoint", "tooljoint.plots": PROJECT / "tools/plots"}  # each with an __init__.py
-OPERATORS = {"__len__": "len(self)", "__getitem__": "self[{0}]", "__setitem__": "self[{0}] = {1}", "__delitem__": "del self[{0}]", "__contains__": "{0} in self", "__iter__": "iter(self)"}
+MODULES = {"tooljoint": PROJECT / "python/tooljoint",
+           "tooljoint.plots": PROJECT / "tools/plots"}  # each with an __init__.py
+OPERATORS = {
+    "__len__": "len(self)", "__getitem__": "self[{0}]", "__setitem__": "self[{0}] = {1}",
+    "__delitem__": "del self[{0}]", "__contains__": "{0} in self", "__iter__": "iter(self)"
+}
 
 
 def definitions(file):
@@ -42,7 +48,8 @@ def public(folder):
     for node in ast.parse(first.read_text(encoding="utf-8")).body:
         if not isinstance(node, ast.ImportFrom) or node.level != 1 or node.module is None:
             continue
-        file = next(file for file in (folder / f"{node.module}.py", folder / f"{node.module}.pyi") if file.exists())
+        file = next(file for file in (folder / f"{node.module}.py", folder / f"{node.module}.pyi")
+                    if file.exists())
         known = definitions(file)
         found |= {alias.asname or alias.name: known[alias.name] for alias in node.names}
     return found
@@ -50,7 +57,8 @@ def public(folder):
 
 def known_to(module):
     """What a page may name of a module: also what calls return, of tooljoint._core."""
-    return definitions(MODULES["tooljoint"] / "_core.pyi") if module == "tooljoint._core" else public(MODULES[module])
+    return definitions(MODULES["tooljoint"] /
+                       "_core.pyi") if module == "tooljoint._core" else public(MODULES[module])
 
 
 def signature(node, method=False):
@@ -63,9 +71,15 @@ def signature(node, method=False):
 
 
 def prose(node):
-    """A docstring as Markdown: its examples become blocks of code, what it says of arguments a list."""
-    functions = [one for one in [node, *getattr(node, "body", [])] if isinstance(one, ast.FunctionDef)]
-    arguments = {each.arg for one in functions for each in [*one.args.args, *one.args.kwonlyargs, *filter(None, [one.args.vararg, one.args.kwarg])]}
+    """A docstring as Markdown: its examples become blocks of code, what it says of arguments a
+    list."""
+    functions = [
+        one for one in [node, *getattr(node, "body", [])] if isinstance(one, ast.FunctionDef)
+    ]
+    arguments = {
+        each.arg for one in functions for each in
+        [*one.args.args, *one.args.kwonlyargs, *filter(None, [one.args.vararg, one.args.kwarg])]
+    }
     lines, example, item = [], False, False
     for line in inspect.cleandoc(ast.get_docstring(node) or "").splitlines():
         named = re.match(r"(\w+(?:(?:, | and )\w+)*): ", line)
@@ -85,14 +99,16 @@ def prose(node):
 
 def directive(kind, head, module, body, ticks, options=()):
     fence = "`" * ticks
-    return "\n".join([f"{fence}{{py:{kind}}} {head}", f":module: {module}", *options, "", body, fence, ""])
+    return "\n".join(
+        [f"{fence}{{py:{kind}}} {head}", f":module: {module}", *options, "", body, fence, ""])
 
 
 def member(node, module, cls):
     """A method or property of a class as Markdown; operators show how they are written."""
     decorators = [ast.unparse(one) for one in node.decorator_list]
     if "property" in decorators:
-        options = [f":type: {ast.unparse(node.returns)}".replace("_core.", "")] if node.returns else []
+        options = [f":type: {ast.unparse(node.returns)}".replace("_core.", "")
+                   ] if node.returns else []
         return directive("property", f"{cls}.{node.name}", module, prose(node), 4, options)
     if node.name in OPERATORS:
         used = OPERATORS[node.name].format(*[one.arg for one in node.args.args[1:]])
@@ -105,12 +121,19 @@ def shown(name, node, module):
     if isinstance(node, ast.FunctionDef):
         return directive("function", name + signature(node), module, prose(node), 5)
     if isinstance(node, ast.Assign):
-        return directive("data", name, module, f"`{ast.unparse(node.value)}`" if len(ast.unparse(node.value)) < 100 else "", 5)
+        return directive(
+            "data", name, module,
+            f"`{ast.unparse(node.value)}`" if len(ast.unparse(node.value)) < 100 else "", 5)
     methods = [one for one in node.body if isinstance(one, ast.FunctionDef)]
     start = next((one for one in methods if one.name == "__init__"), None)
-    members = [member(one, module, name) for one in methods if not one.name.startswith("_") or one.name in OPERATORS]
+    members = [
+        member(one, module, name) for one in methods
+        if not one.name.startswith("_") or one.name in OPERATORS
+    ]
     exception = any(ast.unparse(base).endswith(("Error", "Exception")) for base in node.bases)
-    return directive("exception" if exception else "class", name + (signature(start, True) if start and not exception else ""), module, "\n".join([prose(node), "", *members]), 6)
+    return directive("exception" if exception else "class",
+                     name + (signature(start, True) if start and not exception else ""), module,
+                     "\n".join([prose(node), "", *members]), 6)
 
 
 class PythonReference(SphinxDirective):
@@ -130,16 +153,24 @@ class PythonReference(SphinxDirective):
             self.env.metadata[self.env.docname][f"python {module}.{name}"] = "shown"
             text.append(shown(name, known[name], module))
         node = nodes.container()
-        self.state.nested_parse(StringList("\n".join(text).splitlines(), source=self.env.docname), self.content_offset, node)
+        self.state.nested_parse(StringList("\n".join(text).splitlines(), source=self.env.docname),
+                                self.content_offset, node)
         return node.children
 
 
 def complete(app, env):
     """Every public name of the modules is on a page."""
-    there = {key.split(" ", 1)[1] for page in env.metadata.values() for key in page if key.startswith("python ")}
-    absent = [f"{module}.{name}" for module, folder in MODULES.items() for name in public(folder) if f"{module}.{name}" not in there]
+    there = {
+        key.split(" ", 1)[1] for page in env.metadata.values() for key in page
+        if key.startswith("python ")
+    }
+    absent = [
+        f"{module}.{name}" for module, folder in MODULES.items() for name in public(folder)
+        if f"{module}.{name}" not in there
+    ]
     if absent:
-        raise ExtensionError(f"No page of the site shows {', '.join(absent)}: name it in docs/api/python.md.")
+        raise ExtensionError(
+            f"No page of the site shows {', '.join(absent)}: name it in docs/api/python.md.")
 
 
 def setup(app):

@@ -1,13 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares all bases on the reference scene and on a frame, and rewrites tables and figures of docs/cms-variants.md, docs/tables/cms_variants_*.csv.
+"""Compares all bases on the reference scene and on a frame, and rewrites tables and figures of
+docs/cms-variants.md, docs/tables/cms_variants_*.csv.
 
-    tools/cms_variants.py --program build/release/tooljoint [--work results/cms_variants] [--only helical,frame,estimates,tolerance] [--fresh] [--short]
+    tools/cms_variants.py --program build/release/tooljoint [--work results/cms_variants] [--only
+        helical,frame,estimates,tolerance] [--fresh] [--short]
 
-The bases, what they are given and their mode counts are the Study lists of xml/cms_variants.xml and xml/cms_variants_frame.xml; their numbers are those of
-study.csv and study.h5. Runs that are already in the work folder are not repeated unless --fresh is given. --set changes the studies, for a quick look
-(--set Study/Repeats=1). --short (a test) takes few runs, writes nothing and ends with 1 when an estimate or a tolerance fails.
-Needs h5py, matplotlib and numpy.
+The bases, what they are given and their mode counts are the Study lists of xml/cms_variants.xml and
+xml/cms_variants_frame.xml; their numbers are those of study.csv and study.h5. Runs that are already
+in the work folder are not repeated unless --fresh is given. --set changes the studies, for a quick
+look (--set Study/Repeats=1). --short (a test) takes few runs, writes nothing and ends with 1 when
+an estimate or a tolerance fails. Needs h5py, matplotlib and numpy.
 """
 import argparse
 import csv
@@ -30,13 +33,15 @@ os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are no
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 FREQUENCIES = 20
-FACTOR = 3.0          # an estimate is to lie within this factor of the true error
-ROUNDING = 1e-9       # true errors of frequencies below this are rounding
-STEPS = 5e-5          # a vibration error below this is what the tolerance of the steps leaves, with all modes kept too
+FACTOR = 3.0  # an estimate is to lie within this factor of the true error
+ROUNDING = 1e-9  # true errors of frequencies below this are rounding
+# a vibration error below this is what the tolerance of the steps leaves, with all modes kept too
+STEPS = 5e-5
 STUDIES = {"helical": ("reference scene", "cms_variants"), "frame": ("frame", "cms_variants_frame")}
 # scene, window [s], what the motion is run with
 SCENES = [("helical_170m", 3, []), ("helical_170m_source", 3, []), ("stress_170m", 3, []),
-          ("vertical_1000m", 2, []), ("inclined_1000m", 2, []), ("frame", 2, ["Transient/Step=2e-4"])]
+          ("vertical_1000m", 2, []), ("inclined_1000m", 2, []),
+          ("frame", 2, ["Transient/Step=2e-4"])]
 FREQUENCY_TOLERANCES = ("1e-2", "1e-3", "1e-4")
 MOTION_TOLERANCE = "1e-2"
 
@@ -51,9 +56,9 @@ def settings(overrides):
 
 class Bench:
     """Runs of the program, kept in the work folder."""
-
     def __init__(self, options):
-        self.program, self.work, self.limit = options.program, pathlib.Path(options.work).resolve(), options.limit
+        self.program, self.work, self.limit = options.program, pathlib.Path(
+            options.work).resolve(), options.limit
         self.changes, self.fresh = settings(options.set), options.fresh
         self.studies = {}
         if self.fresh:
@@ -72,15 +77,22 @@ class Bench:
         folder.mkdir(parents=True, exist_ok=True)
         begin = time.time()
         try:
-            run = subprocess.run([self.program, command, str(deck), "--output", str(folder), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                 check=False, timeout=self.limit)
+            run = subprocess.run(
+                [self.program, command,
+                 str(deck), "--output",
+                 str(folder), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                text=True, check=False, timeout=self.limit)
         except subprocess.TimeoutExpired:
             print(f"{time.time() - begin:6.1f} s  {command} {name}: given up", flush=True)
             return folder, "", f"given up after {self.limit:g} s"
         said = re.sub(r"\n {2,}", " ", run.stderr.strip()).splitlines()  # without breaks of lines
-        reason = "" if run.returncode == 0 else (said or [f"ended with {run.returncode}"])[-1].removeprefix("tooljoint: ")
-        print(f"{time.time() - begin:6.1f} s  {command} {name}" + (f": {reason[:120]}" if reason else ""), flush=True)
-        kept.write_text(json.dumps({"arguments": arguments, "printed": run.stdout, "reason": reason}))
+        reason = "" if run.returncode == 0 else (
+            said or [f"ended with {run.returncode}"])[-1].removeprefix("tooljoint: ")
+        print(
+            f"{time.time() - begin:6.1f} s  {command} {name}" +
+            (f": {reason[:120]}" if reason else ""), flush=True)
+        kept.write_text(
+            json.dumps({"arguments": arguments, "printed": run.stdout, "reason": reason}))
         return folder, run.stdout, reason
 
     def study(self, name):
@@ -88,7 +100,12 @@ class Bench:
         if name not in self.studies:
             folder, begin = self.work / f"study_{name}", time.time()
             deck = PROJECT / f"xml/{STUDIES[name][1]}.xml"
-            command = [self.program, "study", str(deck), "--output", str(folder), "--set", "Study/Pictures=false", *self.changes, *(["--fresh"] if self.fresh else [])]
+            command = [
+                self.program, "study",
+                str(deck), "--output",
+                str(folder), "--set", "Study/Pictures=false", *self.changes,
+                *(["--fresh"] if self.fresh else [])
+            ]
             code = subprocess.run(command, check=False).returncode
             if code:
                 sys.exit(f"The study of {deck.name} ended with {code}.")
@@ -119,7 +136,8 @@ def shown(run, column, form="{:.1e}"):
     return form.format(float(run.row[column])) if run.row[column] else ""
 
 
-TABLE = ("run", "dofs", "frequency_error", "least_mac", "vibration_error", "cpu_per_simulated_s [s]", "setup_cpu [s]")
+TABLE = ("run", "dofs", "frequency_error", "least_mac", "vibration_error",
+         "cpu_per_simulated_s [s]", "setup_cpu [s]")
 
 
 def write_csv(name, rows):
@@ -133,8 +151,10 @@ def table(study):
     for run in study.all:
         if run.kind not in ("check", "sensitivity"):
             label = "full model, the reference" if run.kind == "reference" else run.label
-            rows.append((label, run.row["reduced_dofs"], shown(run, "frequency_error"), shown(run, "least_mac", "{:.2f}"), shown(run, "vibration_error"),
-                         shown(run, "cpu_per_simulated_s", "{:.3g}"), shown(run, "setup_cpu", "{:.2g}") if run.reduced else ""))
+            rows.append((label, run.row["reduced_dofs"], shown(run, "frequency_error"),
+                         shown(run, "least_mac", "{:.2f}"), shown(run, "vibration_error"),
+                         shown(run, "cpu_per_simulated_s",
+                               "{:.3g}"), shown(run, "setup_cpu", "{:.2g}") if run.reduced else ""))
     return rows
 
 
@@ -145,8 +165,14 @@ def overview(rows):
         line = redraw_studies.line_of(row[0])
         if row[4] and (line not in best or float(row[4]) < float(best[line][4])):
             best[line] = row
-    lines = ["| run with the smallest vibration error | dofs | largest error of 20 frequencies | vibration error | CPU [s] per simulated s | reduction [s] |", "|---|---|---|---|---|---|"]
-    lines += ["| " + " | ".join(cell or "-" for cell in (row[0], row[1], row[2], *row[4:])) + " |" for row in best.values()]
+    lines = [
+        "| run with the smallest vibration error | dofs | largest error of 20 frequencies | "
+        "vibration error | CPU [s] per simulated s | reduction [s] |", "|---|---|---|---|---|---|"
+    ]
+    lines += [
+        "| " + " | ".join(cell or "-" for cell in (row[0], row[1], row[2], *row[4:])) + " |"
+        for row in best.values()
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -161,7 +187,10 @@ def failures(study):
     failed = [(run.label, run.row["reason"]) for run in study.all if run.row["reason"]]
     if not failed:
         return "No run failed.\n"
-    return "\n".join(["| failed | reason |", "|---|---|", *(f"| {label} | {reason.replace('|', '/')} |" for label, reason in failed)]) + "\n"
+    return "\n".join([
+        "| failed | reason |", "|---|---|", *(f"| {label} | {reason.replace('|', '/')} |"
+                                              for label, reason in failed)
+    ]) + "\n"
 
 
 def figure(study, name):
@@ -170,7 +199,8 @@ def figure(study, name):
 
 
 def frequency_ratios(run):
-    """(number of the mode, MAC, true error, estimate, complete, estimate / true error) where both errors mean something."""
+    """(number of the mode, MAC, true error, estimate, complete, estimate / true error) where both
+    errors mean something."""
     curves = [run.curve(f"mode_{name}") for name in ("mac", "error", "estimate", "definite")]
     for i, (mac, error, estimate, definite) in enumerate(zip(*curves)):
         if abs(error) > ROUNDING:
@@ -179,7 +209,8 @@ def frequency_ratios(run):
 
 def motion_ratio(run):
     """estimate / vibration error; None where either means nothing."""
-    return run.number("estimated_vibration_error") / run.number("vibration_error") if run.row["estimated_vibration_error"] and run.number("vibration_error") > STEPS else None
+    return run.number("estimated_vibration_error") / run.number("vibration_error") if run.row[
+        "estimated_vibration_error"] and run.number("vibration_error") > STEPS else None
 
 
 def estimate_rows(study, scene):
@@ -194,54 +225,79 @@ def estimate_rows(study, scene):
             count[2].append(abs(ratio))
             if outside(ratio):
                 count[1] += 1
-                exceptions.append((scene, run.label, f"frequency {number}, MAC {mac:.2f}", f"{error:.1e}", f"{estimate:.1e}", f"{ratio:.3g}", "no" if complete else "yes"))
+                exceptions.append(
+                    (scene, run.label, f"frequency {number}, MAC {mac:.2f}", f"{error:.1e}",
+                     f"{estimate:.1e}", f"{ratio:.3g}", "no" if complete else "yes"))
         ratio = motion_ratio(run)
         if ratio is not None:
             count[3] += 1
             count[5].append(ratio)
             if outside(ratio):
                 count[4] += 1
-                exceptions.append((scene, run.label, "vibration error", f"{run.number('vibration_error'):.1e}", f"{run.number('estimated_vibration_error'):.1e}", f"{ratio:.3g}", ""))
+                exceptions.append(
+                    (scene, run.label, "vibration error", f"{run.number('vibration_error'):.1e}",
+                     f"{run.number('estimated_vibration_error'):.1e}", f"{ratio:.3g}", ""))
     span = lambda values: f"{min(values):.2g} to {max(values):.2g}" if values else "-"
-    rows = [f"| {scene} | {line} | {c[0]} | {c[1]} | {span(c[2])} | {c[3]} | {c[4]} | {span(c[5])} |" for line, c in counts.items() if c[0] + c[3] > 0]
+    rows = [
+        f"| {scene} | {line} | {c[0]} | {c[1]} | {span(c[2])} | {c[3]} | {c[4]} | {span(c[5])} |"
+        for line, c in counts.items() if c[0] + c[3] > 0
+    ]
     return rows, exceptions
 
 
 def tolerance_frequency(bench, scene, tolerance):
     """(row, met)."""
-    folder, printed, reason = bench.call("modes", f"tolerance {scene} {tolerance}", PROJECT / f"xml/{scene}.xml", ["--count", str(FREQUENCIES),
-                                         "--without", "Reduction/Mode Selection", "--set", f"Reduction/Mode Selection/Frequency Tolerance={tolerance}"])
+    folder, printed, reason = bench.call(
+        "modes", f"tolerance {scene} {tolerance}", PROJECT / f"xml/{scene}.xml", [
+            "--count",
+            str(FREQUENCIES), "--without", "Reduction/Mode Selection", "--set",
+            f"Reduction/Mode Selection/Frequency Tolerance={tolerance}"
+        ])
     if reason:
         return f"| {scene} | {tolerance} | failed: {reason} | | | no |", False
     full, dofs = re.search(r"reduced +(\d+) dofs to (\d+)", printed).groups()
     with open(folder / "modes.csv", newline="", encoding="utf-8") as text:
         rows = list(csv.DictReader(text))
-    error, estimated = (max(abs(float(row[name])) for row in rows) for name in ("error", "estimate"))
+    error, estimated = (max(abs(float(row[name])) for row in rows)
+                        for name in ("error", "estimate"))
     met = error <= float(tolerance)
-    return f"| {scene} | {tolerance} | {dofs} of {full} | {estimated:.1e} | {error:.1e} | {'yes' if met else '**no**'} |", met
+    return (f"| {scene} | {tolerance} | {dofs} of {full} | {estimated:.1e} | {error:.1e} | "
+            f"{'yes' if met else '**no**'} |"), met
 
 
 def vibration_error_between(bench, folder, reference, end):
-    done = subprocess.run([bench.program, "compare", str(folder), str(reference), "--to", str(end), "--json"], stdout=subprocess.PIPE, text=True, check=True)
+    done = subprocess.run(
+        [bench.program, "compare",
+         str(folder),
+         str(reference), "--to",
+         str(end), "--json"], stdout=subprocess.PIPE, text=True, check=True)
     return json.loads(done.stdout)["vibration_error"]
 
 
 def tolerance_motion(bench, scene, end, more, tolerance):
     """(row, met): the transient of the chosen modes against the full one with the same steps."""
     deck = PROJECT / f"xml/{scene}.xml"
-    common = [*settings([*more, f"Transient/End Time={end}"])] + (["--set", "Output/XDMF=false"] if scene != "frame" else [])
+    common = [*settings([*more, f"Transient/End Time={end}"])
+              ] + (["--set", "Output/XDMF=false"] if scene != "frame" else [])
     substructures = [] if scene == "frame" else ["--without", "Substructures"]
-    full, _, reason = bench.call("run", f"motion full {scene} {end}", deck, [*common, "--without", "Reduction", *substructures])
+    full, _, reason = bench.call("run", f"motion full {scene} {end}", deck,
+                                 [*common, "--without", "Reduction", *substructures])
     if reason:
-        return f"| {scene} | 0 to {end} s | {tolerance} | the full model failed: {reason} | | | no |", False
-    folder, _, reason = bench.call("run", f"motion {scene} {end} {tolerance}", deck, [*common, "--without", "Reduction/Mode Selection", "--set", f"Reduction/Mode Selection/Motion Tolerance={tolerance}"])
+        return (f"| {scene} | 0 to {end} s | {tolerance} | the full model failed: {reason} | | | "
+                "no |"), False
+    folder, _, reason = bench.call("run", f"motion {scene} {end} {tolerance}", deck, [
+        *common, "--without", "Reduction/Mode Selection", "--set",
+        f"Reduction/Mode Selection/Motion Tolerance={tolerance}"
+    ])
     if reason:
         return f"| {scene} | 0 to {end} s | {tolerance} | failed: {reason} | | | no |", False
     summary = json.loads((folder / "summary.json").read_text())
-    vibration_error, estimate = vibration_error_between(bench, folder, full, end), summary["reduction"]["estimate"]["motion_error"]
+    vibration_error, estimate = vibration_error_between(
+        bench, folder, full, end), summary["reduction"]["estimate"]["motion_error"]
     met = vibration_error <= float(tolerance)
-    return (f"| {scene} | 0 to {end} s | {tolerance} | {summary['reduction']['reduced_dofs']} of {summary['model']['free_dofs']} | {cell(estimate)} | {vibration_error:.1e} "
-            f"| {'yes' if met else '**no**'} |", met)
+    return (f"| {scene} | 0 to {end} s | {tolerance} | {summary['reduction']['reduced_dofs']} of "
+            f"{summary['model']['free_dofs']} | {cell(estimate)} | {vibration_error:.1e} | "
+            f"{'yes' if met else '**no**'} |", met)
 
 
 def scene_section(name, steps):
@@ -249,34 +305,56 @@ def scene_section(name, steps):
         study = bench.study(name)
         figure(study, f"cms_variants_{name}")
         own, timed = study.companion("check"), study.companion("reference")
-        cost = f"The steps alone ({steps}) cost a vibration error of {own.number('vibration_error'):.1e} against RK4." if own else "The check of the reference failed."
-        return (f"Machine: {machine()}; the reference took {timed.number('cpu'):.3g} s. {cost}\n\n![errors](figures/cms_variants_{name}.png)\n\n" + tabulated(table(study), f"cms_variants_{name}") + "\n"
-                + failures(study))
+        cost = (f"The steps alone ({steps}) cost a vibration error of "
+                f"{own.number('vibration_error'):.1e} against RK4."
+                ) if own else "The check of the reference failed."
+        return (f"Machine: {machine()}; the reference took {timed.number('cpu'):.3g} s. {cost}\n\n"
+                f"![errors](figures/cms_variants_{name}.png)\n\n" +
+                tabulated(table(study), f"cms_variants_{name}") + "\n" + failures(study))
+
     return write
 
 
 def estimates_section(bench):
-    rows = ["| scene | basis | frequencies | outside | ratios | motions | outside | ratios |", "|---|---|---|---|---|---|---|---|"]
+    rows = [
+        "| scene | basis | frequencies | outside | ratios | motions | outside | ratios |",
+        "|---|---|---|---|---|---|---|---|"
+    ]
     exceptions = [("scene", "run", "of", "true error", "estimate", "ratio", "said to lack a mode")]
     for name, (scene, _) in STUDIES.items():
         counts, found = estimate_rows(bench.study(name), scene)
         rows += counts
         exceptions += found
     write_csv("cms_variants_estimates", exceptions)
-    return "\n".join(rows) + f"\n\nThe {len(exceptions) - 1} exceptions: [cms_variants_estimates.csv](tables/cms_variants_estimates.csv).\n"
+    return "\n".join(rows) + (f"\n\nThe {len(exceptions) - 1} exceptions: "
+                              "[cms_variants_estimates.csv](tables/cms_variants_estimates.csv).\n")
 
 
 def tolerance_section(bench):
-    rows = ["| scene | tolerance | dofs | largest estimate | largest true error | met |", "|---|---|---|---|---|---|"]
+    rows = [
+        "| scene | tolerance | dofs | largest estimate | largest true error | met |",
+        "|---|---|---|---|---|---|"
+    ]
     for scene, _, _ in SCENES:
-        rows += [tolerance_frequency(bench, scene, tolerance)[0] for tolerance in FREQUENCY_TOLERANCES]
-    motions = ["| scene | window | tolerance | dofs | estimated vibration error | vibration error | met |", "|---|---|---|---|---|---|---|"]
+        rows += [
+            tolerance_frequency(bench, scene, tolerance)[0] for tolerance in FREQUENCY_TOLERANCES
+        ]
+    motions = [
+        "| scene | window | tolerance | dofs | estimated vibration error | vibration error | met |",
+        "|---|---|---|---|---|---|---|"
+    ]
     for scene, end, more in SCENES:
         motions.append(tolerance_motion(bench, scene, end, more, MOTION_TOLERANCE)[0])
-    return f"The lowest {FREQUENCIES} coupled frequencies:\n\n" + "\n".join(rows) + "\n\nThe motion:\n\n" + "\n".join(motions) + "\n"
+    return f"The lowest {FREQUENCIES} coupled frequencies:\n\n" + "\n".join(
+        rows) + "\n\nThe motion:\n\n" + "\n".join(motions) + "\n"
 
 
-SECTIONS = {"helical": scene_section("helical", "0.25 ms"), "frame": scene_section("frame", "0.2 ms"), "estimates": estimates_section, "tolerance": tolerance_section}
+SECTIONS = {
+    "helical": scene_section("helical", "0.25 ms"),
+    "frame": scene_section("frame", "0.2 ms"),
+    "estimates": estimates_section,
+    "tolerance": tolerance_section,
+}
 
 
 def short_test(bench):
@@ -284,9 +362,13 @@ def short_test(bench):
     faults = []
     chosen = ("Craig-Bampton", "MacNeal", "Rubin", "Dual Craig-Bampton", "Enhanced, free")
     deck = (PROJECT / f"xml/{STUDIES['frame'][1]}.xml").read_text(encoding="utf-8")
-    every = re.findall(r'^      <ParameterList name="(.*)">', deck[deck.index('<ParameterList name="Methods">'):], re.M)
-    bench.changes += settings(["Study/Repeats=1", "Study/End Time=0.5", "Study/Check/Set={Transient/Step=0.1 ms}", *(f"!Study/Methods/{name}" for name in every if name not in chosen),
-                               *(f"Study/Methods/{name}/Sweep/modes/Values={{8, 12}}" for name in chosen)])
+    every = re.findall(r'^      <ParameterList name="(.*)">',
+                       deck[deck.index('<ParameterList name="Methods">'):], re.M)
+    bench.changes += settings([
+        "Study/Repeats=1", "Study/End Time=0.5", "Study/Check/Set={Transient/Step=0.1 ms}",
+        *(f"!Study/Methods/{name}" for name in every if name not in chosen),
+        *(f"Study/Methods/{name}/Sweep/modes/Values={{8, 12}}" for name in chosen)
+    ])
     study = bench.study("frame")
     full = study.companion("reference").number("reduced_dofs")
     for run in reduced_runs(study):
@@ -298,16 +380,21 @@ def short_test(bench):
         if run.line not in ("MacNeal", "Dual Craig-Bampton"):  # which have no estimates
             wrong = [ratio for *_, ratio in frequency_ratios(run) if outside(ratio)]
             if wrong:
-                faults.append(f"{run.label}: estimates of frequencies off by the factors {', '.join(f'{ratio:.2g}' for ratio in wrong)}")
+                faults.append(f"{run.label}: estimates of frequencies off by the factors "
+                              f"{', '.join(f'{ratio:.2g}' for ratio in wrong)}")
             if not run.row["estimated_vibration_error"] or outside(motion_ratio(run) or 1.0):
-                faults.append(f"{run.label}: vibration error {run.row['vibration_error']}, estimate {run.row['estimated_vibration_error']}")
+                faults.append(f"{run.label}: vibration error {run.row['vibration_error']}, "
+                              f"estimate {run.row['estimated_vibration_error']}")
     for line in chosen:
         mine = [run.number("frequency_error") for run in reduced_runs(study) if run.line == line]
         if len(mine) != 2 or not mine[1] < mine[0]:
             faults.append(f"{line}: twelve modes are not better than eight")
-    for row, met in (tolerance_frequency(bench, "frame", "1e-3"), tolerance_frequency(bench, "helical_170m", "1e-3"),
-                     tolerance_motion(bench, "frame", 0.5, ["Transient/Step=2e-4"], "1e-2"),
-                     tolerance_motion(bench, "helical_170m", 0.05, [], "1e-2")):
+    for row, met in (
+            tolerance_frequency(bench, "frame", "1e-3"),
+            tolerance_frequency(bench, "helical_170m", "1e-3"),
+            tolerance_motion(bench, "frame", 0.5, ["Transient/Step=2e-4"], "1e-2"),
+            tolerance_motion(bench, "helical_170m", 0.05, [], "1e-2"),
+    ):
         print(row)
         if not met:
             faults.append(row)
@@ -316,13 +403,16 @@ def short_test(bench):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True, help="the tooljoint program")
     parser.add_argument("--work", default="results/cms_variants", help="folder for the runs")
     parser.add_argument("--only", default=",".join(SECTIONS), help="sections to write")
-    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="a change of both studies, \"!PATH\" takes something out")
+    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
+                        help="a change of both studies, \"!PATH\" takes something out")
     parser.add_argument("--fresh", action="store_true", help="forget the runs in that folder")
-    parser.add_argument("--limit", type=float, default=90.0, help="seconds after which a run of the tolerances is given up")
+    parser.add_argument("--limit", type=float, default=90.0,
+                        help="seconds after which a run of the tolerances is given up")
     parser.add_argument("--short", action="store_true", help="a quick check instead")
     options = parser.parse_args()
     bench = Bench(options)
@@ -335,8 +425,12 @@ def main():
         marked = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.S)
         if not marked.search(text):
             sys.exit(f"{page} has no place for the section \"{name}\".")
-        page.write_text(marked.sub(lambda match: match.group(1) + "\n" + section + "\n" + match.group(2), text), encoding="utf-8")
-    subprocess.run([sys.executable, str(PROJECT / "tests/lint/wrap.py"), "--update", str(page)], check=True)
+        page.write_text(
+            marked.sub(lambda match: match.group(1) + "\n" + section + "\n" + match.group(2), text),
+            encoding="utf-8")
+    subprocess.run(
+        [sys.executable, str(PROJECT / "tests/lint/wrap.py"), "--update",
+         str(page)], check=True)
     return 0
 
 

@@ -34,7 +34,8 @@ UNITS = {"": 1.0, "in": 0.0254, "m": 1.0, "kN": 1e3, "kN m": 1e3, "g/cm3": 1e3}
 
 
 def value(list_element, path):
-    """Parameter PATH ("Loads/Gravity") below an element of a deck, in SI units; its text where it has no number."""
+    """Parameter PATH ("Loads/Gravity") below an element of a deck, in SI units; its text where it
+    has no number."""
     *lists, name = path.split("/")
     for one in lists:
         list_element = list_element.find(f"ParameterList[@name='{one}']")
@@ -61,18 +62,24 @@ def segments(deck):
     def pieces(name):
         component = library.find(f"ParameterList[@name='{name}']")
         if component.find("Parameter[@name='Parts']") is None:
-            return [tuple(value(component, key) for key in ("Length", "Outer Radius", "Inner Radius"))]
+            return [
+                tuple(value(component, key) for key in ("Length", "Outer Radius", "Inner Radius"))
+            ]
         return [piece for part in entries(value(component, "Parts")) for piece in pieces(part)]
 
-    return [(name, *piece) for name in entries(value(scene, "Drillstring/Assembly")) for piece in pieces(name)]
+    return [(name, *piece) for name in entries(value(scene, "Drillstring/Assembly"))
+            for piece in pieces(name)]
 
 
 def loads(deck):
-    """Weight on bit [N], torque on bit [N m], and the weight in mud per metre [N/m] as a function of the radii."""
+    """Weight on bit [N], torque on bit [N m], and the weight in mud per metre [N/m] as a function
+    of the radii."""
     scene = ET.parse(deck).getroot()
-    steel, mud, g = (value(scene, path) for path in ("Drillstring/Material/Density", "Mud/Density", "Loads/Gravity"))
-    return value(scene, "Loads/Weight On Bit"), value(scene, "Loads/Torque On Bit"), lambda outer, inner: (
-        (steel - mud) * math.pi * (outer**2 - inner**2) * g)
+    steel, mud, g = (value(scene, path)
+                     for path in ("Drillstring/Material/Density", "Mud/Density", "Loads/Gravity"))
+    return value(scene,
+                 "Loads/Weight On Bit"), value(scene, "Loads/Torque On Bit"), lambda outer, inner: (
+                     (steel - mud) * math.pi * (outer**2 - inner**2) * g)
 
 
 def short(path):
@@ -92,7 +99,8 @@ def lines(label, command):
 
 
 def run(program, folder, more):
-    """Runs the scene into `folder`, with warnings printed only, and returns its summary; ends with the exit code of the program where that fails."""
+    """Runs the scene into `folder`, with warnings printed only, and returns its summary; ends with
+    the exit code of the program where that fails."""
     command = [short(program), "run", short(DECK), "--output", short(folder), "--quiet", *more]
     print(lines("== ", command), flush=True)
     code = subprocess.run(command, check=False).returncode
@@ -104,17 +112,26 @@ def run(program, folder, more):
 def figures(program, output):
     """Everything that is printed, as numbers."""
     reduced, full = run(program, output / "reduced", []), run(program, output / "full", FULL)
-    compared = subprocess.run([str(program), "compare", str(output / "reduced"), str(output / "full"), "--json"], stdout=subprocess.PIPE, check=True)
+    compared = subprocess.run(
+        [str(program), "compare",
+         str(output / "reduced"),
+         str(output / "full"), "--json"], stdout=subprocess.PIPE, check=True)
     weight_on_bit, torque_on_bit, in_mud = loads(DECK)
     string = segments(DECK)
     with h5py.File(output / "reduced" / "results.h5") as results:
         force, depth = results["/static/normal_force"][:], results["/model/s"][:]
     node = int(np.argmax(force))
     ends = np.cumsum([length for _, length, _, _ in string])
-    errors = [(measure(summary) / bound, name, measure(summary), bound) for summary in (reduced, full) for name, measure, bound in checks.CHECKS]
-    cpu = {name: s["transient"]["cpu_s"] / (s["transient"]["end"] - s["transient"]["start"]) for name, s in (("reduced", reduced), ("full", full))}
+    errors = [(measure(summary) / bound, name, measure(summary), bound)
+              for summary in (reduced, full) for name, measure, bound in checks.CHECKS]
+    cpu = {
+        name: s["transient"]["cpu_s"] / (s["transient"]["end"] - s["transient"]["start"])
+        for name, s in (("reduced", reduced), ("full", full))
+    }
     return {
-        "dofs": {"reduced": reduced["reduction"]["reduced_dofs"], "full": full["model"]["free_dofs"]},
+        "dofs": {
+            "reduced": reduced["reduction"]["reduced_dofs"], "full": full["model"]["free_dofs"]
+        },
         "cpu_per_simulated_second": cpu,
         "speed_up": cpu["full"] / cpu["reduced"],
         "vibration_error": json.loads(compared.stdout)["vibration_error"],
@@ -123,9 +140,14 @@ def figures(program, output):
         "weight_on_bit": weight_on_bit,
         "surface_torque": reduced["static"]["surface_torque"],
         "torque_on_bit": torque_on_bit,
-        "side_force": {"value": float(force[node]), "depth": float(depth[node]), "component": string[int(np.searchsorted(ends, depth[node]))][0]},
+        "side_force": {
+            "value": float(force[node]),
+            "depth": float(depth[node]),
+            "component": string[int(np.searchsorted(ends, depth[node]))][0],
+        },
         "bit_speed_rpm": reduced["transient"]["bit_speed_rpm"],
-        "worst_check": dict(zip(("name", "value", "bound"), max(errors)[1:])),
+        "worst_check": dict(zip(("name", "value", "bound"),
+                                max(errors)[1:])),
     }
 
 
@@ -133,6 +155,12 @@ def report(f, program, output):
     """The table and the summary."""
     wall = f["weight_in_mud"] - f["weight_on_bit"] - f["hook_load"]
     side, bit, check = f["side_force"], f["bit_speed_rpm"], f["worst_check"]
+    hook = (f"weight in mud {f['weight_in_mud'] / 1e3:.1f} - on the bit "
+            f"{f['weight_on_bit'] / 1e3:.1f} - on the wall {wall / 1e3:.1f}")
+    friction = f["surface_torque"] - f["torque_on_bit"]
+    torque = (f"torque on bit {f['torque_on_bit'] / 1e3:.2f} + friction on the wall "
+              f"{friction / 1e3:.2f}")
+    place = f"at a measured depth of {side['depth']:.1f} m, {side['component']}"
     verdict = "met" if check["value"] <= check["bound"] else "NOT MET"
     cpu = f["cpu_per_simulated_second"]
     return f"""
@@ -141,9 +169,9 @@ full     {f['dofs']['full']:6d} {cpu['full']:23.3f}         (reference)
 reduced  {f['dofs']['reduced']:6d} {cpu['reduced']:23.3f} {f['vibration_error']:17.2%}
 The reduced model is {f['speed_up']:.1f} times as fast.
 
-hook load           {f['hook_load'] / 1e3:7.1f} kN    weight in mud {f['weight_in_mud'] / 1e3:.1f} - on the bit {f['weight_on_bit'] / 1e3:.1f} - on the wall {wall / 1e3:.1f}
-surface torque      {f['surface_torque'] / 1e3:7.2f} kN m  torque on bit {f['torque_on_bit'] / 1e3:.2f} + friction on the wall {(f['surface_torque'] - f['torque_on_bit']) / 1e3:.2f}
-largest side force  {side['value'] / 1e3:7.2f} kN    at a measured depth of {side['depth']:.1f} m, {side['component']}
+hook load           {f['hook_load'] / 1e3:7.1f} kN    {hook}
+surface torque      {f['surface_torque'] / 1e3:7.2f} kN m  {torque}
+largest side force  {side['value'] / 1e3:7.2f} kN    {place}
 bit speed           {bit['mean']:7.1f} rpm   {bit['min']:.1f} to {bit['max']:.1f}
 worst check         {verdict}: {check['name']} {check['value']:.1e}, bound {check['bound']:.0e}
 
@@ -154,13 +182,19 @@ type    {short(program)} new my_well
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/tooljoint")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("results/first_run"))
     options = parser.parse_args()
     found = figures(options.program, options.output)
-    (options.output / "comparison.json").write_text(json.dumps(found, indent=2) + "\n", encoding="utf-8")
-    drawing = [sys.executable, short(ROOT / "tools" / "plot_results.py"), short(options.output / "reduced")]
+    (options.output / "comparison.json").write_text(
+        json.dumps(found, indent=2) + "\n", encoding="utf-8")
+    drawing = [
+        sys.executable,
+        short(ROOT / "tools" / "plot_results.py"),
+        short(options.output / "reduced")
+    ]
     print(lines("== ", drawing), flush=True)
     subprocess.run(drawing, check=True, stdout=subprocess.DEVNULL)
     print(report(found, options.program, options.output))

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Maps of `tooljoint map` as pictures: plot_map.py DIR
 
-DIR holds map.csv and summary.json. Every value of the list `Map/Values` becomes map_NAME.png and .svg: cells coloured by the value over the
-first two axes, contour lines where the grid has three points or more each way, unsafe cells hatched with the limit as a line, failed points
-crossed out. With more than two axes each point of the others has a picture of its own.
+DIR holds map.csv and summary.json. Every value of the list `Map/Values` becomes map_NAME.png and
+.svg: cells coloured by the value over the first two axes, contour lines where the grid has three
+points or more each way, unsafe cells hatched with the limit as a line, failed points crossed out.
+With more than two axes each point of the others has a picture of its own.
 """
 import argparse
 import itertools
@@ -27,46 +28,61 @@ LONGEST_TICKS = 48  # letters of all ticks of an axis that stand side by side
 
 
 class Map:
-    """The table of a map as grids: `failed` and, of each value, `grid`, with nan where it is not known. `rows` are those of map.csv, by names
-    without units, in the order of the grids. Unreadable: no table, or not that of the summary."""
-
+    """The table of a map as grids: `failed` and, of each value, `grid`, with nan where it is not
+    known. `rows` are those of map.csv, by names without units, in the order of the grids.
+    Unreadable: no table, or not that of the summary."""
     def __init__(self, folder):
-        summary, lines = results.read_summary(folder).get("map"), files.read_rows(folder / "map.csv")
+        summary, lines = results.read_summary(folder).get("map"), files.read_rows(
+            folder / "map.csv")
         if not summary or not summary.get("axes"):
-            raise files.Unreadable(f"{folder}/summary.json is not that of a map that has ended. tooljoint map DECK --output {folder} goes on with the map, --collect {folder} makes one of the points "
-                        "that are done.")
+            raise files.Unreadable(f"{folder}/summary.json is not that of a map that has ended. "
+                                   f"tooljoint map DECK --output {folder} goes on with the map, "
+                                   f"--collect {folder} makes one of the points that are done.")
         self.folder, self.axes, self.values = folder, summary["axes"], summary["values"]
-        self.rows = [dict(zip((re.sub(r" \[[^\]]*\]$", "", name) for name in lines[0]), line)) for line in lines[1:]]
+        self.rows = [
+            dict(zip((re.sub(r" \[[^\]]*\]$", "", name) for name in lines[0]), line))
+            for line in lines[1:]
+        ]
         shape = [axis["points"] for axis in self.axes]
         if len(self.rows) != np.prod(shape):
-            raise files.Unreadable(f"{folder}/map.csv has {len(self.rows)} rows, the grid of summary.json {np.prod(shape)} points. Run the map again, or restore both files from a copy.")
+            raise files.Unreadable(f"{folder}/map.csv has {len(self.rows)} rows, the grid of "
+                                   f"summary.json {np.prod(shape)} points. Run the map again, or "
+                                   "restore both files from a copy.")
         with files.reading(folder / "map.csv"):
             self.sort(shape)
 
     def sort(self, shape):
         rows = self.rows
         self.failed = np.array([row["status"] != "done" for row in rows]).reshape(shape)
-        self.grid = {value["name"]: np.array([float(row[value["name"]] or "nan") for row in rows]).reshape(shape) for value in self.values}
+        self.grid = {
+            value["name"]: np.array([float(row[value["name"]] or "nan") for row in rows
+                                     ]).reshape(shape) for value in self.values
+        }
         for k, axis in enumerate(self.axes):
             texts = list(dict.fromkeys(row[axis["name"]] for row in rows))
             axis["texts"] = texts
             # points that are no numbers stand in their order
-            axis["places"] = np.array([float(text) for text in texts]) if axis["numeric"] else np.arange(shape[k], dtype=float)
+            axis["places"] = np.array([float(text) for text in texts
+                                       ]) if axis["numeric"] else np.arange(shape[k], dtype=float)
             axis["label"] = axis["name"] + (f" [{axis['unit']}]" if axis["unit"] else "")
 
     def pictures(self):
         """(value, point of the axes beyond the second, name of the picture) of all pictures."""
         for value in self.values:
             for rest in itertools.product(*(range(axis["points"]) for axis in self.axes[2:])):
-                yield value, rest, "map_" + re.sub(r"\W+", "_", value["name"]) + "".join(f"_{i + 1}" for i in rest)
-
+                yield value, rest, "map_" + re.sub(r"\W+", "_", value["name"]) + "".join(
+                    f"_{i + 1}" for i in rest)
 
     def conditions(self):
         """Scene, what the axes do not vary, and overrides, for the second line of a title."""
         with results.open_results(self.folder / "map.h5") as file:
-            said = {name: file.attrs.get(name, "") for name in ("deck_file", "deck_text", "overrides")}
-        fixed = deck.conditions(deck.read(said["deck_text"], said["overrides"]), {axis["parameter"] for axis in self.axes})
-        changed = ", ".join(line for line in said["overrides"].splitlines() if line and not line.startswith(("Map/", "!Map/")))
+            said = {
+                name: file.attrs.get(name, "") for name in ("deck_file", "deck_text", "overrides")
+            }
+        fixed = deck.conditions(deck.read(said["deck_text"], said["overrides"]),
+                                {axis["parameter"] for axis in self.axes})
+        changed = ", ".join(line for line in said["overrides"].splitlines()
+                            if line and not line.startswith(("Map/", "!Map/")))
         return "; ".join(filter(None, (pathlib.PurePath(said["deck_file"]).stem, fixed, changed)))
 
 
@@ -77,7 +93,8 @@ def edges(places):
 
 
 def limits(value):
-    return sorted(value[name] for name in ("unsafe_above", "unsafe_below") if value[name] is not None)
+    return sorted(
+        value[name] for name in ("unsafe_above", "unsafe_below") if value[name] is not None)
 
 
 def unsafe(value, grid):
@@ -91,14 +108,21 @@ def unsafe(value, grid):
 
 def lines(axes, x, y, grid, value):
     """Contours through the points; the limit between safe and unsafe is drawn heavier."""
-    if min(len(x), len(y)) < LEAST_FOR_CONTOURS or np.count_nonzero(np.isfinite(grid)) < LEAST_FOR_CONTOURS ** 2 or np.nanmin(grid) == np.nanmax(grid):
+    if min(len(x), len(y)) < LEAST_FOR_CONTOURS or np.count_nonzero(
+            np.isfinite(grid)) < LEAST_FOR_CONTOURS**2 or np.nanmin(grid) == np.nanmax(grid):
         return
     masked = np.ma.masked_invalid(grid.T)
     low, high = np.nanmin(grid), np.nanmax(grid)
-    even = [level for level in plots.ticker.MaxNLocator(CONTOURS).tick_values(low, high) if low < level < high]
+    even = [
+        level for level in plots.ticker.MaxNLocator(CONTOURS).tick_values(low, high)
+        if low < level < high
+    ]
     if even:
         # dark on the light half of the colours
-        drawn = axes.contour(x, y, masked, levels=even, colors=["white" if level < (low + high) / 2 else "black" for level in even], linewidths=0.7)
+        drawn = axes.contour(
+            x, y, masked, levels=even,
+            colors=["white" if level < (low + high) / 2 else "black" for level in even],
+            linewidths=0.7)
         axes.clabel(drawn, fontsize=8, fmt=plots.tick)
     levels = [level for level in limits(value) if low < level < high]
     if levels:
@@ -111,15 +135,23 @@ def hatch(axes, x, y, beyond):
     areas = []
     for j, row in enumerate(beyond.T):
         ends = np.flatnonzero(np.diff(np.concatenate([[0], row, [0]])))
-        areas += [plt.Rectangle((left[first], low[j]), left[last] - left[first], low[j + 1] - low[j]) for first, last in ends.reshape(-1, 2)]
-    outline = Path.make_compound_path(*(area.get_transform().transform_path(area.get_path()) for area in areas))
+        areas += [
+            plt.Rectangle((left[first], low[j]), left[last] - left[first], low[j + 1] - low[j])
+            for first, last in ends.reshape(-1, 2)
+        ]
+    outline = Path.make_compound_path(*(area.get_transform().transform_path(area.get_path())
+                                        for area in areas))
     axes.add_patch(PathPatch(outline, fill=False, hatch="///", edgecolor=UNSAFE, linewidth=0))
-    axes.scatter([], [], marker="s", facecolor="none", edgecolor=UNSAFE, hatch="////", label="unsafe")
+    axes.scatter([], [], marker="s", facecolor="none", edgecolor=UNSAFE, hatch="////",
+                 label="unsafe")
 
 
 def tick_texts(axes, along, axis, places, order, most):
     """Ticks at the points, or at as many of them as have room."""
-    texts = [f"{place:.5g}" if axis["numeric"] else pathlib.PurePath(axis["texts"][i]).name for place, i in zip(places, order)]
+    texts = [
+        f"{place:.5g}" if axis["numeric"] else pathlib.PurePath(axis["texts"][i]).name
+        for place, i in zip(places, order)
+    ]
     room = (places[-1] - places[0]) / most
     kept = [0]
     for i, place in enumerate(places):
@@ -132,7 +164,8 @@ def tick_texts(axes, along, axis, places, order, most):
 
 
 def draw(made, value, rest, conditions=""):
-    """The map of one value over the first two axes, at the point `rest` of the others; `conditions` stand below the title, where no page has them."""
+    """The map of one value over the first two axes, at the point `rest` of the others; `conditions`
+    stand below the title, where no page has them."""
     first, second = made.axes[:2]
     # cells need increasing places
     order = np.argsort(first["places"]), np.argsort(second["places"])
@@ -143,7 +176,9 @@ def draw(made, value, rest, conditions=""):
     axes.grid(False)
     if np.isfinite(grid).any():
         whole = made.grid[value["name"]]
-        cells = axes.pcolormesh(edges(x), edges(y), np.ma.masked_invalid(grid.T), cmap=plots.MAP, vmin=np.nanmin(whole), vmax=np.nanmax(whole), rasterized=grid.size > MOST_CELLS)
+        cells = axes.pcolormesh(edges(x), edges(y), np.ma.masked_invalid(grid.T), cmap=plots.MAP,
+                                vmin=np.nanmin(whole), vmax=np.nanmax(whole),
+                                rasterized=grid.size > MOST_CELLS)
         picture.colorbar(cells, ax=axes, label=plots.label(value["name"], value.get("unit") or ""))
     lines(axes, x, y, grid, value)
     beyond = unsafe(value, grid)
@@ -155,7 +190,8 @@ def draw(made, value, rest, conditions=""):
         axes.scatter(x[i], y[j], marker="x", color="#4D4D4D", label="missing")
     tick_texts(axes, axes.xaxis, first, x, order[0], MOST_TICKS[0])
     tick_texts(axes, axes.yaxis, second, y, order[1], MOST_TICKS[1])
-    title = value["name"] + "".join(f", {axis['name']} {axis['texts'][i]} {axis['unit']}" for axis, i in zip(made.axes[2:], rest))
+    title = value["name"] + "".join(f", {axis['name']} {axis['texts'][i]} {axis['unit']}"
+                                    for axis, i in zip(made.axes[2:], rest))
     if conditions:
         plots.headline(picture, title.strip(), conditions)
     else:
@@ -166,8 +202,10 @@ def draw(made, value, rest, conditions=""):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path, metavar="DIR", help="folder of a map that ended")
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path, metavar="DIR",
+                        help="folder of a map that ended")
     folder = parser.parse_args().folder
     plots.use_style()
     with files.failing():

@@ -1,11 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what a run left in its folder: tools/plot_results.py DIR [--output FILE.png] [--animate FILE.gif|FILE.mp4]
+"""Draws what a run left in its folder.
 
-Of a string: its well coloured by contact force, profiles of lateral displacement, contact force, axial force and torque along the measured
-depth, and the bit speed over time. Of a scene of parts, for each component: displacement at the start and largest displacement of all nodes,
-and the motion of the node that moves most; recorded forces between parts. --animate draws the motion besides: the lateral displacement of
-the string in its clearance, or the parts in space with magnified displacements. Needs h5py, numpy and matplotlib; reads results.h5 alone.
+    tools/plot_results.py DIR [--output FILE.png] [--animate FILE.gif|FILE.mp4]
+
+Of a string: its well coloured by contact force, profiles of lateral displacement, contact force,
+axial force and torque along the measured depth, and the bit speed over time. Of a scene of parts,
+for each component: displacement at the start and largest displacement of all nodes, and the motion
+of the node that moves most; recorded forces between parts. --animate draws the motion besides: the
+lateral displacement of the string in its clearance, or the parts in space with magnified
+displacements. Needs h5py, numpy and matplotlib; reads results.h5 alone.
 """
 import pathlib
 import sys
@@ -18,7 +22,8 @@ try:
     from plots import COLOURS, GREY, MAP, RPM, plt
     from report import figures, files, folder, scene3d
 except ImportError as missing:
-    sys.exit(f"{missing}: plot_results.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
+    sys.exit(f"{missing}: plot_results.py needs h5py, numpy and matplotlib (Debian: python3-h5py "
+             "python3-matplotlib, then /usr/bin/python3).")
 
 BLUE, ORANGE, GREEN = COLOURS[:3]
 WALL = "#e2e2e2"
@@ -36,7 +41,8 @@ def draw_well(made, results):
     axes.plot(*position.T, color="0.8", linewidth=4, zorder=0)
     points = axes.scatter(*position.T, c=force, cmap=MAP, s=8, depthshade=False)
     plots.equal_axes(axes, position)
-    made.colorbar(points, ax=axes, location="top", shrink=0.7, pad=0.02, label=plots.label("static contact force", "kN"))
+    made.colorbar(points, ax=axes, location="top", shrink=0.7, pad=0.02,
+                  label=plots.label("static contact force", "kN"))
 
 
 def draw_static(row, results):
@@ -45,9 +51,13 @@ def draw_static(row, results):
     middle = 0.5 * (s[1:] + s[:-1])
     displacement = results["/static/displacement"][:]
     radial, contact, axial, torque = row
-    plots.profiles(row, [plots.label(*pair) for pair in (("lateral displacement", "mm"), ("contact force", "kN"), ("axial force", "kN"), ("torque", "kN m"))], (s[0], s[-1]))
+    plots.profiles(row, [
+        plots.label(*pair) for pair in (("lateral displacement", "mm"), ("contact force", "kN"),
+                                        ("axial force", "kN"), ("torque", "kN m"))
+    ], (s[0], s[-1]))
     figures.draw_clearance(radial, s, results["/model/clearance"][:])
-    radial.plot(1e3 * np.hypot(displacement[:, 0], displacement[:, 1]), s, color=BLUE, linewidth=1.0, label="string")
+    radial.plot(1e3 * np.hypot(displacement[:, 0], displacement[:, 1]), s, color=BLUE,
+                linewidth=1.0, label="string")
     radial.set_xlim(left=0)
     plots.legend_above(radial, 1)
     contact.hlines(s, 0, results["/static/normal_force"][:] / 1e3, color=BLUE, linewidth=1.2)
@@ -60,7 +70,8 @@ def draw_static(row, results):
 def draw_motion(axes, results):
     time = results["/transient/time"][:]
     plots.whole_ticks(axes, 8, 5)
-    figures.draw_bit_speed(axes, time, results["/transient/motion"][:, 2], results["/transient/speed"][:])
+    figures.draw_bit_speed(axes, time, results["/transient/motion"][:, 2],
+                           results["/transient/speed"][:])
     axes.set_xlim(time[0], time[-1])
     axes.set_xlabel(plots.label("time", "s")), axes.set_ylabel(plots.label("speed", "rpm"))
 
@@ -68,8 +79,11 @@ def draw_motion(axes, results):
 def draw_string(results):
     moves = "/transient/motion" in results
     made = plt.figure(figsize=(12, 8.5 if moves else 5.8), constrained_layout=True)
-    plots.headline(made, f"String of {results['/model/s'][-1]:.0f} m: static state" + (" and speed of the bit" if moves else ""), folder.conditions(results))
-    rows = made.subfigures(2 if moves else 1, 1, height_ratios=[2.2, 1] if moves else [1], squeeze=False)[:, 0]
+    plots.headline(
+        made, f"String of {results['/model/s'][-1]:.0f} m: static state" +
+        (" and speed of the bit" if moves else ""), folder.conditions(results))
+    rows = made.subfigures(2 if moves else 1, 1, height_ratios=[2.2, 1] if moves else [1],
+                           squeeze=False)[:, 0]
     well, static = rows[0].subfigures(1, 2, width_ratios=[1, 2])
     draw_well(well, results)
     draw_static(static.subplots(1, 4, sharey=True), results)
@@ -84,15 +98,18 @@ def texts(dataset):
 
 def recorded(results):
     """Rows (from 0) of the nodes whose motion is recorded."""
-    return results["/transient/node"][:] - 1 if "/transient/node" in results else np.arange(len(results["/static/displacement"]))
+    return results["/transient/node"][:] - 1 if "/transient/node" in results else np.arange(
+        len(results["/static/displacement"]))
 
 
 def draw_nodes(axes, results, start, motion):
-    """A component of all recorded nodes, part by part: at the start, and the range of the motion (samples x nodes, or None)."""
+    """A component of all recorded nodes, part by part: at the start, and the range of the motion
+    (samples x nodes, or None)."""
     part, names = results["/model/part"][:][recorded(results)], texts(results["/model/part_names"])
     row = np.arange(part.size)
     if motion is not None:
-        axes.fill_between(row, motion.min(axis=0), motion.max(axis=0), step="mid", color=COLOURS[5], alpha=0.3, linewidth=0, label="range of the motion")
+        axes.fill_between(row, motion.min(axis=0), motion.max(axis=0), step="mid", color=COLOURS[5],
+                          alpha=0.3, linewidth=0, label="range of the motion")
     axes.plot(row, start, "k.", markersize=3, label="start")
     for first in np.flatnonzero(np.diff(part)):
         axes.axvline(first + 0.5, color="0.8", linewidth=0.6)
@@ -106,28 +123,40 @@ def draw_mover(axes, results, start, motion):
     column = int(np.abs(motion - start).max(axis=0).argmax())
     node = recorded(results)[column]
     name = texts(results["/model/part_names"])[results["/model/part"][node] - 1]
-    axes.plot(*plots.envelope(results["/transient/time"][:], motion[:, column]), color=BLUE, linewidth=0.7)
-    axes.set_title(f"node {results['/model/node'][node]} of {name}, which moves most", fontsize=7, fontweight="normal", pad=2)
+    axes.plot(*plots.envelope(results["/transient/time"][:], motion[:, column]), color=BLUE,
+              linewidth=0.7)
+    axes.set_title(f"node {results['/model/node'][node]} of {name}, which moves most", fontsize=7,
+                   fontweight="normal", pad=2)
 
 
 def draw_forces(axes, results, name):
     """A recorded channel of a point law: the largest size over its points."""
     channel = results[name]
-    axes.plot(*plots.envelope(results["/transient/time"][:], np.abs(channel[:]).reshape(len(channel), -1).max(axis=1)), color=ORANGE, linewidth=0.7)
-    axes.set_title(f"{name.removeprefix('/transient/')}, largest size over its points", fontsize=7, fontweight="normal", pad=2)
+    axes.plot(
+        *plots.envelope(results["/transient/time"][:],
+                        np.abs(channel[:]).reshape(len(channel), -1).max(axis=1)), color=ORANGE,
+        linewidth=0.7)
+    axes.set_title(f"{name.removeprefix('/transient/')}, largest size over its points", fontsize=7,
+                   fontweight="normal", pad=2)
     axes.set_ylabel(plots.label(name.split("/")[-1].replace("_", " "), channel.attrs["units"]))
 
 
 def draw_parts(results):
-    components, units = texts(results["/model/components"]), texts(results["/model/component_units"])
+    components, units = texts(results["/model/components"]), texts(
+        results["/model/component_units"])
     start = results["/static/displacement"][:][recorded(results)]
     motion = results["/transient/displacement"][:] if "/transient/displacement" in results else None
     moving = results.get("/transient", {})
-    channels = [f"/transient/{law}/{name}" for law in moving if isinstance(moving[law], h5py.Group) for name in moving[law]]
+    channels = [
+        f"/transient/{law}/{name}" for law in moving if isinstance(moving[law], h5py.Group)
+        for name in moving[law]
+    ]
     rows, columns = len(components) + len(channels), 1 if motion is None and not channels else 2
-    made, axes = plt.subplots(rows, columns, figsize=(5.5 * columns, 1.6 + 1.4 * rows), squeeze=False, constrained_layout=True)
+    made, axes = plt.subplots(rows, columns, figsize=(5.5 * columns, 1.6 + 1.4 * rows),
+                              squeeze=False, constrained_layout=True)
     names = texts(results["/model/part_names"])
-    plots.headline(made, f"{len(names)} parts, {start.shape[0]} nodes: displacements", folder.conditions(results))
+    plots.headline(made, f"{len(names)} parts, {start.shape[0]} nodes: displacements",
+                   folder.conditions(results))
     for c, (name, unit) in enumerate(zip(components, units)):
         draw_nodes(axes[c, 0], results, start[:, c], None if motion is None else motion[:, :, c])
         axes[c, 0].set_ylabel(plots.label(name, unit))
@@ -152,17 +181,22 @@ def draw(results):
 
 
 def lateral_names(results):
-    """What u and v are called: the frames of the nodes are carried along the well without spin, from north and east where it starts downwards."""
+    """What u and v are called: the frames of the nodes are carried along the well without spin,
+    from north and east where it starts downwards."""
     frame = results.get("/model/frame")
     known = frame is not None and frame[0, 0, 0] > ALONG
-    return ("u, north at the surface", "v, east at the surface") if known else ("displacement u", "displacement v")
+    if known:
+        return "u, north at the surface", "v, east at the surface"
+    return "displacement u", "displacement v"
 
 
 def moving_string(results, samples):
     """(figure, function of a sample): the lateral displacements of the string in its clearance."""
-    s, clearance, rows = results["/model/s"][:], 1e3 * results["/model/clearance"][:], results["/transient/displacement"]
+    s, clearance, rows = results["/model/s"][:], 1e3 * results["/model/clearance"][:], results[
+        "/transient/displacement"]
     made, pair = plt.subplots(1, 2, figsize=(6.2, 5.5), sharey=True, constrained_layout=True)
-    plots.profiles(pair, [plots.label(name, "mm") for name in lateral_names(results)], (s[0], s[-1]))
+    plots.profiles(pair, [plots.label(name, "mm") for name in lateral_names(results)],
+                   (s[0], s[-1]))
     reach = max(1e3 * float(np.abs(rows[samples, :, :2]).max()), 1e-6)
     lines = []
     for axes in pair:
@@ -187,13 +221,16 @@ def moving_parts(results, samples):
     places = [list(np.searchsorted(rows, pair)) for pair in links]
     places += map(list, scene3d.held_edges(position, results["/model/part"][:][rows], places))
     columns = [components.index(name) if name in components else None for name in ("u", "v", "w")]
-    move = lambda sample: np.column_stack([motion[sample][rows, c] if c is not None else np.zeros(len(rows)) for c in columns])  # noqa: E731
+    move = lambda sample: np.column_stack(
+        [motion[sample][rows, c] if c is not None else np.zeros(len(rows))
+         for c in columns])  # noqa: E731
     largest = max(float(np.abs(move(sample)).max()) for sample in samples)
     size = float(np.ptp(position, axis=0).max())
     factor = float(f"{LARGEST_SHARE * size / largest:.1g}") if largest > 0 and size > 0 else 1.0
     made = plt.figure(figsize=(6.2, 5.5), constrained_layout=True)
     axes = plots.space_axes(made, 111, ("x", "y", "z"))
-    plots.equal_axes(axes, np.concatenate([position - LARGEST_SHARE * size, position + LARGEST_SHARE * size]))
+    plots.equal_axes(
+        axes, np.concatenate([position - LARGEST_SHARE * size, position + LARGEST_SHARE * size]))
     for pair in places:
         axes.plot(*position[pair].T, color="0.8", linewidth=1.0)
     lines = [axes.plot([], [], [], color=BLUE, linewidth=1.4)[0] for _ in places]
@@ -213,19 +250,25 @@ def moving_parts(results, samples):
 def animate(results, path):
     """The motion as an animation of at most MOST_PICTURES samples."""
     if "/transient/time" not in results:
-        sys.exit("results.h5 has no motion to animate: the run ended with its static state. Run a deck with a list Transient (without --without Transient), or leave --animate out.")
+        sys.exit("results.h5 has no motion to animate: the run ended with its static state. Run a "
+                 "deck with a list Transient (without --without Transient), or leave --animate "
+                 "out.")
     if "/transient/displacement" not in results:
         others = [name for name in FIELDS if f"/transient/{name}" in results]
         nodes = ", without Output/Depths and Output/Nodes" if "/transient/node" in results else ""
-        sys.exit(f"results.h5 has a motion without displacements (of the fields it holds {', '.join(others) or 'none'}). "
-                 f"Run the deck again with --set \"Output/Fields={{{', '.join(['displacement', *others])}}}\"{nodes}, or leave --animate out.")
+        sys.exit("results.h5 has a motion without displacements (of the fields it holds "
+                 f"{', '.join(others) or 'none'}). Run the deck again with --set "
+                 f"\"Output/Fields={{{', '.join(['displacement', *others])}}}\"{nodes}, or leave "
+                 "--animate out.")
     if "/transient/node" in results:
-        sys.exit("results.h5 has the motion of chosen nodes alone. Take Output/Depths or Output/Nodes out and run the deck again, or leave --animate out.")
+        sys.exit("results.h5 has the motion of chosen nodes alone. Take Output/Depths or "
+                 "Output/Nodes out and run the deck again, or leave --animate out.")
     time = results["/transient/time"][:]
     samples = np.unique(np.linspace(0, len(time) - 1, min(len(time), MOST_PICTURES)).astype(int))
     parts = "/model/part_names" in results
     if parts and "/model/located" not in results:
-        sys.exit("The parts of these results have no positions, so they cannot be drawn in space. Give coordinates in their part files, or leave --animate out.")
+        sys.exit("The parts of these results have no positions, so they cannot be drawn in space. "
+                 "Give coordinates in their part files, or leave --animate out.")
     made, show = (moving_parts if parts else moving_string)(results, samples)
     title, said = show(samples[0], time[samples[0]])
     plots.headline(made, title, said)
@@ -240,7 +283,10 @@ def animate(results, path):
 
 def main():
     parser = folder.parser(__doc__, KIND, ["results.h5"])
-    parser.add_argument("--animate", type=pathlib.Path, metavar="FILE", help="the motion as FILE.gif, or as FILE.mp4 where ffmpeg is installed, besides the picture")
+    parser.add_argument(
+        "--animate", type=pathlib.Path, metavar="FILE",
+        help="the motion as FILE.gif, or as FILE.mp4 where ffmpeg is installed, besides the picture"
+    )
     options = parser.parse_args()
     plots.use_style()
     name, results = folder.opened(options.folder, KIND, ["results.h5"])

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws figures of record of studies again, in the style of today, from the tables that the documents hold.
+"""Draws figures of record of studies again, in the style of today, from the tables that the
+documents hold.
 
     tools/redraw_studies.py [--output docs/figures] [--only speed_helical,...]
 
-speed_*.svg come from docs/tables/speed_*.csv, cms_variants_*.png from docs/tables/cms_variants_*.csv; nothing is measured again. Needs h5py,
-numpy and matplotlib.
+speed_*.svg come from docs/tables/speed_*.csv, cms_variants_*.png from
+docs/tables/cms_variants_*.csv; nothing is measured again. Needs h5py, numpy and matplotlib.
 """
 import argparse
 import csv
@@ -23,11 +24,17 @@ try:
     import plots
     from report import deck
 except ImportError as missing:
-    sys.exit(f"{missing}: redraw_studies.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
+    sys.exit(f"{missing}: redraw_studies.py needs h5py, numpy and matplotlib (Debian: python3-h5py "
+             "python3-matplotlib, then /usr/bin/python3).")
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
-COLUMNS = ("line", "label", "kind", "model", "sweep", "status", "vibration_error", "cpu_per_simulated_s", "cpu_spread", "reduced_dofs", "modes", "frequency_error", "setup_cpu", "reason")
-SPEED = {"helical": "study_helical_170m", "stress": "stress_170m", "vertical": "vertical_1000m", "inclined": "inclined_1000m"}
+COLUMNS = ("line", "label", "kind", "model", "sweep", "status", "vibration_error",
+           "cpu_per_simulated_s", "cpu_spread", "reduced_dofs", "modes", "frequency_error",
+           "setup_cpu", "reason")
+SPEED = {
+    "helical": "study_helical_170m", "stress": "stress_170m", "vertical": "vertical_1000m",
+    "inclined": "inclined_1000m"
+}
 VARIANTS = {"helical": "cms_variants", "frame": "cms_variants_frame"}
 BASELINE = "RK4 adaptive, Tolerance 1e-2"
 
@@ -52,7 +59,8 @@ def save_small(made, path):
 
 
 def published(lists, file):
-    for number, (name, entry) in enumerate((lists.get("Study", {}).get("Published") or {}).items(), 1):
+    for number, (name, entry) in enumerate((lists.get("Study", {}).get("Published") or {}).items(),
+                                           1):
         group = file.create_group(f"published/{number:03d}")
         group.attrs["label"] = name
         group["cpu_time"] = [float(value) for value in re.findall(r"[-+.\deE]+", entry["CPU Time"])]
@@ -68,9 +76,14 @@ def study(name, rows, attributes):
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         with open(folder / "study.csv", "w", newline="", encoding="utf-8") as out:
-            csv.writer(out).writerows([COLUMNS, *([row.get(column, "") for column in COLUMNS] for row in rows)])
+            csv.writer(out).writerows(
+                [COLUMNS, *([row.get(column, "") for column in COLUMNS] for row in rows)])
         with h5py.File(folder / "study.h5", "w") as file:
-            file.attrs.update({"deck_name": xml.fromstring(text).get("name", name), "deck_text": text, **attributes})
+            file.attrs.update({
+                "deck_name": xml.fromstring(text).get("name", name),
+                "deck_text": text,
+                **attributes,
+            })
             published(lists, file)
         return plot_study.Study(folder)
 
@@ -78,44 +91,77 @@ def study(name, rows, attributes):
 def speed(name):
     """Of docs/tables/speed_NAME.csv, and what the page says of its reference."""
     page = (PROJECT / "docs/speed-against-error.md").read_text(encoding="utf-8")
-    said = re.search(rf"xml/{SPEED[name]}\.xml`\. .*?vibration error of (\S+) over (\S+) to (\S+) s", " ".join(page.split()))
+    said = re.search(
+        rf"xml/{SPEED[name]}\.xml`\. .*?vibration error of (\S+) over (\S+) to (\S+) s",
+        " ".join(page.split()))
     with open(PROJECT / f"docs/tables/speed_{name}.csv", newline="", encoding="utf-8") as file:
         table = list(csv.DictReader(file))
     most = max(int(row["dofs"]) for row in table)
-    rows = [{"line": line_of(row["run"]), "label": row["run"], "kind": "method", "model": "full" if int(row["dofs"]) == most else "reduced", "reduced_dofs": row["dofs"],
-             "status": "done" if row["vibration_error"] else "failed", "vibration_error": row["vibration_error"], "cpu_per_simulated_s": row["cpu_per_simulated_s [s]"],
-             "cpu_spread": row["cpu_spread"], "reason": row["remarks"]} for row in table]
+    rows = [{
+        "line": line_of(row["run"]), "label": row["run"], "kind": "method",
+        "model": "full" if int(row["dofs"]) == most else "reduced", "reduced_dofs": row["dofs"],
+        "status": "done" if row["vibration_error"] else "failed",
+        "vibration_error": row["vibration_error"],
+        "cpu_per_simulated_s": row["cpu_per_simulated_s [s]"], "cpu_spread": row["cpu_spread"],
+        "reason": row["remarks"]
+    } for row in table]
     machine = re.search(r"^Machine: (.*?), \d+ processors", page, re.M).group(1)
-    return plot_study.draw_speed(study(SPEED[name], rows, {"machine": machine, "baseline": BASELINE, "self_error": float(said.group(1)), "window_begin": float(said.group(2)),
-                                                           "window_end": float(said.group(3))}))
+    return plot_study.draw_speed(
+        study(
+            SPEED[name], rows, {
+                "machine": machine, "baseline": BASELINE, "self_error": float(said.group(1)),
+                "window_begin": float(said.group(2)), "window_end": float(said.group(3))
+            }))
 
 
 def variants(name):
-    """Of docs/tables/cms_variants_NAME.csv, and what the section of the page says of machine and steps."""
+    """Of docs/tables/cms_variants_NAME.csv, and what the section of the page says of machine and
+    steps."""
     page = (PROJECT / "docs/cms-variants.md").read_text(encoding="utf-8")
     section = page[page.index(f"<!-- {name} -->"):]
     section = section[:section.index("<!-- end -->")]
-    with open(PROJECT / f"docs/tables/cms_variants_{name}.csv", newline="", encoding="utf-8") as file:
+    with open(PROJECT / f"docs/tables/cms_variants_{name}.csv", newline="",
+              encoding="utf-8") as file:
         table = list(csv.DictReader(file))
     rows = []
     for row in table[1:]:  # the first is the reference
         label, error = row["run"], row["vibration_error"]
-        rows.append({"line": line_of(label), "label": label, "kind": "method", "model": "full" if line_of(label) == "Full" else "reduced", "status": "done" if error else "failed", "vibration_error": error,
-                     "cpu_per_simulated_s": row["cpu_per_simulated_s [s]"], "reduced_dofs": row["dofs"], "frequency_error": row["frequency_error"], "setup_cpu": row["setup_cpu [s]"]})
+        rows.append({
+            "line": line_of(label), "label": label, "kind": "method",
+            "model": "full" if line_of(label) == "Full" else "reduced",
+            "status": "done" if error else "failed", "vibration_error": error,
+            "cpu_per_simulated_s": row["cpu_per_simulated_s [s]"], "reduced_dofs": row["dofs"],
+            "frequency_error": row["frequency_error"], "setup_cpu": row["setup_cpu [s]"]
+        })
     own = re.search(r"vibration error of (\S+) against RK4", " ".join(section.split()))
     _, lists = scene(VARIANTS[name])
-    window = float(next(filter(None, (deck.value(lists, path) for path in ("Study/Window", "Study/End Time", "Transient/End Time")))))
-    return plot_study.draw_bases(study(VARIANTS[name], rows, {"machine": re.search(r"^Machine: (.*?), \d+ cores", section, re.M).group(1), "self_error": float(own.group(1)), "frequencies": 20,
-                                                              "window_begin": 0.0, "window_end": window}))
+    window = float(
+        next(
+            filter(None, (deck.value(lists, path)
+                          for path in ("Study/Window", "Study/End Time", "Transient/End Time")))))
+    return plot_study.draw_bases(
+        study(
+            VARIANTS[name], rows, {
+                "machine": re.search(
+                    r"^Machine: (.*?), \d+ cores", section, re.M).group(1), "self_error": float(
+                        own.group(1)), "frequencies": 20, "window_begin": 0.0, "window_end": window
+            }))
 
 
-FIGURES = {**{f"speed_{name}.svg": (speed, name) for name in SPEED}, **{f"cms_variants_{name}.png": (variants, name) for name in VARIANTS}}
+FIGURES = {
+    **{f"speed_{name}.svg": (speed, name) for name in SPEED},
+    **{f"cms_variants_{name}.png": (variants, name) for name in VARIANTS}
+}
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--output", type=pathlib.Path, default=PROJECT / "docs/figures", help="folder of the figures")
-    parser.add_argument("--only", type=lambda text: text.split(","), default=[name.partition(".")[0] for name in FIGURES], help="figures, without their endings, separated by commas")
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--output", type=pathlib.Path, default=PROJECT / "docs/figures",
+                        help="folder of the figures")
+    parser.add_argument("--only", type=lambda text: text.split(","),
+                        default=[name.partition(".")[0] for name in FIGURES],
+                        help="figures, without their endings, separated by commas")
     options = parser.parse_args()
     plots.use_style()
     for file, (draw, name) in FIGURES.items():

@@ -3,17 +3,21 @@
 """Runs the shipped decks with two versions of the program and compares everything they write.
 
     same_results.py OLD NEW [--end 0.2] [--only PATTERN] [--names names.json] [--json table.json]
-    same_results.py --write PAGE table.json ...   writes the tables of such files into the page, between its marks
+    same_results.py --write PAGE table.json ...   writes the tables of such files into the page,
+                                                  between its marks
 
-OLD and NEW are programs (tooljoint), each run in its own source tree (--old-tree, --new-tree; default: this one) because decks
-and their parameters may have been renamed between them. Every deck of xml/ and examples/ and every gold of tests/regression/ is
-run up to --end seconds of motion at its own fixed settings. All datasets of results.h5 and all numbers of summary.json are
-compared but for times and memory. A line per scene names the largest difference: relative to the largest entry of its dataset.
+OLD and NEW are programs (tooljoint), each run in its own source tree (--old-tree, --new-tree;
+default: this one) because decks and their parameters may have been renamed between them. Every deck
+of xml/ and examples/ and every gold of tests/regression/ is run up to --end seconds of motion at
+its own fixed settings. All datasets of results.h5 and all numbers of summary.json are compared but
+for times and memory. A line per scene names the largest difference: relative to the largest entry
+of its dataset.
 
-Allowed are 1e-10 for the static state, 1e-9 for the motion, 1 % of the counts of steps (--static, --motion, --steps).
-A deck both programs refuse as bad input (exit code 2: it needs a method of its own example, say) is not compared; any other
-failure counts as a difference, equal or not.
---names gives a JSON object {old dotted key or dataset: new one}. Exit code 0: every scene agrees; 1: one does not or fails.
+Allowed are 1e-10 for the static state, 1e-9 for the motion, 1 % of the counts of steps (--static,
+--motion, --steps). A deck both programs refuse as bad input (exit code 2: it needs a method of its
+own example, say) is not compared; any other failure counts as a difference, equal or not. --names
+gives a JSON object {old dotted key or dataset: new one}. Exit code 0: every scene agrees; 1: one
+does not or fails.
 """
 import argparse
 import json
@@ -33,10 +37,12 @@ os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are no
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # What two runs of one program do not share, and texts, which may be reworded.
-VOLATILE = ("wall_s", "cpu_s", "real_time_factor", "memory", "program.", "deck.", "date", "status_at", "host", "cost_ratio", "warnings")
+VOLATILE = ("wall_s", "cpu_s", "real_time_factor", "memory", "program.", "deck.", "date",
+            "status_at", "host", "cost_ratio", "warnings")
 BAD_INPUT = 2
 MARKS = ("<!-- same_results.py: begin -->", "<!-- same_results.py: end -->")
-COUNTS = ("steps", "rejected", "newton_iterations", "factorisations", "evaluations", "iterations", "solves")
+COUNTS = ("steps", "rejected", "newton_iterations", "factorisations", "evaluations", "iterations",
+          "solves")
 
 
 def scenes(tree):
@@ -55,9 +61,11 @@ def run(program, tree, deck, overrides, end, folder):
     moves = any(child.get("name") == "Transient" for child in ET.parse(tree / deck).getroot())
     for override in overrides + ([f"Transient/End Time={end}"] if moves else []):
         command += ["--set", override]
-    # a program of another tree would load the libraries of this one where both were built at the same path
+    # a program of another tree would load the libraries of this one where both were built at the
+    # same path
     own = {**os.environ, "LD_LIBRARY_PATH": str(pathlib.Path(program).resolve().parent)}
-    done = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, env=own)
+    done = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, check=False, env=own)
     return done.returncode, done.stdout
 
 
@@ -84,7 +92,8 @@ def difference(a, b):
         if not (np.isfinite(a).all() and np.isfinite(b).all()):
             return math.inf
         return float(np.max(np.abs(a - b)) / max(np.max(np.abs(a)), np.finfo(float).tiny))
-    if isinstance(a, bool) or isinstance(b, bool) or not isinstance(a, (int, float)) or not isinstance(b, (int, float)):
+    if isinstance(a, bool) or isinstance(
+            b, bool) or not isinstance(a, (int, float)) or not isinstance(b, (int, float)):
         return 0.0 if a == b else math.inf
     return 0.0 if a == b else abs(a - b) / max(abs(a), abs(b))
 
@@ -92,18 +101,25 @@ def difference(a, b):
 def datasets(file):
     found = {}
     with h5py.File(file, "r") as h5:
-        h5.visititems(lambda name, item: found.update({name: item[()] if item.shape == () else item[...]}) if isinstance(item, h5py.Dataset) else None)
-    return {name: value if isinstance(value, np.ndarray) else np.asarray(value) for name, value in found.items()}
+        h5.visititems(
+            lambda name, item: found.update({name: item[()] if item.shape == () else item[...]})
+            if isinstance(item, h5py.Dataset) else None)
+    return {
+        name: value if isinstance(value, np.ndarray) else np.asarray(value)
+        for name, value in found.items()
+    }
 
 
 def bound(name, options):
     if name.split(".")[-1] in COUNTS:
         return options.steps
-    return options.motion if name.startswith(("transient", "xdmf", "reduction", "bases", "modes")) else options.static
+    return options.motion if name.startswith(
+        ("transient", "xdmf", "reduction", "bases", "modes")) else options.static
 
 
 def compare(old, new, options, names):
-    """(largest difference of a kind to its bound, name, difference), and how many values were compared."""
+    """(largest difference of a kind to its bound, name, difference), and how many values were
+    compared."""
     worst, count = (0.0, "", 0.0), 0
     values = []
     summaries = [json.loads((folder / "summary.json").read_text()) for folder in (old, new)]
@@ -128,7 +144,8 @@ def compare(old, new, options, names):
 def version(program):
     """The commit of a program, as it prints it."""
     own = {**os.environ, "LD_LIBRARY_PATH": str(pathlib.Path(program).resolve().parent)}
-    printed = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True, env=own).stdout
+    printed = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True,
+                             env=own).stdout
     return re.search(r"\b[0-9a-f]{7,40}\b", printed).group(0)[:8]
 
 
@@ -137,30 +154,43 @@ def cell(row):
     if row is None:
         return ""
     if "exit" in row:
-        return "refused by both" if row["exit"] == [BAD_INPUT, BAD_INPUT] else f"exit {row['exit'][0]} / {row['exit'][1]}"
+        return "refused by both" if row["exit"] == [
+            BAD_INPUT, BAD_INPUT
+        ] else f"exit {row['exit'][0]} / {row['exit'][1]}"
     if row["largest_difference"] == 0.0:
         return "bitwise the same"
     size = row["largest_difference"]
-    return f"{size if isinstance(size, str) else f'{size:.1e}'} ({row['where']})" + ("" if row["agrees"] else ", too large")
+    return f"{size if isinstance(size, str) else f'{size:.1e}'} ({row['where']})" + (
+        "" if row["agrees"] else ", too large")
 
 
 def written(page, tables):
-    """The page with the tables between its marks: a row for each scene, a column for each pair of programs."""
+    """The page with the tables between its marks: a row for each scene, a column for each pair of
+    programs."""
     before, rest = page.split(MARKS[0])
     _, after = rest.split(MARKS[1])
     names = list(dict.fromkeys(row["scene"] for table in tables for row in table["scenes"]))
     found = [{row["scene"]: row for row in table["scenes"]} for table in tables]
-    lines = ["| scene | " + " | ".join(f"{table['old']} to {table['new']}" for table in tables) + " |", "|---|" + "---|" * len(tables)]
-    lines += [f"| {name} | " + " | ".join(cell(rows.get(name)) for rows in found) + " |" for name in names]
+    lines = [
+        "| scene | " + " | ".join(f"{table['old']} to {table['new']}" for table in tables) + " |",
+        "|---|" + "---|" * len(tables)
+    ]
+    lines += [
+        f"| {name} | " + " | ".join(cell(rows.get(name)) for rows in found) + " |" for name in names
+    ]
     return before + MARKS[0] + "\n\n" + "\n".join(lines) + "\n\n" + MARKS[1] + after
 
 
 def main():
     if sys.argv[1:2] == ["--write"]:
         page = pathlib.Path(sys.argv[2])
-        page.write_text(written(page.read_text(encoding="utf-8"), [json.loads(pathlib.Path(name).read_text()) for name in sys.argv[3:]]), encoding="utf-8")
+        page.write_text(
+            written(page.read_text(encoding="utf-8"),
+                    [json.loads(pathlib.Path(name).read_text()) for name in sys.argv[3:]]),
+            encoding="utf-8")
         return 0
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("old")
     parser.add_argument("new")
     parser.add_argument("--old-tree", type=pathlib.Path, default=ROOT)
@@ -186,8 +216,12 @@ def main():
             continue
         with tempfile.TemporaryDirectory() as folder:
             folders = [pathlib.Path(folder) / "old", pathlib.Path(folder) / "new"]
-            codes = [run(options.old, options.old_tree.resolve(), deck, overrides, options.end, str(folders[0])),
-                     run(options.new, options.new_tree.resolve(), *news[name], options.end, str(folders[1]))]
+            codes = [
+                run(options.old, options.old_tree.resolve(), deck, overrides, options.end,
+                    str(folders[0])),
+                run(options.new, options.new_tree.resolve(), *news[name], options.end,
+                    str(folders[1]))
+            ]
             if codes[0][0] != codes[1][0] or codes[0][0] != 0:
                 refused = codes[0][0] == codes[1][0] == BAD_INPUT
                 agree = agree and refused
@@ -199,13 +233,22 @@ def main():
             (ratio, where, d), count = compare(*folders, options, names)
         fits = ratio <= 1.0
         agree = agree and fits
-        print(f"{name:45} {count:>7} {'bitwise the same' if d == 0.0 else f'{d:.1e}':>19}  {where}{'' if fits else '  TOO LARGE'}", flush=True)
-        table.append({"scene": name, "values": count, "largest_difference": d if math.isfinite(d) else "missing", "where": where, "agrees": fits})
+        print(
+            f"{name:45} {count:>7} {'bitwise the same' if d == 0.0 else f'{d:.1e}':>19}  "
+            f"{where}{'' if fits else '  TOO LARGE'}", flush=True)
+        table.append({
+            "scene": name, "values": count,
+            "largest_difference": d if math.isfinite(d) else "missing", "where": where,
+            "agrees": fits
+        })
     if not table:
         print("No scene was compared.")
         return 1
     if options.json:
-        whole = {"old": version(options.old), "new": version(options.new), "end": options.end, "scenes": table}
+        whole = {
+            "old": version(options.old), "new": version(options.new), "end": options.end,
+            "scenes": table
+        }
         options.json.write_text(json.dumps(whole, indent=1) + "\n")
     return 0 if agree else 1
 

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures long strings, large parts and many rows, and writes docs/scale.md with its figures.
 
-    tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--only CHAPTER ...] [--short]
+    tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec]
+        [--most DOFS] [--only CHAPTER ...] [--short]
 
-Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are in the work folder
-already are not run again. Without --only all chapters are measured, on a machine of two cores without other work; with it these are
-renewed. The figures show the tables of the document (tools/scale_figures.py). --short takes the smallest of each and prints the
-chapters, with their figures in the work folder.
+Every row is a run of its own, with its wall and CPU time and the peak memory of its largest
+process. Rows that are in the work folder already are not run again. Without --only all chapters are
+measured, on a machine of two cores without other work; with it these are renewed. The figures show
+the tables of the document (tools/scale_figures.py). --short takes the smallest of each and prints
+the chapters, with their figures in the work folder.
 """
 import argparse
 import csv
@@ -15,43 +17,37 @@ import json
 import math
 import os
 import pathlib
-import platform
 import re
 import shutil
 import subprocess
 import sys
-import time
 from xml.etree import ElementTree
 
 import scale_figures
 from same_results import datasets, difference
+from scale_blocks import cuts, solids
+from scale_runs import (FULL, PROJECT, chapter, machine_line, measured, seconds, table, times)
 
-PROJECT = pathlib.Path(__file__).resolve().parent.parent
 os.environ.setdefault("TOOLJOINT_REPORT", "off")
 os.environ.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
 DOCUMENT = scale_figures.DOCS / "scale.md"
-BLOCK = PROJECT / "examples/12_solid_block"
-# Elements along a block of 8:2:1 of equal hexahedra.
-BLOCKS = (8, 4, 2), (24, 6, 3), (40, 10, 5), (56, 14, 7), (80, 20, 10), (116, 29, 15)
 STATIC_ONLY = ["--without", "Transient", "--without", "Reduction", "--without", "Substructures"]
-MODES, JOINED = 50, 100
-FULL = ["--without", "Reduction", "--without", "Substructures"]
-MOTIONS = [("vertical_5000m", FULL, 0.5), ("vertical_5000m", [], 1), ("extended_reach_5000m", FULL, 0.5), ("extended_reach_5000m", [], 0.5),
+MOTIONS = [("vertical_5000m", FULL, 0.5), ("vertical_5000m", [], 1),
+           ("extended_reach_5000m", FULL, 0.5), ("extended_reach_5000m", [], 0.5),
            ("vertical_10000m", FULL, 0.3), ("inclined_1000m", FULL, 1), ("stress_170m", FULL, 2)]
 COUNTED = 0.02
 COUNTED_RANKS = 1, 2, 3, 4, 8, 16
 MESSAGE = 2e-6  # of a few numbers between two ranks of one machine [s]
-CUT_PARTS, CUT_BLOCKS = 16, ((24, 6, 3), (56, 14, 7), (100, 25, 12), (170, 43, 21))
-CUT_RANKS = 1, 2  # the largest block on two alone
-CUT_WHOLE = 200000  # dofs of the largest block that is solved as a whole, too
 REDUCED_DECK = PROJECT / "xml/vertical_5000m.xml"
 REDUCED_ERROR = 0.02  # vibration error that is required
-REDUCED_METHODS = "cut-off", "long parts"  # lists of the study, whose real time factor is measured on two ranks too
-STATICS = "stress_170m", "inclined_1000m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m"
+# lists of the study, whose real time factor is measured on two ranks too
+REDUCED_METHODS = "cut-off", "long parts"
+STATICS = ("stress_170m", "inclined_1000m", "vertical_5000m", "extended_reach_5000m",
+           "vertical_10000m")
 # Stages of --verbose: the equilibrium, and what a static state takes beside it.
 EQUILIBRIUM = "static equilibrium"
-BESIDE = ("path of the string", "equations of the string", "stability of the static state", "Krylov-Schur iteration",
-          "inertia counts", "factorisation for modes")
+BESIDE = ("path of the string", "equations of the string", "stability of the static state",
+          "Krylov-Schur iteration", "inertia counts", "factorisation for modes")
 PLANNED = 100, 300, 1000  # rows
 STUDY = PROJECT / "tests/study/study.xml"
 HEAD = """# Scale
@@ -60,247 +56,153 @@ What the program takes for long strings, large parts and many rows. Written by
 
     tools/scale.py --program build/release/tooljoint
 
-Times are of one run each, where nothing else is said; ratios within a table are what lasts. Memory is
-the peak of the largest process.
+Times are of one run each, where nothing else is said; ratios within a table are what lasts. Memory
+is the peak of the largest process.
 """
-
-
-def chapter(options, title, text, figure="", note=""):
-    """A chapter that names its machine; `text` ends with a table."""
-    shown = f"![{scale_figures.NAMES[figure]}](figures/{figure}.svg)\n\n" if figure else ""
-    own = f"{options.machine}{' ' if note else ''}{note}"
-    return f"## {title}\n\n{own}\n\n{shown}{text}"
-
-
-def measured(options, name, words, ranks=1):
-    """{code, wall_s, cpu_s, memory_mb, output} of a run of the program, from the work folder or by running it."""
-    folder = pathlib.Path(options.work) / name
-    record = folder / "row.json"
-    if record.exists():
-        return json.loads(record.read_text(encoding="utf-8"))
-    folder.mkdir(parents=True, exist_ok=True)
-    command = [options.program, *words]
-    if ranks > 1:
-        command = [options.mpiexec, "-n", str(ranks), *command]
-    log = folder / "log.txt"
-    begin = time.monotonic()
-    child = os.fork()
-    if child == 0:
-        with open(log, "w", encoding="utf-8") as text:
-            os.dup2(text.fileno(), 1)
-            os.dup2(text.fileno(), 2)
-        os.chdir(folder)
-        os.execvp(command[0], command)
-    _, status, usage = os.wait4(child, 0)
-    row = {"code": os.waitstatus_to_exitcode(status), "wall_s": time.monotonic() - begin, "cpu_s": usage.ru_utime + usage.ru_stime,
-           "memory_mb": usage.ru_maxrss / 1024, "output": log.read_text(encoding="utf-8")}
-    record.write_text(json.dumps(row), encoding="utf-8")
-    return row
-
-
-def solid(options, counts):
-    """A block with JOINED retained nodes at its tip, reduced with MODES modes; (dofs, entries, row)."""
-    name = "block_" + "x".join(map(str, counts))
-    folder = pathlib.Path(options.work).resolve() / name
-    folder.mkdir(parents=True, exist_ok=True)
-    made = folder / "made.txt"
-    if not made.exists():
-        text = os.popen(f"{sys.executable} {BLOCK}/make_block.py {' '.join(map(str, counts))} --joined {JOINED} --out {folder}/block.h5").read()
-        shutil.copy(BLOCK / "deck.xml", folder / "deck.xml")
-        made.write_text(text, encoding="utf-8")
-    dofs, entries = map(int, re.search(r"(\d+) dofs, (\d+) entries", made.read_text(encoding="utf-8")).groups())
-    row = measured(options, name, ["export", "deck.xml", "--set", f"Reduction/Mode Selection/Modes={MODES}", "--output", "reduced"])
-    return dofs, entries, row
-
-
-def block_of(options, counts, joined):
-    """(folder with block.h5, dofs, entries) of a block with so many nodes kept at its tip; -1: none."""
-    folder = pathlib.Path(options.work).resolve() / ("block_" if joined >= 0 else "whole_") / "x".join(map(str, counts))
-    folder.mkdir(parents=True, exist_ok=True)
-    made = folder / "made.txt"
-    if not made.exists():
-        text = os.popen(f"{sys.executable} {BLOCK}/make_block.py {' '.join(map(str, counts))} --joined {joined} --out {folder}/block.h5").read()
-        made.write_text(text, encoding="utf-8")
-    return folder, *map(int, re.search(r"(\d+) dofs, (\d+) entries", made.read_text(encoding="utf-8")).groups())
-
-
-def rival(options, folder, count):
-    """{hertz, wall_s, memory_mb} of the lowest modes of the whole by one shift-invert run: until they are printed."""
-    record = folder / f"rival_{count}.json"
-    if record.exists():
-        return json.loads(record.read_text(encoding="utf-8"))
-    begin, hertz, reading = time.monotonic(), [], False
-    child = subprocess.Popen([options.program, "modes", "deck.xml", "--without", "Reduction", "--count", str(count)], cwd=folder, stdout=subprocess.PIPE, text=True)
-    for line in child.stdout:
-        reading = reading or "full [Hz]" in line
-        found = re.match(r" *(\d+) +(\S+)$", line) if reading else None
-        if found:
-            hertz.append(float(found.group(2)))
-        if len(hertz) == count:
-            break
-    wall = time.monotonic() - begin
-    child.terminate()  # damped modes would follow
-    _, _, usage = os.wait4(child.pid, 0)
-    row = {"hertz": hertz, "wall_s": wall, "memory_mb": usage.ru_maxrss / 1024}
-    record.write_text(json.dumps(row), encoding="utf-8")
-    return row
-
-
-def seconds(x):
-    return f"{x:.3g}" if x < 1000 else f"{x:.0f}"
-
-
-def cut_row(options, counts, ranks):
-    """A line of the table of cut blocks."""
-    folder, dofs, _ = block_of(options, counts, -1)
-    text = re.sub(r".*\"Retained\".*\n", "", (BLOCK / "deck.xml").read_text(encoding="utf-8"))
-    (folder / "deck.xml").write_text(text, encoding="utf-8")
-    name = f"cut_{'x'.join(map(str, counts))}_{ranks}"
-    row = measured(options, name, ["modes", str(folder / "deck.xml"), "--coupled", "--count", str(MODES), "--output", "out",
-                                   "--set", f"Reduction/Mode Selection/Modes={MODES}", "--set", "Reduction/Basis=Multilevel",
-                                   "--set", f"Reduction/Multilevel/Parts={CUT_PARTS}", "--set", "Reduction/Basis Checks=false"], ranks)
-    if row["code"] != 0:
-        return (dofs, ranks, *times(row)[:1], "", "", "", "", "", "")
-    with open(pathlib.Path(options.work) / name / "out/modes.csv", encoding="utf-8") as file:
-        modes = list(csv.DictReader(file))
-    estimate = max(float(mode["estimate"]) for mode in modes)
-    own = dofs, ranks, seconds(row["wall_s"]), f"{row['memory_mb']:.0f}"
-    if dofs > CUT_WHOLE:
-        return (*own, "", f"{estimate:.1e}", "", "")
-    whole = rival(options, folder, MODES)
-    hertz = [float(mode["coupled [Hz]"]) for mode in modes]
-    error = max(abs(a / b - 1) for a, b in zip(hertz, whole["hertz"]))
-    return (*own, f"{error:.1e}", f"{estimate:.1e}", seconds(whole["wall_s"]), f"{whole['memory_mb']:.0f}")
-
-
-def faster_from(lines):
-    """A sentence on the sizes from which on the parts take less time than the whole, of lines of the table of cut blocks."""
-    found = []
-    for ranks in CUT_RANKS:
-        pairs = sorted((line[0], float(line[2]) < float(line[6])) for line in lines if line[1] == ranks and line[6])
-        first = next((dofs for i, (dofs, _) in enumerate(pairs) if all(less for _, less in pairs[i:])), None)
-        if pairs:
-            found.append(f"on {ranks} rank{'s' * (ranks > 1)} " + (f"from {first} dofs on" if first else f"at no size up to {pairs[-1][0]} dofs"))
-    return "The parts take less time than the whole " + ", ".join(found) + "."
-
-
-def cuts(options):
-    chosen = [each for each in CUT_BLOCKS if 3 * math.prod(n + 1 for n in each) <= options.most]
-    lines = [cut_row(options, counts, ranks) for counts in (chosen[:1] if options.short else chosen) for ranks in CUT_RANKS if ranks > 1 or counts != CUT_BLOCKS[-1]]
-    return chapter(options, "Large parts cut into substructures",
-                   f"The same blocks, clamped at one end, without kept dofs: {MODES} coupled modes by `Basis` = `Multilevel` with\n{CUT_PARTS} parts, estimates included, "
-                   f"from the file on (`modes --coupled`, `Basis Checks` = `false`), beside\n{MODES} modes of the whole by one shift-invert run. Errors are the largest of the {MODES} frequencies;\n"
-                   f"memory is that of one rank. The whole of more than {CUT_WHOLE} dofs is not solved.\n{faster_from(lines)}\n\n" +
-                   table(("dofs", "ranks", "wall [s]", "memory [MB]", "largest error", "largest estimate", "whole: wall [s]", "memory [MB]"), lines))
-
-
-def table(head, lines):
-    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(map(str, line)) + " |" for line in lines]) + "\n"
-
-
-def times(row):
-    if row["code"] != 0:
-        last = [line for line in row["output"].splitlines() if line.strip()]
-        return f"exit code {row['code']}: {last[-1] if last else ''}", "", ""
-    return seconds(row["wall_s"]), seconds(row["cpu_s"]), f"{row['memory_mb']:.0f}"
-
-
-def solids(options):
-    chosen = [each for each in BLOCKS if 3 * math.prod(n + 1 for n in each) <= options.most]
-    lines = [(dofs, entries, *times(row)) for dofs, entries, row in (solid(options, counts) for counts in (chosen[:1] if options.short else chosen))]
-    return chapter(options, "Large parts",
-                   f"Blocks of hexahedra ([example 12](../examples/12_solid_block/README.md)), clamped at one end, {3 * JOINED}\ndofs kept at the other "
-                   f"(all of that end where it has fewer nodes): constraint modes and {MODES}\nfixed-interface modes, with all checks, from the file to the file.\n\n" +
-                   table(("dofs", "entries of K", "wall [s]", "CPU [s]", "memory [MB]"), lines), "scale_solids")
 
 
 def study_table(name, options):
     """(run, vibration error, steps) of the rows of a study, by their names."""
     path = pathlib.Path(options.work) / name / "out/study.csv"
     with open(path, encoding="utf-8", newline="") as file:
-        found = [{key.split(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(file)]
-    return sorted((row["method"], row["status"], row["vibration_error"], row["steps"]) for row in found)
+        found = [{key.split(" [")[0]: value for key, value in row.items()}
+                 for row in csv.DictReader(file)]
+    return sorted(
+        (row["method"], row["status"], row["vibration_error"], row["steps"]) for row in found)
 
 
 def rows(options):
-    """The study of the tests with many steps, on one rank and, rows over ranks, on two. The tables have to be the same but for times."""
+    """The study of the tests with many steps, on one rank and, rows over ranks, on two.
+    The tables have to be the same but for times."""
     end, repeats = (0.4, 1) if options.short else (15, 2)
-    steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms" for i in range(1 if options.short else 58)) + ", 1 ms"
-    common = ["study", str(STUDY), "--output", "out", "--set", f"Study/End Time={end}", "--set", f"Study/Repeats={repeats}",
-              "--set", f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}}}"]
+    steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms"
+                      for i in range(1 if options.short else 58)) + ", 1 ms"
+    common = [
+        "study",
+        str(STUDY), "--output", "out", "--set", f"Study/End Time={end}", "--set",
+        f"Study/Repeats={repeats}", "--set",
+        f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}}}"
+    ]
     one = measured(options, "rows_1", common)
-    two = measured(options, "rows_2", [*common, "--ranks-per-row", "1", "--timing", "shared"], ranks=2)
+    two = measured(options, "rows_2", [*common, "--ranks-per-row", "1", "--timing", "shared"],
+                   ranks=2)
     for name, row in (("one rank", one), ("two ranks", two)):
         if row["code"] != 0:
             raise SystemExit(f"the study on {name}: exit {row['code']}\n{row['output'][-2000:]}")
     tables = [study_table(name, options) for name in ("rows_1", "rows_2")]
     if tables[0] != tables[1]:
-        raise SystemExit(f"the tables differ: {[pair for pair in zip(*tables) if pair[0] != pair[1]][:3]}")
+        raise SystemExit(
+            f"the tables differ: {[pair for pair in zip(*tables) if pair[0] != pair[1]][:3]}")
     lines = [(ranks, len(tables[0]), *times(row)) for ranks, row in ((1, one), (2, two))]
-    return chapter(options, "Rows over ranks",
-                   f"The study of `tests/study` with more steps over {end} s, each timed {('once', 'twice')[repeats - 1]}, `--ranks-per-row 1` on two\n"
-                   f"ranks: {one['wall_s'] / two['wall_s']:.2f} times the rows per hour of one, and the same table.\n\n" +
-                   table(("ranks", "rows", "wall [s]", "CPU [s]", "memory [MB]"), lines), "scale_rows")
+    return chapter(
+        options, "Rows over ranks", f"The study of `tests/study` with more steps over {end} s, "
+        f"each timed {('once', 'twice')[repeats - 1]}, `--ranks-per-row 1` on two\n"
+        f"ranks: {one['wall_s'] / two['wall_s']:.2f} times the rows per hour of one, and the same "
+        "table.\n\n" + table(("ranks", "rows", "wall [s]", "CPU [s]", "memory [MB]"), lines),
+        "scale_rows")
 
 
 def plans(options):
-    """Plans of many rows and their tables; the rows come from one run of the study, since a plan goes on from what is in its folder."""
+    """Plans of many rows and their tables; the rows come from one run of the study, since a plan
+    goes on from what is in its folder."""
     lines = []
     for count in (20,) if options.short else PLANNED:
         steps = ", ".join(f"{0.5 + 0.0004 * i:.4f} ms" for i in range(count - 9))
-        words = ["--set", "Study/Repeats=1", "--set", "Study/End Time=0.02", "--set", "Study/Window=0.02",
-                 "--set", f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}, 1 ms}}"]
+        words = [
+            "--set", "Study/Repeats=1", "--set", "Study/End Time=0.02", "--set",
+            "Study/Window=0.02", "--set",
+            f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}, 1 ms}}"
+        ]
         folder = str((pathlib.Path(options.work) / f"plan_{count}").resolve())
-        found = [measured(options, f"{step.strip('-')}_{count}", ["study", str(STUDY), step, folder, *words]) for step in ("--output", "--plan", "--collect")]
+        found = [
+            measured(options, f"{step.strip('-')}_{count}",
+                     ["study", str(STUDY), step, folder, *words])
+            for step in ("--output", "--plan", "--collect")
+        ]
         failed = [row["output"][-1000:] for row in found if row["code"] != 0]
         if failed:
             raise SystemExit(f"a plan of {count} rows: {failed[0]}")
-        lines.append((count, *(seconds(row[key]) for row in found[1:] for key in ("wall_s", "cpu_s")), f"{found[2]['memory_mb']:.0f}"))
-    return chapter(options, "Plans of many rows",
-                   "`study --plan` writes a command for each row, `study --collect` the table of the rows that are there:\nthose of the study of `tests/study` with more steps over 0.02 s.\n\n" +
-                   table(("rows", "plan: wall [s]", "plan: CPU [s]", "collect: wall [s]", "collect: CPU [s]", "memory [MB]"), lines))
+        lines.append(
+            (count, *(seconds(row[key]) for row in found[1:] for key in ("wall_s", "cpu_s")),
+             f"{found[2]['memory_mb']:.0f}"))
+    return chapter(
+        options, "Plans of many rows", "`study --plan` writes a command for each row, `study "
+        "--collect` the table of the rows that are there:\nthose of the study of `tests/study` "
+        "with more steps over 0.02 s.\n\n" + table(
+            ("rows", "plan: wall [s]", "plan: CPU [s]", "collect: wall [s]", "collect: CPU [s]",
+             "memory [MB]"), lines))
 
 
 def static(options, deck, ranks, repeat):
-    """(seconds of the equilibrium, of path, equations, equilibrium and check of stability, static datasets, dofs, iterations, memory) of a run."""
+    """(seconds of the equilibrium, of path, equations, equilibrium and check of stability, static
+    datasets, dofs, iterations, memory) of a run."""
     name = f"divided_{deck}_{ranks}_{repeat}"
-    row = measured(options, name, ["run", str(PROJECT / f"xml/{deck}.xml"), *STATIC_ONLY, "--output", "out", "--set", "Output/XDMF=false", "--verbose"], ranks)
+    row = measured(options, name, [
+        "run",
+        str(PROJECT / f"xml/{deck}.xml"), *STATIC_ONLY, "--output", "out", "--set",
+        "Output/XDMF=false", "--verbose"
+    ], ranks)
     if row["code"] != 0:
         raise SystemExit(f"{name}: exit {row['code']}\n{row['output'][-2000:]}")
     text = " ".join(row["output"].split())
-    times = {stage: float(found.group(1)) if (found := re.search(rf"{stage} ([0-9.]+) s", text)) else 0.0 for stage in (EQUILIBRIUM, *BESIDE)}
-    values = {key: value for key, value in datasets(pathlib.Path(options.work) / name / "out/results.h5").items() if key.startswith("static")}
-    iterations = json.loads((pathlib.Path(options.work) / name / "out/summary.json").read_text(encoding="utf-8"))["static"]["iterations"]
-    return times[EQUILIBRIUM], sum(times.values()), values, re.search(r"(\d+) free dofs", text).group(1), iterations, row["memory_mb"]
+    times = {
+        stage: float(found.group(1)) if (found := re.search(rf"{stage} ([0-9.]+) s", text)) else 0.0
+        for stage in (EQUILIBRIUM, *BESIDE)
+    }
+    values = {
+        key: value
+        for key, value in datasets(pathlib.Path(options.work) / name / "out/results.h5").items()
+        if key.startswith("static")
+    }
+    iterations = json.loads((pathlib.Path(options.work) / name / "out/summary.json").read_text(
+        encoding="utf-8"))["static"]["iterations"]
+    return times[EQUILIBRIUM], sum(times.values()), values, re.search(
+        r"(\d+) free dofs", text).group(1), iterations, row["memory_mb"]
 
 
 def statics(options):
     """One rank and two, in turns, the best of some."""
     lines = []
     for deck in STATICS[:1] if options.short else STATICS:
-        runs = [[static(options, deck, ranks, repeat) for ranks in (1, 2)] for repeat in range(1 if options.short else 3)]
+        runs = [[static(options, deck, ranks, repeat) for ranks in (1, 2)]
+                for repeat in range(1 if options.short else 3)]
         one, two = ([min(each[i][part] for each in runs) for part in (0, 1)] for i in (0, 1))
-        apart = max(difference(value, runs[0][1][2][key]) for key, value in runs[0][0][2].items() if value.dtype.kind == "f")
+        apart = max(
+            difference(value, runs[0][1][2][key]) for key, value in runs[0][0][2].items()
+            if value.dtype.kind == "f")
         ratios = [f"{a / b:.2f}" if b > 0 else "" for a, b in zip(one, two)]
-        lines.append((deck, *runs[0][0][3:5], f"{one[0]:.2f}", f"{two[0]:.2f}", ratios[0], f"{one[1]:.2f}", f"{two[1]:.2f}", ratios[1], f"{apart:.1e}", *(f"{runs[0][i][5]:.0f}" for i in (0, 1))))
-    return chapter(options, "Static states of strings",
-                   "Wall time of the equilibrium alone, and of the whole: path, equations, equilibrium and check of\nstability; the best of three runs in turns. "
-                   "The largest difference is that of a recorded value, relative\nto the largest of its kind. Short strings are not divided.\n\n" +
-                   table(("scene", "dofs", "iterations", "equilibrium: 1 rank [s]", "2 ranks [s]", "times as fast", "whole: 1 rank [s]", "2 ranks [s]", "times as fast",
-                          "largest difference", "memory: 1 rank [MB]", "2 ranks [MB]"), lines), "scale_strings")
+        lines.append(
+            (deck, *runs[0][0][3:5], f"{one[0]:.2f}", f"{two[0]:.2f}", ratios[0], f"{one[1]:.2f}",
+             f"{two[1]:.2f}", ratios[1], f"{apart:.1e}", *(f"{runs[0][i][5]:.0f}" for i in (0, 1))))
+    return chapter(
+        options, "Static states of strings", "Wall time of the equilibrium alone, and of the "
+        "whole: path, equations, equilibrium and check of\nstability; the best of three runs in "
+        "turns. The largest difference is that of a recorded value, relative\n"
+        "to the largest of its kind. Short strings are not divided.\n\n" + table(
+            ("scene", "dofs", "iterations", "equilibrium: 1 rank [s]", "2 ranks [s]",
+             "times as fast", "whole: 1 rank [s]", "2 ranks [s]", "times as fast",
+             "largest difference", "memory: 1 rank [MB]", "2 ranks [MB]"), lines), "scale_strings")
 
 
 def motion(options, deck, words, end, ranks, repeat):
-    """(transient of summary.json, datasets of the motion, peak memory [MB]) of a run; ranks divide the motion."""
+    """(transient of summary.json, datasets of the motion, peak memory [MB]) of a run; ranks divide
+    the motion."""
     name = f"motion_{deck}_{'full' if words else 'reduced'}_{ranks}_{repeat}"
     division = ["--set", f"Transient/Ranks={'Divide' if ranks > 1 else 'Alike'}"]
-    row = measured(options, name, ["run", str(PROJECT / f"xml/{deck}.xml"), *words, *division, "--output", "out", "--set", f"Transient/End Time={end}",
-                                   "--set", "Output/XDMF=false"], ranks)
+    row = measured(options, name, [
+        "run",
+        str(PROJECT / f"xml/{deck}.xml"), *words, *division, "--output", "out", "--set",
+        f"Transient/End Time={end}", "--set", "Output/XDMF=false"
+    ], ranks)
     if row["code"] != 0:
         raise SystemExit(f"{name}: exit {row['code']}\n{row['output'][-2000:]}")
     folder = pathlib.Path(options.work) / name / "out"
-    values = {key: value for key, value in datasets(folder / "results.h5").items() if key.startswith("transient")}
-    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))["transient"], values, row["memory_mb"]
+    values = {
+        key: value for key, value in datasets(folder / "results.h5").items()
+        if key.startswith("transient")
+    }
+    return json.loads((folder / "summary.json").read_text(
+        encoding="utf-8"))["transient"], values, row["memory_mb"]
 
 
 def walls(options):
@@ -308,98 +210,126 @@ def walls(options):
     lines = []
     for deck, words, end in [(*MOTIONS[-1][:2], COUNTED)] if options.short else MOTIONS:
         repeats = range(1 if options.short else 3)
-        runs = [[motion(options, deck, words, end, ranks, repeat) for ranks in (1, 2)] for repeat in repeats]
+        runs = [[motion(options, deck, words, end, ranks, repeat) for ranks in (1, 2)]
+                for repeat in repeats]
         one, two = (min(each[i][0]["wall_s"] for each in runs) for i in (0, 1))
-        apart = max(difference(value, runs[0][1][1][key]) for key, value in runs[0][0][1].items() if value.dtype.kind == "f")
+        apart = max(
+            difference(value, runs[0][1][1][key]) for key, value in runs[0][0][1].items()
+            if value.dtype.kind == "f")
         steps = runs[0][0][0]["steps"]
-        lines.append((deck, "full" if words else "reduced", steps, f"{1e6 * one / steps:.0f}", f"{1e6 * two / steps:.0f}", f"{one / two:.2f}", f"{apart:.1e}"))
-    return table(("scene", "model", "steps", "1 rank [us per step]", "2 ranks [us per step]", "times as fast", "largest difference"), lines)
+        lines.append((deck, "full" if words else "reduced", steps, f"{1e6 * one / steps:.0f}",
+                      f"{1e6 * two / steps:.0f}", f"{one / two:.2f}", f"{apart:.1e}"))
+    return table(("scene", "model", "steps", "1 rank [us per step]", "2 ranks [us per step]",
+                  "times as fast", "largest difference"), lines)
 
 
 def counts(options):
-    """What a rank has to do, of ranks that may share cores; the messages of a step are those of two ranks, whose steps are the same."""
+    """What a rank has to do, of ranks that may share cores; the messages of a step are those of two
+    ranks, whose steps are the same."""
     deck, words, end = (*MOTIONS[-1][:2], COUNTED) if options.short else MOTIONS[0]
     alone, two = (motion(options, deck, words, end, ranks, 0)[0] for ranks in (1, 2))
-    step, messages, dofs = alone["wall_s"] / alone["steps"], two["messages"] / two["steps"], 2 * two["dofs_of_rank"] - 6
+    step, messages, dofs = alone["wall_s"] / alone["steps"], two["messages"] / two[
+        "steps"], 2 * two["dofs_of_rank"] - 6
     lines = []
     for ranks in (2,) if options.short else COUNTED_RANKS:
         found, _, memory = motion(options, deck, words, COUNTED, ranks, "counted")
         own, sent = (dofs, 0) if ranks == 1 else (found["dofs_of_rank"], messages)
         efficiency = step / ranks / (own / dofs * step + sent * MESSAGE * math.log2(ranks))
         lines.append((ranks, own, f"{sent:.1f}", f"{100 * efficiency:.0f} %", f"{memory:.0f}"))
-    return table(("ranks", "dofs of a rank", "messages per step", "predicted efficiency", "memory of a rank [MB]"), lines)
+    return table(("ranks", "dofs of a rank", "messages per step", "predicted efficiency",
+                  "memory of a rank [MB]"), lines)
 
 
 def motions(options):
-    return chapter(options, "Motions divided among ranks",
-                   "The motion alone, wall time of the best of three runs in turns; `Transient/Ranks` = `Divide`. The\nlast column is the largest difference of a recorded value, "
-                   "relative to the largest of its kind;\ncontact amplifies rounding, so that it grows with time. The target `ranks` bounds it over 0.2 s.\n\n" + walls(options) +
-                   f"\nWork and messages of {MOTIONS[0][0]}, full model, counted over {COUNTED} s. The efficiency is predicted\nfrom them, for a step of one rank "
-                   f"as measured here and {1e6 * MESSAGE:.0f} us log2(ranks) for a message, with a core\nfor each rank.\n\n" + counts(options), "scale_ranks")
+    return chapter(
+        options, "Motions divided among ranks", "The motion alone, wall time of the best of three "
+        "runs in turns; `Transient/Ranks` = `Divide`. The\nlast column is the largest difference "
+        "of a recorded value, relative to the largest of its kind;\ncontact amplifies rounding, so "
+        "that it grows with time. The target `ranks` bounds it over 0.2 s.\n\n" + walls(options) +
+        f"\nWork and messages of {MOTIONS[0][0]}, full model, counted "
+        f"over {COUNTED} s. The efficiency is predicted\nfrom them, for a step of one rank as "
+        f"measured here and {1e6 * MESSAGE:.0f} us log2(ranks) for a message, with a core\n"
+        "for each rank.\n\n" + counts(options), "scale_ranks")
 
 
 def study_of(options, name, words, ranks):
     """The rows of methods of a study of the deck that are done."""
-    row = measured(options, name, ["study", str(STUDY if options.short else REDUCED_DECK), "--output", "out", *words], ranks)
+    row = measured(
+        options, name,
+        ["study", str(STUDY if options.short else REDUCED_DECK), "--output", "out", *words], ranks)
     if row["code"] != 0:
         raise SystemExit(f"{name}: exit {row['code']}\n{row['output'][-2000:]}")
     with open(pathlib.Path(options.work) / name / "out/study.csv", encoding="utf-8") as text:
-        return [each for each in csv.DictReader(text) if each["kind"] == "method" and each["status"] == "done"]
+        return [
+            each for each in csv.DictReader(text)
+            if each["kind"] == "method" and each["status"] == "done"
+        ]
 
 
 def reduced(options):
     """The study of the deck, and its row of REDUCED_METHOD on one rank and two."""
     runs = study_of(options, "study_reduced", [], 1)
     right = [each for each in runs if float(each["vibration_error"]) <= REDUCED_ERROR]
-    best = {model: min((each for each in right if each["model"] == model), key=lambda each: float(each["cpu [s]"])) for model in ("full", "reduced")}
-    lines = [(model, each["label"], each["reduced_dofs"], f"{float(each['cpu [s]']):.3f}", f"{100 * float(each['vibration_error']):.2f} %")
-             for model, each in best.items()]
+    best = {
+        model: min((each for each in right if each["model"] == model),
+                   key=lambda each: float(each["cpu [s]"])) for model in ("full", "reduced")
+    }
+    lines = [(model, each["label"], each["reduced_dofs"], f"{float(each['cpu [s]']):.3f}",
+              f"{100 * float(each['vibration_error']):.2f} %") for model, each in best.items()]
     ratio = float(best["full"]["cpu [s]"]) / float(best["reduced"]["cpu [s]"])
-    methods = ElementTree.parse(STUDY if options.short else REDUCED_DECK).getroot().findall("ParameterList[@name='Study']/ParameterList[@name='Methods']/ParameterList")
+    methods = ElementTree.parse(STUDY if options.short else REDUCED_DECK).getroot().findall(
+        "ParameterList[@name='Study']/ParameterList[@name='Methods']/ParameterList")
     kept = ("Craig-Bampton",) if options.short else REDUCED_METHODS
-    others = [word for each in methods if each.get("name") not in kept for word in ("--without", f"Study/Methods/{each.get('name')}")]
-    two = study_of(options, "study_reduced_2", ["--set", f"Transient/Ranks={'Alike' if options.short else 'Divide'}", "--without", "Study/Baseline", *others], 2)
-    factors = [(each["label"], ranks, f"{float(each['real_time_factor']):.1f}", f"{100 * float(each['vibration_error']):.2f} %")
-               for ranks, found in ((1, runs), (2, two)) for each in found if each["method"] in {row["method"] for row in two}]
-    return chapter(options, "Full against reduced, 5 km hanging",
-                   f"The study of `xml/{REDUCED_DECK.name}`: of the runs with a vibration error of at most {100 * REDUCED_ERROR:.0f} %, those with\n"
-                   f"the least CPU time of the motion on one rank. The reduced model is {ratio:.1f} times as fast.\n\n" +
-                   table(("model", "run", "dofs", "CPU of the motion [s]", "vibration error"), lines) +
-                   "\nThe motion alone, without records and figures:\n\n" +
-                   table(("run", "ranks", "simulated seconds per second", "vibration error"), factors))
+    others = [
+        word for each in methods if each.get("name") not in kept
+        for word in ("--without", f"Study/Methods/{each.get('name')}")
+    ]
+    two = study_of(options, "study_reduced_2", [
+        "--set", f"Transient/Ranks={'Alike' if options.short else 'Divide'}", "--without",
+        "Study/Baseline", *others
+    ], 2)
+    factors = [(each["label"], ranks, f"{float(each['real_time_factor']):.1f}",
+                f"{100 * float(each['vibration_error']):.2f} %")
+               for ranks, found in ((1, runs), (2, two)) for each in found
+               if each["method"] in {row["method"] for row in two}]
+    return chapter(
+        options, "Full against reduced, 5 km hanging", f"The study of `xml/{REDUCED_DECK.name}`: "
+        f"of the runs with a vibration error of at most {100 * REDUCED_ERROR:.0f} %, those with\n"
+        f"the least CPU time of the motion on one rank. The reduced model is {ratio:.1f} times as "
+        "fast.\n\n" + table(
+            ("model", "run", "dofs", "CPU of the motion [s]", "vibration error"), lines) +
+        "\nThe motion alone, without records and figures:\n\n" + table(
+            ("run", "ranks", "simulated seconds per second", "vibration error"), factors))
 
 
-CHAPTERS = {"solids": solids, "cut": cuts, "statics": statics, "motions": motions, "reduced": reduced, "rows": rows, "plans": plans}
+CHAPTERS = {
+    "solids": solids, "cut": cuts, "statics": statics, "motions": motions, "reduced": reduced,
+    "rows": rows, "plans": plans
+}
 
 
 def renewed(text, own):
     """The document with this chapter at its place, or at the end."""
     head = own.splitlines()[0]
     chapters = [each.rstrip() for each in re.split(r"\n(?=## )", text.rstrip())]
-    place = next((i for i, each in enumerate(chapters) if each.splitlines()[0] == head), len(chapters))
+    place = next((i for i, each in enumerate(chapters) if each.splitlines()[0] == head),
+                 len(chapters))
     chapters[place:place + 1] = [own.rstrip()]
     return "\n\n".join(chapters) + "\n"
 
 
-def machine():
-    text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
-    name = re.search(r"model name\s*: (.*)", text)
-    return name.group(1) if name else platform.machine()
-
-
-def machine_line(options):
-    blas = re.search(r"BLAS +(\S+)", os.popen(f"{options.program} --version").read())
-    return f"Machine: {machine()}, {os.cpu_count()} cores; {blas.group(1) if blas else 'BLAS unknown'}."
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True)
     parser.add_argument("--work", default="results/scale")
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--most", type=int, default=600000, help="dofs of the largest block")
-    parser.add_argument("--only", nargs="+", choices=CHAPTERS, default=list(CHAPTERS), metavar="CHAPTER", help=f"chapters to renew: {', '.join(CHAPTERS)}")
-    parser.add_argument("--short", action="store_true", help="the smallest of each; prints the chapters and leaves the document as it is")
+    parser.add_argument("--only", nargs="+", choices=CHAPTERS, default=list(CHAPTERS),
+                        metavar="CHAPTER", help=f"chapters to renew: {', '.join(CHAPTERS)}")
+    parser.add_argument(
+        "--short", action="store_true",
+        help="the smallest of each; prints the chapters and leaves the document as it is")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
     options.machine = machine_line(options)
@@ -415,7 +345,10 @@ def main():
         scale_figures.draw(text, pathlib.Path(options.work))
     else:
         DOCUMENT.write_text(text, encoding="utf-8")
-        subprocess.run([sys.executable, str(PROJECT / "tests/lint/wrap.py"), "--update", str(DOCUMENT)], check=True)
+        subprocess.run(
+            [sys.executable,
+             str(PROJECT / "tests/lint/wrap.py"), "--update",
+             str(DOCUMENT)], check=True)
         scale_figures.draw(text, scale_figures.DOCS / "figures")
     return 0
 

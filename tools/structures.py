@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Test structures as part files: beams, frames, solids and rotors assembled with scipy, knowing nothing of the program.
+"""Test structures as part files: beams, frames, solids and rotors assembled with scipy, knowing
+nothing of the program.
 
-Every structure is a `Structure`: sparse M, C, K, labels (node from 1, component) and positions. SI units.
+Every structure is a `Structure`: sparse M, C, K, labels (node from 1, component) and positions. SI
+units.
 """
 import pathlib
 
@@ -18,7 +20,8 @@ class Structure:
         self.M, self.K = sparse.csr_matrix(M), sparse.csr_matrix(K)
         self.C = sparse.csr_matrix(self.M.shape) if C is None else sparse.csr_matrix(C)
         count = self.M.shape[0]
-        self.labels = np.array([(i // components + 1, i % components + 1) for i in range(count)]) if nodes is None else np.array(nodes)
+        self.labels = np.array([(i // components + 1, i % components + 1)
+                                for i in range(count)]) if nodes is None else np.array(nodes)
         self.positions = positions
         self.components = COMPONENTS[:components]
 
@@ -27,7 +30,8 @@ class Structure:
         gone = {tuple(d) for d in dofs}
         keep = np.array([i for i, label in enumerate(self.labels) if tuple(label) not in gone])
         part = lambda A: A[keep][:, keep]
-        out = Structure(part(self.M), part(self.K), part(self.C), self.labels[keep], len(self.components), self.positions)
+        out = Structure(part(self.M), part(self.K), part(self.C), self.labels[keep],
+                        len(self.components), self.positions)
         return out
 
     def write(self, path, interfaces=None):
@@ -41,7 +45,8 @@ class Structure:
                 if name == "damping" and A.nnz == 0:
                     continue
                 group = f.create_group(name)
-                group["row"], group["column"], group["value"], group["shape"] = A.row, A.col, A.data, A.shape
+                group["row"], group["column"], group["value"], group[
+                    "shape"] = A.row, A.col, A.data, A.shape
             for name, members in (interfaces or {}).items():
                 f["interfaces/" + name] = np.array(members)
 
@@ -49,13 +54,18 @@ class Structure:
 def _plane_bending(E, I, rho, A, l):
     k = E * I / l**3 * np.array([[12, 6 * l, -12, 6 * l], [6 * l, 4 * l * l, -6 * l, 2 * l * l],
                                  [-12, -6 * l, 12, -6 * l], [6 * l, 2 * l * l, -6 * l, 4 * l * l]])
-    m = rho * A * l / 420 * np.array([[156, 22 * l, 54, -13 * l], [22 * l, 4 * l * l, 13 * l, -3 * l * l],
-                                      [54, 13 * l, 156, -22 * l], [-13 * l, -3 * l * l, -22 * l, 4 * l * l]])
+    m = rho * A * l / 420 * np.array([
+        [156, 22 * l, 54, -13 * l],
+        [22 * l, 4 * l * l, 13 * l, -3 * l * l],
+        [54, 13 * l, 156, -22 * l],
+        [-13 * l, -3 * l * l, -22 * l, 4 * l * l],
+    ])
     return k, m
 
 
 def beam_element(l, radius, E, nu, rho):
-    """Euler-Bernoulli element of a round bar along its local z: K, M (consistent) and G of unit speed about z (skew, rotary inertia of the disc kind)."""
+    """Euler-Bernoulli element of a round bar along its local z: K, M (consistent) and G of unit
+    speed about z (skew, rotary inertia of the disc kind)."""
     A, I = np.pi * radius**2, np.pi * radius**4 / 4
     K, M, G = np.zeros((12, 12)), np.zeros((12, 12)), np.zeros((12, 12))
     k, m = _plane_bending(E, I, rho, A, l)
@@ -79,7 +89,8 @@ def beam_element(l, radius, E, nu, rho):
 
 
 def members(lines, radius, material=None, speed=0.0):
-    """Round bars between points: `lines` is a list of (node, node) on `points`; rotation by the smallest turn from z."""
+    """Round bars between points: `lines` is a list of (node, node) on `points`; rotation by the
+    smallest turn from z."""
     material = material or STEEL
     points, pairs = lines
     points = np.asarray(points, float)
@@ -94,15 +105,20 @@ def members(lines, radius, material=None, speed=0.0):
         x /= np.linalg.norm(x)
         T = np.kron(np.eye(4), np.array([x, np.cross(z, x), z]))
         K, M, G = beam_element(l, radius, **material)
-        dofs = np.r_[6 * a : 6 * a + 6, 6 * b : 6 * b + 6]
+        dofs = np.r_[6 * a:6 * a + 6, 6 * b:6 * b + 6]
         r, c = np.meshgrid(dofs, dofs, indexing="ij")
         rows.append(r.ravel())
         columns.append(c.ravel())
         for name, A in (("K", K), ("M", M), ("G", G)):
             values[name].append((T.T @ A @ T).ravel())
-    matrix = {name: sparse.csr_matrix((np.concatenate(v), (np.concatenate(rows), np.concatenate(columns))), (n, n)) for name, v in values.items()}
+    matrix = {
+        name: sparse.csr_matrix(
+            (np.concatenate(v), (np.concatenate(rows), np.concatenate(columns))), (n, n))
+        for name, v in values.items()
+    }
     symmetric = lambda A: (A + A.T) / 2
-    return Structure(symmetric(matrix["M"]), symmetric(matrix["K"]), speed * matrix["G"] if speed else None, positions=points)
+    return Structure(symmetric(matrix["M"]), symmetric(matrix["K"]),
+                     speed * matrix["G"] if speed else None, positions=points)
 
 
 def beam(elements, length=10.0, radius=0.05, direction=(0, 0, 1), speed=0.0):
@@ -142,9 +158,11 @@ def frame(storeys, per_member, bays=1, side=3.0, radius=0.05, fixed=True):
             for j in grid:
                 member((i * side, j * side, s * side), (i * side, j * side, (s + 1) * side))
                 if i < bays:
-                    member((i * side, j * side, (s + 1) * side), ((i + 1) * side, j * side, (s + 1) * side))
+                    member((i * side, j * side, (s + 1) * side),
+                           ((i + 1) * side, j * side, (s + 1) * side))
                 if j < bays:
-                    member((i * side, j * side, (s + 1) * side), (i * side, (j + 1) * side, (s + 1) * side))
+                    member((i * side, j * side, (s + 1) * side),
+                           (i * side, (j + 1) * side, (s + 1) * side))
     whole = members((points, pairs), radius)
     feet = [(k + 1, c) for k, p in enumerate(points) if p[2] == 0.0 for c in range(1, 7)]
     return whole.held(feet) if fixed else whole
@@ -172,7 +190,8 @@ def solid(nx, ny, nz, size=(1.0, 1.0, 4.0), material=None):
         B = np.zeros((6, 24))
         for a in range(8):
             x, y, z = dN[a]
-            B[:, 3 * a : 3 * a + 3] = [[x, 0, 0], [0, y, 0], [0, 0, z], [y, x, 0], [0, z, y], [z, 0, x]]
+            B[:, 3 * a:3 * a + 3] = [[x, 0, 0], [0, y, 0], [0, 0, z], [y, x, 0], [0, z, y],
+                                     [z, 0, x]]
         volume = np.prod(h) / 8
         Ke += volume * B.T @ D @ B
         Me += volume * rho * np.kron(np.outer(N, N), np.eye(3))
@@ -187,16 +206,23 @@ def solid(nx, ny, nz, size=(1.0, 1.0, 4.0), material=None):
         k.append(Ke.ravel())
         m.append(Me.ravel())
     n = 3 * (nx + 1) * (ny + 1) * (nz + 1)
-    matrix = lambda v: sparse.csr_matrix((np.concatenate(v), (np.concatenate(rows), np.concatenate(columns))), (n, n))
-    positions = np.array([(i, j, l) for l in range(nz + 1) for j in range(ny + 1) for i in range(nx + 1)]) * h
+    matrix = lambda v: sparse.csr_matrix((np.concatenate(v),
+                                          (np.concatenate(rows), np.concatenate(columns))), (n, n))
+    positions = np.array([(i, j, l) for l in range(nz + 1) for j in range(ny + 1)
+                          for i in range(nx + 1)]) * h
     return Structure(matrix(m), matrix(k), components=3, positions=positions)
 
 
 def deck(path, parts, joints=(), reduction=None):
     """`parts`: name -> file; `reduction`: XML inside the list Reduction."""
-    imported = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" value="{file}"/></ParameterList>' for name, file in parts.items())
-    joined = f'<Parameter name="Joints" type="Array(string)" value="{{{", ".join(joints)}}}"/>' if joints else ""
-    reduced = f'<ParameterList name="Reduction">{reduction}</ParameterList>' if reduction is not None else ""
-    pathlib.Path(path).write_text(f'<ParameterList name="test"><ParameterList name="Parts"><ParameterList name="Imported">{imported}</ParameterList>{joined}'
-                                  f'</ParameterList>{reduced}</ParameterList>', encoding="utf-8")
+    imported = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" '
+                       f'value="{file}"/></ParameterList>' for name, file in parts.items())
+    joined = ('<Parameter name="Joints" type="Array(string)" '
+              f'value="{{{", ".join(joints)}}}"/>') if joints else ""
+    reduced = (f'<ParameterList name="Reduction">{reduction}</ParameterList>'
+               ) if reduction is not None else ""
+    pathlib.Path(path).write_text(
+        '<ParameterList name="test"><ParameterList name="Parts"><ParameterList '
+        f'name="Imported">{imported}</ParameterList>{joined}</ParameterList>{reduced}</'
+        'ParameterList>', encoding="utf-8")
     return path

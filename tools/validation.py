@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the reference scene in all its variants and rewrites the tables of docs/validation.md.
 
-    tools/validation.py --program build/release/tooljoint [--end 20] [--work results/validation] [--only static,motion,source]
+    tools/validation.py --program build/release/tooljoint [--end 20] [--work results/validation]
+        [--only static,motion,source]
 
-Every table stands between two markers in docs/validation.md and names the commands it came from. Runs that are already in the
-work folder are not repeated.
+Every table stands between two markers in docs/validation.md and names the commands it came from.
+Runs that are already in the work folder are not repeated.
 """
 import argparse
 import csv
@@ -23,7 +24,8 @@ PROJECT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(PROJECT / "tests/torque_drag"))
 import closed_forms  # noqa: E402
 from validation_buckling import buckling_table, vertical_table  # noqa: E402
-FULL = ["--without", "Reduction", "--without", "Substructures"]
+from validation_motion import (FULL, motion_table, node_table, reference, source_table,
+                               speed_windows)  # noqa: E402
 
 
 def settings(**values):
@@ -44,36 +46,58 @@ class Bench:
         """Results folder of `tooljoint run`, run now if it is not there yet, and its summary."""
         folder = self.work / name
         quoted = [f'"{a}"' if " " in a else a for a in arguments]
-        self.commands.append(" ".join(["tooljoint run", f"xml/{deck}.xml", "--output", name, *quoted]))
-        if not (folder / "summary.json").exists() or json.loads((folder / "summary.json").read_text())["status"] != "finished":
+        self.commands.append(" ".join(
+            ["tooljoint run", f"xml/{deck}.xml", "--output", name, *quoted]))
+        if not (folder / "summary.json").exists() or json.loads(
+            (folder / "summary.json").read_text())["status"] != "finished":
             print(self.commands[-1], flush=True)
-            command = [self.program, "run", str(PROJECT / f"xml/{deck}.xml"), "--output", str(folder), *arguments, "--set", "Output/XDMF=false"]
-            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+            command = [
+                self.program, "run",
+                str(PROJECT / f"xml/{deck}.xml"), "--output",
+                str(folder), *arguments, "--set", "Output/XDMF=false"
+            ]
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                  text=True, check=False)
             if done.returncode != 0:
                 print(done.stdout[-2000:])
                 return None
         return json.loads((folder / "summary.json").read_text())
 
     def torque_drag(self, name, arguments, table="torque_drag.csv"):
-        """Rows of a table of `tooljoint torque-drag` of xml/build_hold_1400m.xml, as numbers, with the operation."""
+        """Rows of a table of `tooljoint torque-drag` of xml/build_hold_1400m.xml, as numbers, with
+        the operation."""
         folder = self.work / f"torque_drag_{name}"
         quoted = " ".join(f'--set "{a}"' if " " in a else f"--set {a}" for a in arguments)
-        command = f"tooljoint torque-drag xml/build_hold_1400m.xml --output torque_drag_{name} {quoted}"
+        command = (f"tooljoint torque-drag xml/build_hold_1400m.xml --output torque_drag_{name} "
+                   f"{quoted}")
         if command not in self.commands:
             self.commands.append(command)
         if not (folder / table).exists():
             print(command, flush=True)
-            subprocess.run([self.program, "torque-drag", str(PROJECT / "xml/build_hold_1400m.xml"), "--output", str(folder), *(part for a in arguments for part in ("--set", a))],
-                           stdout=subprocess.DEVNULL, check=True)
+            subprocess.run([
+                self.program, "torque-drag",
+                str(PROJECT / "xml/build_hold_1400m.xml"), "--output",
+                str(folder), *(part for a in arguments for part in ("--set", a))
+            ], stdout=subprocess.DEVNULL, check=True)
         with open(folder / table, newline="", encoding="utf-8") as file:
-            return [{key.split(" [")[0]: value if key == "operation" else float(value) if value else None for key, value in row.items()} for row in csv.DictReader(file)]
+            return [{
+                key.split(" [")[0]: value if key == "operation" else float(value) if value else None
+                for key, value in row.items()
+            } for row in csv.DictReader(file)]
 
     def compare(self, name, reference, end):
         """eps_t max, eps_t mean, eps_n max and vibration error over 0..end."""
-        done = subprocess.run([self.program, "compare", str(self.work / name), str(self.work / reference), "--to", str(end), "--json"],
-                              stdout=subprocess.PIPE, text=True, check=True)
+        done = subprocess.run([
+            self.program, "compare",
+            str(self.work / name),
+            str(self.work / reference), "--to",
+            str(end), "--json"
+        ], stdout=subprocess.PIPE, text=True, check=True)
         errors = json.loads(done.stdout)
-        return [errors["eps_t"]["max"], errors["eps_t"]["mean"], errors["eps_n"]["max"], errors["vibration_error"]]
+        return [
+            errors["eps_t"]["max"], errors["eps_t"]["mean"], errors["eps_n"]["max"],
+            errors["vibration_error"]
+        ]
 
     def by(self, table):
         """The command that computes a table of many runs, as a code block."""
@@ -93,27 +117,37 @@ def kilo(value):
 
 def static_table(bench):
     """Both pre-stress modes and both path modes."""
-    rows = ["| path | pre-stress | nodes in contact | compressed elements | top force [kN] | last element force [kN] | last element torque [kN m] "
-            "| largest contact force [kN] (node) | top torque [kN m] | torque balance defect [N m] |", "|---|---|---|---|---|---|---|---|---|---|"]
+    rows = [
+        "| path | pre-stress | nodes in contact | compressed elements | top force [kN] | last "
+        "element force [kN] | last element torque [kN m] | largest contact force [kN] (node) | top "
+        "torque [kN m] | torque balance defect [N m] |", "|---|---|---|---|---|---|---|---|---|---|"
+    ]
     for path in ("Centre line", "Imposed nodes"):
         for stress in ("Axial and torque", "Full tangent"):
             name = f"static_{path.split()[0]}_{stress.split()[0]}".lower()
-            arguments = [*FULL, "--without", "Transient", "--set", f"Path/Mode={path}", "--set", f"Path/Pre-stress={stress}"]
+            arguments = [
+                *FULL, "--without", "Transient", "--set", f"Path/Mode={path}", "--set",
+                f"Path/Pre-stress={stress}"
+            ]
             summary = bench.run(name, "helical_170m", arguments)
             if summary is None:
                 rows.append(f"| {path} | {stress} | did not converge |||||||||")
                 continue
             s = summary["static"]
-            rows.append(f"| {path} | {stress} | {s['contact_nodes']} | {s['compressed_elements']} | {kilo(s['top_axial_force'])} "
-                        f"| {kilo(s['last_element_axial_force'])} | {kilo(s['last_element_torque'])} | {kilo(s['max_normal_force'])} "
-                        f"({s['max_normal_force_node']}) | {kilo(s['top_torque'])} | {s['torque_balance_defect']:.4g} |")
+            rows.append(f"| {path} | {stress} | {s['contact_nodes']} | {s['compressed_elements']} "
+                        f"| {kilo(s['top_axial_force'])} | {kilo(s['last_element_axial_force'])} | "
+                        f"{kilo(s['last_element_torque'])} | {kilo(s['max_normal_force'])} "
+                        f"({s['max_normal_force_node']}) | {kilo(s['top_torque'])} | "
+                        f"{s['torque_balance_defect']:.4g} |")
     return bench.taken() + "\n" + "\n".join(rows) + "\n"
 
 
 class SoftString:
-    """Johancsik, Friesen and Dawson (1984) on the string of xml/build_hold_1400m.xml in a build-and-hold well."""
+    """Johancsik, Friesen and Dawson (1984) on the string of xml/build_hold_1400m.xml in a
+    build-and-hold well."""
     WOB, STAND, JOINT_RADIUS = 50e3, 9.5, 0.084
-    WEIGHT = 9.81 * 7850.0 * math.pi * (9.0 * (0.0635**2 - 0.0543**2) + 0.5 * (0.084**2 - 0.0413**2)) / STAND  # [N/m]
+    WEIGHT = 9.81 * 7850.0 * math.pi * (9.0 * (0.0635**2 - 0.0543**2) + 0.5 *
+                                        (0.084**2 - 0.0413**2)) / STAND  # [N/m]
 
     def __init__(self, kick_off, build_rate, inclination, stands, friction):
         self.curvature = math.radians(build_rate) / 30.0
@@ -121,9 +155,12 @@ class SoftString:
         self.length, self.friction = stands * self.STAND, friction
 
     def torque(self, bit_torque, climbs, step=0.05):
-        """Top torque [N m]. `climbs`: a string that turns climbs until N sqrt(1 + mu^2) carries the load q of the wall; else N = q."""
+        """Top torque [N m].
+        `climbs`: a string that turns climbs until N sqrt(1 + mu^2) carries the load q of the wall;
+        else N = q."""
         tension, torque, s = -self.WOB, bit_torque, self.length
-        per_load = self.friction * self.JOINT_RADIUS / (math.sqrt(1.0 + self.friction**2) if climbs else 1.0)
+        per_load = self.friction * self.JOINT_RADIUS / (math.sqrt(1.0 + self.friction**2)
+                                                        if climbs else 1.0)
         while s > 1e-9:
             along = s - 0.5 * step - self.kick_off
             angle = min(max(along * self.curvature, 0.0), self.inclination)
@@ -135,25 +172,47 @@ class SoftString:
 
 
 def torque_table(bench):
-    """Top torque of three wells on four meshes, beside the torque that bit and friction ask for and the soft string."""
-    rows = ["| well | elements per body | top torque by displacements [kN m] | by bit and friction [kN m] | apart [%] | soft string that climbs [kN m] | soft string [kN m] |",
-            "|---|---|---|---|---|---|---|"]
-    wells = [("3 deg/30 m from 400 m to 60 deg, 1425 m of pipe", 400, 3, 60, 150, 4.0), ("4 deg/30 m from 600 m to 80 deg, 2470 m", 600, 4, 80, 260, 0.0),
-             ("10 deg/30 m from 100 m to 88 deg, 570 m", 100, 10, 88, 60, 0.0)]
+    """Top torque of three wells on four meshes, beside the torque that bit and friction ask for and
+    the soft string."""
+    rows = [
+        "| well | elements per body | top torque by displacements [kN m] | by bit and friction [kN "
+        "m] | apart [%] | soft string that climbs [kN m] | soft string [kN m] |",
+        "|---|---|---|---|---|---|---|"
+    ]
+    wells = [
+        ("3 deg/30 m from 400 m to 60 deg, 1425 m of pipe", 400, 3, 60, 150, 4.0),
+        ("4 deg/30 m from 600 m to 80 deg, 2470 m", 600, 4, 80, 260, 0.0),
+        ("10 deg/30 m from 100 m to 88 deg, 570 m", 100, 10, 88, 60, 0.0),
+    ]
     for number, (title, kick_off, rate, inclination, stands, bit) in enumerate(wells):
-        # mu of eq. (9) of Nguyen et al. 2020 at v = Omega R_c, mu_s = 0.3, mu_d = 0.25, v_r = 0.1 m/s
+        # mu of eq. (9) of Nguyen et al. 2020 at v = Omega R_c, mu_s = 0.3, mu_d = 0.25, v_r = 0.1
+        # m/s
         v, xi = 4.0 * math.pi * SoftString.JOINT_RADIUS, math.sqrt(1.0 - 0.25 / 0.3)
         q = 1.0 / (1.0 + (1.0 - xi) / (2.0 * 0.1 * 0.25) * v)
-        soft = SoftString(kick_off, rate, inclination, stands, v / 0.2 * ((1.0 - xi) * q + (1.0 + xi) * q * q))
+        soft = SoftString(kick_off, rate, inclination, stands,
+                          v / 0.2 * ((1.0 - xi) * q + (1.0 + xi) * q * q))
         for elements in (1, 2, 5, 10):
-            arguments = ["--without", "Transient", "--set", f"Drillstring/Components/body/Elements={elements}"]
+            arguments = [
+                "--without", "Transient", "--set",
+                f"Drillstring/Components/body/Elements={elements}"
+            ]
             if number > 0:
-                arguments += settings(**{"Well/Arc/Kick-off Depth": kick_off, "Well/Arc/Build Rate": f"{rate} deg/30m", "Well/Arc/End Inclination": f"{inclination} deg",
-                                         "Well/Arc/Tangent Length": 1500, "Drillstring/Assembly": f"{{{stands}*stand}}", "Loads/Torque On Bit": f"{bit:g} kN m"})
-            s = bench.run(f"torque_{number + 1}_{elements}", "build_hold_1400m", arguments)["static"]
+                arguments += settings(
+                    **{
+                        "Well/Arc/Kick-off Depth": kick_off,
+                        "Well/Arc/Build Rate": f"{rate} deg/30m",
+                        "Well/Arc/End Inclination": f"{inclination} deg",
+                        "Well/Arc/Tangent Length": 1500,
+                        "Drillstring/Assembly": f"{{{stands}*stand}}",
+                        "Loads/Torque On Bit": f"{bit:g} kN m"
+                    })
+            s = bench.run(f"torque_{number + 1}_{elements}", "build_hold_1400m",
+                          arguments)["static"]
             top, asked = -s["top_torque"], -s["top_torque_equilibrium"]
-            rows.append(f"| {title if elements == 1 else ''} | {elements} | {kilo(top)} | {kilo(asked)} | {100.0 * (top - asked) / asked:.3f} "
-                        f"| {kilo(soft.torque(1e3 * bit, True))} | {kilo(soft.torque(1e3 * bit, False))} |")
+            rows.append(f"| {title if elements == 1 else ''} | {elements} | {kilo(top)} | "
+                        f"{kilo(asked)} | {100.0 * (top - asked) / asked:.3f} | "
+                        f"{kilo(soft.torque(1e3 * bit, True))} | "
+                        f"{kilo(soft.torque(1e3 * bit, False))} |")
     return bench.taken() + "\n" + "\n".join(rows) + "\n"
 
 
@@ -162,185 +221,168 @@ def gauge_table(bench):
     rows = ["| node | axial and torque [kN] | full tangent [kN] |", "|---|---|---|"]
     tables = []
     for stress in ("axial", "full"):
-        lines = (bench.work / f"static_centre_{stress}" / "static_nodes.csv").read_text().splitlines()
+        lines = (bench.work / f"static_centre_{stress}" /
+                 "static_nodes.csv").read_text().splitlines()
         column = [h.split(" ")[0] for h in lines[0].split(",")].index("normal_force")
-        tables.append({int(float(line.split(",")[0])): float(line.split(",")[column]) for line in lines[1:]})
+        tables.append(
+            {int(float(line.split(",")[0])): float(line.split(",")[column]) for line in lines[1:]})
     for node in (86, 130):
-        rows.append(f"| {node} (stabiliser gauge) | {kilo(tables[0][node])} | {kilo(tables[1][node])} |")
+        rows.append(
+            f"| {node} (stabiliser gauge) | {kilo(tables[0][node])} | {kilo(tables[1][node])} |")
     return "\n".join(rows) + "\n"
-
-
-def reference(bench):
-    return bench.run("full_rk4", "helical_170m", [*FULL, "--set", "Transient/Integrator=RK4", "--set", "Transient/Step=4e-5",
-                                                  "--set", f"Transient/End Time={bench.end}"])
-
-
-def motion_table(bench):
-    """Range of the bit speed in windows of time for the full model, and the errors of the implicit runs against it."""
-    ref = reference(bench)
-    rows = ["| run | dofs | steps | CPU [s] | CPU per simulated s | bit speed min / max [rpm] | eps_t max, 0-3 s | eps_n max, 0-3 s | vibration error, 0-3 s | energy residual |",
-            "|---|---|---|---|---|---|---|---|---|---|"]
-    variants = [("full_rk4", None, "full, RK4, step 40 us (reference)"), ("full_rk4a_3s", [*FULL, "--set", "Transient/Integrator=RK4 adaptive"], "full, RK4 adaptive, 3 s"),
-                ("full_ga_2500us", [*FULL, "--set", "Transient/Step=0.0025"], "full, generalized-alpha 2.5 ms"),
-                ("full_ga", [*FULL], "full, generalized-alpha, step of the deck"),
-                ("reduced_2500us", ["--set", "Transient/Step=0.0025"], "reduced, generalized-alpha 2.5 ms"), ("reduced", [], "reduced, generalized-alpha (the deck as it is)")]
-    for name, arguments, title in variants:
-        end = min(3.0, bench.end) if name.endswith("_3s") else bench.end
-        summary = ref if arguments is None else bench.run(name, "helical_170m", [*arguments, "--set", f"Transient/End Time={end}"])
-        if summary is None:
-            rows.append(f"| {title} | failed |||||||||")
-            continue
-        t = summary["transient"]
-        errors = ["-"] * 4 if arguments is None else [f"{e:.2e}" for e in bench.compare(name, "full_rk4", min(3.0, bench.end))]
-        dofs = summary["reduction"]["reduced_dofs"] if t["model"] == "reduced" else summary["model"]["free_dofs"]
-        speed = t["bit_speed_rpm"]
-        rows.append(f"| {title} | {dofs} | {t['steps']} | {t['cpu_s']:.2f} | {t['cpu_s'] / end:.3f} | {speed['min']:.1f} / {speed['max']:.1f} "
-                    f"| {errors[0]} | {errors[2]} | {errors[3]} | {t['energy_residual']:.1e} |")
-    return bench.taken() + "\n" + "\n".join(rows) + "\n"
-
-
-def speed_windows(bench):
-    """Bit speed of the full RK4 run in windows of 2.5 s, from motion.csv."""
-    reference(bench)
-    bench.taken()
-    rows = ["| window [s] | min [rpm] | max [rpm] |", "|---|---|---|"]
-    lines = (bench.work / "full_rk4" / "motion.csv").read_text().splitlines()
-    samples = [[float(x) for x in line.split(",")] for line in lines[1:]]
-    begin = 0.0
-    while begin < bench.end - 1e-9:
-        speeds = [s[2] * 60.0 / 6.283185307179586 for s in samples if begin <= s[0] <= begin + 2.5]
-        rows.append(f"| {begin:g} - {begin + 2.5:g} | {min(speeds):.1f} | {max(speeds):.1f} |")
-        begin += 2.5
-    return "\n".join(rows) + "\n"
-
-
-def node_table(bench):
-    """Contact duty of the nodes the paper names and lateral vibration of pipes and bottom-hole assembly, from results.h5 of the full RK4 run."""
-    import h5py
-    import numpy
-    reference(bench)
-    bench.taken()
-    with h5py.File(bench.work / "full_rk4" / "results.h5") as results:
-        clearance = results["/model/clearance"][:]
-        lateral = results["/transient/displacement"][:, :, :2]
-        still = results["/static/displacement"][:, :2]
-        axial = results["/static/axial_force"][:]
-    touching = numpy.hypot(lateral[:, :, 0], lateral[:, :, 1]) > clearance
-    rows = ["| node | published | share of the samples in contact |", "|---|---|---|"]
-    for node, published in ((3, "intermittent"), (21, "free"), (44, "intermittent"), (82, "free"), (147, "always in contact")):
-        rows.append(f"| {node} | {published} | {100.0 * touching[:, node - 1].mean():.1f} % |")
-    vibration = numpy.sqrt(((lateral - still) ** 2).sum(axis=2).mean(axis=0))
-    rows += ["", f"Lateral vibration, rms over time and nodes: drill pipes (nodes 1 to 55) {1e3 * numpy.sqrt((vibration[:55] ** 2).mean()):.2f} mm, "
-             f"bottom-hole assembly (nodes 56 to 163) {1e3 * numpy.sqrt((vibration[55:] ** 2).mean()):.2f} mm. "
-             f"Axial force of elements 146, 147 and 148: {axial[145]:.1f}, {axial[146]:.1f} and {axial[147]:.1f} N."]
-    return "\n".join(rows) + "\n"
-
-
-def source_table(bench):
-    """The source's own choices over its mode counts."""
-    published = {0: (147.99, 9.44), 60: (155.97, 8.95), 180: (461.83, 3.02), 220: (1553.48, 0.89), 300: (4475.19, 0.31)}
-    full = bench.run("full_rk4a", "helical_170m", [*FULL, "--set", "Transient/Integrator=RK4 adaptive", "--set", f"Transient/End Time={bench.end}"])
-    reference(bench)
-    window = min(3.0, bench.end)
-    rows = [f"| eta | initial state | dofs | CPU [s] for {bench.end:g} s | full / reduced | published full / reduced | eps_t max | eps_n max | vibration error (0-{window:g} s) |",
-            "|---|---|---|---|---|---|---|---|---|"]
-    for state in ("Least squares", "Keep static"):
-        for eta, (_, ratio) in published.items():
-            name = f"source_{eta}_{state.split()[0].lower()}"
-            summary = bench.run(name, "helical_170m_source", ["--set", f"Reduction/Mode Selection/Modes={eta}", "--set", f"Reduction/Initial State={state}",
-                                                              "--set", f"Transient/End Time={bench.end}"])
-            if summary is None:
-                rows.append(f"| {eta} | {state} | failed |||||||")
-                continue
-            t = summary["transient"]
-            errors = bench.compare(name, "full_rk4", window)
-            rows.append(f"| {eta} | {state} | {summary['reduction']['reduced_dofs']} | {t['cpu_s']:.2f} | {full['transient']['cpu_s'] / t['cpu_s']:.2f} "
-                        f"| {ratio} | {errors[0]:.2e} | {errors[2]:.2e} | {errors[3]:.2e} |")
-    return bench.taken() + "\n" + "\n".join(rows) + "\n"
 
 
 def forms_table(bench):
     """Closed forms of the soft string (tests/torque_drag/closed_forms.py)."""
-    rows = ["| what | closed form | found | apart, over the closed form | the test allows |", "|---|---|---|---|---|"]
-    for what, truth, found, unit, tolerance in closed_forms.soft(lambda name, settings: {row["operation"]: row for row in bench.torque_drag(name, settings)}):
-        rows.append(f"| {what} | {truth:.8g} {unit} | {found:.8g} {unit} | {abs(found - truth) / abs(truth):.0e} | {tolerance:.0e} |")
+    rows = [
+        "| what | closed form | found | apart, over the closed form | the test allows |",
+        "|---|---|---|---|---|"
+    ]
+    for what, truth, found, unit, tolerance in closed_forms.soft(
+            lambda name, settings:
+        {row["operation"]: row for row in bench.torque_drag(name, settings)}):
+        rows.append(f"| {what} | {truth:.8g} {unit} | {found:.8g} {unit} | "
+                    f"{abs(found - truth) / abs(truth):.0e} | {tolerance:.0e} |")
     return bench.by("forms") + "\n" + "\n".join(rows) + "\n"
 
 
 def limit_table(bench):
-    """The stiff string over the soft one, with and without tool joints, in the well of xml/build_hold_1400m.xml."""
+    """The stiff string over the soft one, with and without tool joints, in the well of
+    xml/build_hold_1400m.xml."""
     both = "Torque and Drag/Operations={Trip out, Rotate off bottom}"
-    pipes = [(f"pipe, clearance {clearance:g} mm" + (", E/100" if young < closed_forms.YOUNG else ""), f"pipe_{clearance:g}_{young / 1e9:g}", closed_forms.OUTER,
-              [*closed_forms.PIPE, both, "Drillstring/Components/body/Elements=3", f"Well/Bore Radius={closed_forms.OUTER + 1e-3 * clearance:g}", f"Drillstring/Material/Young Modulus={young / 1e9:g} GPa"])
-             for clearance, young in closed_forms.STEEL_AND_SOFT]
+    pipes = [
+        (f"pipe, clearance {clearance:g} mm" + (", E/100" if young < closed_forms.YOUNG else ""),
+         f"pipe_{clearance:g}_{young / 1e9:g}", closed_forms.OUTER, [
+             *closed_forms.PIPE, both, "Drillstring/Components/body/Elements=3",
+             f"Well/Bore Radius={closed_forms.OUTER + 1e-3 * clearance:g}",
+             f"Drillstring/Material/Young Modulus={young / 1e9:g} GPa"
+         ]) for clearance, young in closed_forms.STEEL_AND_SOFT
+    ]
     joints = ["Torque and Drag/Count=1", both, "Drillstring/Components/body/Elements=5"]
     free = [*joints, "Supports/Bit=none"]
-    strings = [("string of the deck", "joints", 0.084, joints), ("the same, bit free", "free", 0.084, free),
-               ("the same, E/10", "free_10", 0.084, [*free, "Drillstring/Material/Young Modulus=21 GPa"]),
-               ("the same, E/100", "free_100", 0.084, [*free, "Drillstring/Material/Young Modulus=2.1 GPa"])]
-    rows = ["| string | torque off bottom, stiff/soft | by contact forces | by the radius of contact | drag of Trip out, stiff/soft |", "|---|---|---|---|---|"]
+    strings = [
+        ("string of the deck", "joints", 0.084, joints),
+        ("the same, bit free", "free", 0.084, free),
+        ("the same, E/10", "free_10", 0.084, [*free, "Drillstring/Material/Young Modulus=21 GPa"]),
+        ("the same, E/100", "free_100", 0.084,
+         [*free, "Drillstring/Material/Young Modulus=2.1 GPa"]),
+    ]
+    rows = [
+        "| string | torque off bottom, stiff/soft | by contact forces | by the radius of contact | "
+        "drag of Trip out, stiff/soft |", "|---|---|---|---|---|"
+    ]
     for title, name, radius, arguments in pipes + strings:
-        out, off = ({row["operation"]: row for row in bench.torque_drag(name, arguments)}[one] for one in ("Trip out", "Rotate off bottom"))
+        out, off = ({row["operation"]: row for row in bench.torque_drag(name, arguments)}[one]
+                    for one in ("Trip out", "Rotate off bottom"))
         profile = bench.torque_drag(name, arguments, "torque_drag_stiff_profile.csv")
-        pressed = closed_forms.MU * radius * sum(row["contact_force"] for row in profile if row["operation"] == "Rotate off bottom") / off["surface_torque"]
+        pressed = closed_forms.MU * radius * sum(
+            row["contact_force"]
+            for row in profile if row["operation"] == "Rotate off bottom") / off["surface_torque"]
         torque = off["stiff_surface_torque"] / off["surface_torque"]
-        drag = (out["stiff_hook_load"] - off["stiff_hook_load"]) / (out["hook_load"] - off["hook_load"])
-        rows.append(f"| {title} | {torque:.4f} | {pressed:.4f} | {round(torque - pressed, 4) + 0.0:.4f} | {drag:.4f} |")
-    rows.append(f"| limit: 1/sqrt(1 + mu^2), 1 | {closed_forms.LIMIT:.4f} | {closed_forms.LIMIT:.4f} | 0 | 1 |")
+        stiff = out["stiff_hook_load"] - off["stiff_hook_load"]
+        drag = stiff / (out["hook_load"] - off["hook_load"])
+        rows.append(f"| {title} | {torque:.4f} | {pressed:.4f} | "
+                    f"{round(torque - pressed, 4) + 0.0:.4f} | {drag:.4f} |")
+    rows.append(f"| limit: 1/sqrt(1 + mu^2), 1 | {closed_forms.LIMIT:.4f} | "
+                f"{closed_forms.LIMIT:.4f} | 0 | 1 |")
     return bench.by("limit") + "\n" + "\n".join(rows) + "\n"
 
 
 def crossings_table(bench):
-    """Critical speeds of xml/helical_170m.xml, full and with modes up to two cut-off frequencies."""
+    """Critical speeds of xml/helical_170m.xml, full and with modes up to two cut-off
+    frequencies."""
     found = {}
-    for name, arguments in (("full", FULL), ("200", []), ("20", ["--set", "Reduction/Mode Selection/Cut-off Frequency=20 Hz"])):
+    for name, arguments in (
+        ("full", FULL),
+        ("200", []),
+        ("20", ["--set", "Reduction/Mode Selection/Cut-off Frequency=20 Hz"]),
+    ):
         folder = bench.work / f"crossings_{name}"
         if not (folder / "crossings.csv").exists():
-            subprocess.run([bench.program, "campbell", str(PROJECT / "xml/helical_170m.xml"), "--output", str(folder), *arguments, "--set", "Campbell/Highest Speed=120 rpm",
-                            "--set", "Campbell/Points=2", "--set", "Campbell/Modes=8", "--set", "Campbell/Spot Checks=0"], stdout=subprocess.DEVNULL, check=True)
+            subprocess.run([
+                bench.program, "campbell",
+                str(PROJECT / "xml/helical_170m.xml"), "--output",
+                str(folder), *arguments, "--set", "Campbell/Highest Speed=120 rpm", "--set",
+                "Campbell/Points=2", "--set", "Campbell/Modes=8", "--set", "Campbell/Spot Checks=0"
+            ], stdout=subprocess.DEVNULL, check=True)
         with open(folder / "crossings.csv", newline="", encoding="utf-8") as file:
-            found[name] = [{key.split(" [")[0]: float(value) if value else None for key, value in row.items()} for row in csv.DictReader(file)]
-    rows = ["| order | full model [rpm] | modes up to 200 Hz: apart | estimate | up to 20 Hz: apart | estimate |", "|---|---|---|---|---|---|"]
+            found[name] = [{
+                key.split(" [")[0]: float(value) if value else None for key, value in row.items()
+            } for row in csv.DictReader(file)]
+    rows = [
+        "| order | full model [rpm] | modes up to 200 Hz: apart | estimate | up to 20 Hz: apart | "
+        "estimate |", "|---|---|---|---|---|---|"
+    ]
     for full, *reduced in zip(found["full"], found["200"], found["20"]):
-        cells = [f"{abs(one['frequency'] / full['frequency'] - 1):.2e} | {one['estimate']:.2e}" for one in reduced]
-        rows.append(f"| {full['order']:g} | {full['speed'] * 30 / math.pi:.4f} | {' | '.join(cells)} |")
+        cells = [
+            f"{abs(one['frequency'] / full['frequency'] - 1):.2e} | {one['estimate']:.2e}"
+            for one in reduced
+        ]
+        rows.append(
+            f"| {full['order']:g} | {full['speed'] * 30 / math.pi:.4f} | {' | '.join(cells)} |")
     return bench.by("crossings") + "\n" + "\n".join(rows) + "\n"
 
 
 def modes_table(bench):
-    """Undamped modes of beams and of a frame, bending in pairs, beside closed forms and scipy's dense solver."""
+    """Undamped modes of beams and of a frame, bending in pairs, beside closed forms and scipy's
+    dense solver."""
     import numpy
     import scipy.linalg
     import structures
 
     length, radius, steel = 10.0, 0.05, structures.STEEL
-    wave = radius / 2.0 * math.sqrt(steel["E"] / steel["rho"]) / (2.0 * math.pi * length**2)  # f = (beta L)^2 sqrt(E I/(rho A)) / (2 pi L^2)
+    wave = radius / 2.0 * math.sqrt(steel["E"] / steel["rho"]) / (
+        2.0 * math.pi * length**2)  # f = (beta L)^2 sqrt(E I/(rho A)) / (2 pi L^2)
     frame = structures.frame(5, 3)
-    dense = numpy.sqrt(scipy.linalg.eigh(frame.K.toarray(), frame.M.toarray(), eigvals_only=True, subset_by_index=[0, 11])) / (2.0 * math.pi)
-    cases = [("free_beam", "free beam, 40 elements", structures.beam(40), [wave * b**2 for b in (4.730041, 7.853205, 10.995608) for _ in range(2)], 6),
-             ("pinned_beam", "pinned beam, 40 elements", structures.pinned_beam(40), [wave * (n * math.pi) ** 2 for n in (1, 2, 3) for _ in range(2)], 0),
-             ("frame", "square frame of five storeys", frame, list(dense), 0)]
-    rows = ["| structure | dofs | rigid-body modes | frequencies [Hz] | closed form or scipy [Hz] | largest relative difference |", "|---|---|---|---|---|---|"]
+    dense = numpy.sqrt(
+        scipy.linalg.eigh(frame.K.toarray(), frame.M.toarray(), eigvals_only=True,
+                          subset_by_index=[0, 11])) / (2.0 * math.pi)
+    cases = [
+        ("free_beam", "free beam, 40 elements", structures.beam(40),
+         [wave * b**2 for b in (4.730041, 7.853205, 10.995608) for _ in range(2)], 6),
+        ("pinned_beam", "pinned beam, 40 elements", structures.pinned_beam(40),
+         [wave * (n * math.pi)**2 for n in (1, 2, 3) for _ in range(2)], 0),
+        ("frame", "square frame of five storeys", frame, list(dense), 0),
+    ]
+    rows = [
+        "| structure | dofs | rigid-body modes | frequencies [Hz] | closed form or scipy [Hz] | "
+        "largest relative difference |", "|---|---|---|---|---|---|"
+    ]
     for name, title, structure, exact, rigid in cases:
         folder = bench.work / f"modes_{name}"
         folder.mkdir(parents=True, exist_ok=True)
         structure.write(folder / "part.h5")
         deck = structures.deck(folder / "scene.xml", {"part": "part.h5"})
-        subprocess.run([bench.program, "modes", str(deck), "--count", str(rigid + len(exact)), "--output", str(folder / "out")], stdout=subprocess.DEVNULL, check=True)
+        subprocess.run([
+            bench.program, "modes",
+            str(deck), "--count",
+            str(rigid + len(exact)), "--output",
+            str(folder / "out")
+        ], stdout=subprocess.DEVNULL, check=True)
         with open(folder / "out/modes.csv", newline="", encoding="utf-8") as table:
-            found = [float(next(value for key, value in row.items() if key.split(" ")[0] == "full")) for row in csv.DictReader(table)]
+            found = [
+                float(next(value for key, value in row.items() if key.split(" ")[0] == "full"))
+                for row in csv.DictReader(table)
+            ]
         elastic = found[rigid:]
         worst = max(abs(f - e) / e for f, e in zip(elastic, exact))
         listed = lambda values: ", ".join(f"{v:.4f}" for v in values[::2])
-        rows.append(f"| {title} | {structure.M.shape[0]} | {sum(1 for f in found if f == 0.0)} | {listed(elastic)} | {listed(exact)} | {worst:.1e} |")
+        rows.append(f"| {title} | {structure.M.shape[0]} | {sum(1 for f in found if f == 0.0)} | "
+                    f"{listed(elastic)} | {listed(exact)} | {worst:.1e} |")
     return "\n" + "\n".join(rows) + "\n"
 
 
-TABLES = {"static": static_table, "modes": modes_table, "torque": torque_table, "forms": forms_table, "limit": limit_table, "crossings": crossings_table, "buckling": buckling_table, "vertical": vertical_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
+TABLES = {
+    "static": static_table, "modes": modes_table, "torque": torque_table, "forms": forms_table,
+    "limit": limit_table, "crossings": crossings_table, "buckling": buckling_table,
+    "vertical": vertical_table, "gauges": gauge_table, "motion": motion_table,
+    "speed": speed_windows, "nodes": node_table, "source": source_table
+}
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True, help="the tooljoint program")
     parser.add_argument("--work", default="results/validation", help="folder for the runs")
     parser.add_argument("--end", type=float, default=20.0, help="simulated time [s]")

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of docs/validation.md about pipes that buckle: tools/validation.py --only buckling,vertical."""
+"""Tables of docs/validation.md about pipes that buckle.
+
+    tools/validation.py --only buckling,vertical
+"""
 import json
 import math
 import os
@@ -11,7 +14,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests/b
 import pipes  # noqa: E402
 
 HELIX = 0.75  # of the shortening of a helix: what takes up more is one
-CASES = ((60, 100, 0.005), (60, 100, 0.02), (60, 100, 0.1), (60, 60, 0.02), (90, 100, 0.005), (90, 100, 0.02), (90, 100, 0.1), (90, 60, 0.02))
+CASES = ((60, 100, 0.005), (60, 100, 0.02), (60, 100, 0.1), (60, 60, 0.02), (90, 100, 0.005),
+         (90, 100, 0.02), (90, 100, 0.1), (90, 60, 0.02))
 LOADS = (4, 5, 6)
 LENGTHS = (50, 100, 300, 1000)
 
@@ -28,43 +32,64 @@ def run(bench, name, deck, *settings):
             file = deck()
         finally:
             os.chdir(here)
-        subprocess.run([bench.program, "buckling", str(folder / file), "--output", str(folder), *(part for one in settings for part in ("--set", one))],
-                       stdout=subprocess.DEVNULL, check=True)
-    return pipes.rows(folder), json.loads((folder / "summary.json").read_text(encoding="utf-8"))["buckling"]
+        subprocess.run([
+            bench.program, "buckling",
+            str(folder / file), "--output",
+            str(folder), *(part for one in settings for part in ("--set", one))
+        ], stdout=subprocess.DEVNULL, check=True)
+    return pipes.rows(folder), json.loads(
+        (folder / "summary.json").read_text(encoding="utf-8"))["buckling"]
 
 
 def buckling_table(bench):
-    """Transitions and contact of pipes with weight, by inclination, length and crookedness, over the first buckling F_c."""
+    """Transitions and contact of pipes with weight, by inclination, length and crookedness, over
+    the first buckling F_c."""
     heads = [f"contact over r F^2/(4 E I), at {load} F_c: found; by shape" for load in LOADS]
-    rows = [f"| inclination, length, crookedness | first jump, F/F_c | last state before a helix, F/F_c | {' | '.join(heads)} | last helix under falling weight, F/F_c |",
-            "|" + "---|" * (4 + len(LOADS))]
+    rows = [
+        "| inclination, length, crookedness | first jump, F/F_c | last state before a helix, "
+        f"F/F_c | {' | '.join(heads)} | last helix under falling weight, F/F_c |",
+        "|" + "---|" * (4 + len(LOADS))
+    ]
     for inclination, length, crookedness in CASES:
         across = pipes.WEIGHT * math.sin(math.radians(inclination))
         critical = 2 * math.sqrt(pipes.RIGIDITY * across / pipes.CLEARANCE)
         name = f"buckling_{inclination}_{length}_{crookedness}"
-        found, _ = run(bench, name, lambda: pipes.deck("pipe", float(length), 2 * length, 6.3 * critical, inclination=float(inclination)),
-                       f"Buckling/Crookedness={crookedness}", f"Buckling/Unload To={critical} N")
+        found, _ = run(
+            bench, name, lambda: pipes.deck("pipe", float(length), 2 * length, 6.3 * critical,
+                                            inclination=float(inclination)),
+            f"Buckling/Crookedness={crookedness}", f"Buckling/Unload To={critical} N")
         most = max(range(len(found)), key=lambda i: found[i]["weight_on_bit"])
         up, down = found[:most + 1], found[most:]
         jump = next(row for row in up if row["branch"] > 0)["compression"]
         loaded = [i for i, row in enumerate(up) if row["compression"] > 1.1 * critical]
-        sinusoid = next((up[i - 1] for i in loaded if up[i]["strain"] > HELIX * up[i]["helical_strain"]), up[-1])["compression"]
+        sinusoid = next(
+            (up[i - 1] for i in loaded if up[i]["strain"] > HELIX * up[i]["helical_strain"]),
+            up[-1])["compression"]
         cells = []
         for load in LOADS:
             i = min(range(len(up)), key=lambda i: abs(up[i]["compression"] - load * critical))
             shape, = pipes.shape_contact(bench.work / name, [i], float(length), float(inclination))
-            cells.append(f"{up[i]['contact_force'] / up[i]['helical_contact_force']:.3f}; {shape / up[i]['helical_contact_force']:.3f}")
+            cells.append(f"{up[i]['contact_force'] / up[i]['helical_contact_force']:.3f}; "
+                         f"{shape / up[i]['helical_contact_force']:.3f}")
         last = [row for row in down if row["strain"] > HELIX * row["helical_strain"]][-1]
-        rows.append(f"| {inclination} deg, {length} m, {crookedness:g} | {jump / critical:.2f} | {sinusoid / critical:.2f} | {' | '.join(cells)} | {last['compression'] / critical:.2f} |")
+        rows.append(f"| {inclination} deg, {length} m, {crookedness:g} | {jump / critical:.2f} | "
+                    f"{sinusoid / critical:.2f} | {' | '.join(cells)} | "
+                    f"{last['compression'] / critical:.2f} |")
     return bench.by("buckling") + "\n" + "\n".join(rows) + "\n"
 
 
 def vertical_table(bench):
-    """First negative pivot of vertical pipes between hinges over (E I w^2)^(1/3), beside beams of their own."""
-    unit = (pipes.RIGIDITY * pipes.WEIGHT**2) ** (1 / 3)
-    rows = ["| length [m] | in units of (E I/w)^(1/3) | first negative pivot, over (E I w^2)^(1/3) | beam elements |", "|---|---|---|---|"]
+    """First negative pivot of vertical pipes between hinges over (E I w^2)^(1/3), beside beams of
+    their own."""
+    unit = (pipes.RIGIDITY * pipes.WEIGHT**2)**(1 / 3)
+    rows = [
+        "| length [m] | in units of (E I/w)^(1/3) | first negative pivot, over (E I w^2)^(1/3) | "
+        "beam elements |", "|---|---|---|---|"
+    ]
     for length in LENGTHS:
         truth = pipes.hanging_beam(float(length), 2 * length)
-        _, said = run(bench, f"buckling_vertical_{length}", lambda: pipes.deck("pipe", float(length), 2 * length, 1.05 * truth))
-        rows.append(f"| {length} | {length / (pipes.RIGIDITY / pipes.WEIGHT) ** (1 / 3):.2f} | {said['limit'] / unit:.4f} | {truth / unit:.4f} |")
+        _, said = run(bench, f"buckling_vertical_{length}",
+                      lambda: pipes.deck("pipe", float(length), 2 * length, 1.05 * truth))
+        rows.append(f"| {length} | {length / (pipes.RIGIDITY / pipes.WEIGHT) ** (1 / 3):.2f} | "
+                    f"{said['limit'] / unit:.4f} | {truth / unit:.4f} |")
     return bench.by("vertical") + "\n" + "\n".join(rows) + "\n"

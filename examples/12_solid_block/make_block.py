@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A block of hexahedra as a part: make_block.py NX NY NZ [--size LX LY LZ] [--joined N] [--out FILE]
+"""A block of hexahedra as a part.
 
-Trilinear elements with eight nodes, 2 x 2 x 2 points of Gauss, consistent mass, steel. The set `root` holds the
-nodes of the end x = 0, the set `tip` N nodes of the other end (all unless given), spread evenly over it; with
-N = -1 there is no such set.
+    make_block.py NX NY NZ [--size LX LY LZ] [--joined N] [--out FILE]
+
+Trilinear elements with eight nodes, 2 x 2 x 2 points of Gauss, consistent mass, steel. The set
+`root` holds the nodes of the end x = 0, the set `tip` N nodes of the other end (all unless given),
+spread evenly over it; with N = -1 there is no such set.
 """
 import argparse
 
@@ -27,10 +29,14 @@ def element(h):
     for point in CORNERS / np.sqrt(3):
         one = (1 + CORNERS * point) / 2  # node x axis
         shape = one.prod(axis=1)
-        slope = np.column_stack([CORNERS[:, a] / 2 * one[:, (a + 1) % 3] * one[:, (a + 2) % 3] * 2 / h[a] for a in range(3)])
+        slope = np.column_stack([
+            CORNERS[:, a] / 2 * one[:, (a + 1) % 3] * one[:, (a + 2) % 3] * 2 / h[a]
+            for a in range(3)
+        ])
         B = np.zeros((6, 24))
         for i, (x, y, z) in enumerate(slope):
-            B[:, 3 * i:3 * i + 3] = [[x, 0, 0], [0, y, 0], [0, 0, z], [y, x, 0], [0, z, y], [z, 0, x]]
+            B[:, 3 * i:3 * i + 3] = [[x, 0, 0], [0, y, 0], [0, 0, z], [y, x, 0], [0, z, y],
+                                     [z, 0, x]]
         N = np.kron(shape, np.eye(3))
         K += weight * B.T @ D @ B
         M += weight * DENSITY * N.T @ N
@@ -46,7 +52,10 @@ def assemble(counts, size):
     dofs = (3 * (corner[:, None] + offsets)[:, :, None] + np.arange(3)).reshape(len(corner), 24)
     row, column = np.repeat(dofs, 24, axis=1).ravel(), np.tile(dofs, 24).ravel()
     n = 3 * int(np.prod(nodes))
-    both = [sparse.csr_matrix((np.tile(A.ravel(), len(corner)), (row, column)), shape=(n, n)) for A in (K, M)]
+    both = [
+        sparse.csr_matrix((np.tile(A.ravel(), len(corner)), (row, column)), shape=(n, n))
+        for A in (K, M)
+    ]
     for A in both:
         A.sum_duplicates()
     both = [((A + A.T) * 0.5).tocoo() for A in both]  # equal triangles to the last bit
@@ -55,11 +64,14 @@ def assemble(counts, size):
 
 
 def spread(nodes, count):
-    return nodes[np.unique(np.linspace(0, len(nodes) - 1, count).round().astype(int))] if count else nodes
+    return nodes[np.unique(np.linspace(0,
+                                       len(nodes) -
+                                       1, count).round().astype(int))] if count else nodes
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("counts", type=int, nargs=3, help="elements along x, y, z")
     parser.add_argument("--size", type=float, nargs=3, default=(0.8, 0.2, 0.1), help="edges [m]")
     parser.add_argument("--joined", type=int, default=0, help="nodes of the tip that may be joined")
@@ -77,7 +89,8 @@ def main():
         file["positions"] = np.column_stack([numbers, positions])
         file["interfaces/root"] = numbers[positions[:, 0] == 0]
         if options.joined >= 0:
-            file["interfaces/tip"] = spread(numbers[positions[:, 0] == options.size[0]], options.joined)
+            file["interfaces/tip"] = spread(numbers[positions[:, 0] == options.size[0]],
+                                            options.joined)
     print(f"{options.out}: {K.shape[0]} dofs, {K.nnz} entries")
 
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Choose a basis: how many coordinates does each reduction method need for the lowest ten frequencies of a beam of three parts, and does the
-error estimate, which does not know the full model, tell the same? A method written here in a few lines takes part.
+"""Choose a basis: how many coordinates does each reduction method need for the lowest ten
+frequencies of a beam of three parts, and does the error estimate, which does not know the full
+model, tell the same? A method written here in a few lines takes part.
 """
 # %% Definitions
 import common  # beside this script
@@ -13,7 +14,8 @@ EA, EI, MASS = 4.0e8, 6.0e5, 30.0  # N, N m2, kg/m
 
 @tj.basis("Inverse Steps")
 def inverse_steps(part, count, steps=2):
-    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko, Martinsson, Tropp 2011)."""
+    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko,
+    Martinsson, Tropp 2011)."""
     vectors = np.random.default_rng(1).standard_normal((len(part.interior), count + 4))
     for step in range(steps):
         vectors = np.linalg.qr(part.solve_interior(part.interior_mass @ vectors))[0]
@@ -26,12 +28,15 @@ def beam_of_parts(elements):
     for number in range(3):
         K, M = common.beam(3.0, elements, EA, EI, MASS)
         nodes = np.repeat(np.arange(number * elements, (number + 1) * elements + 1) + 1, 3)
-        held = {0: [0, 1], 1: [], 2: [3 * elements + 1]}[number]  # u and v of the first node, v of the last
+        held = {0: [0, 1], 1: [],
+                2: [3 * elements + 1]}[number]  # u and v of the first node, v of the last
         free = np.setdiff1d(np.arange(len(nodes)), held)
         interface = np.flatnonzero(np.isin(nodes[free], [elements + 1, 2 * elements + 1]))
         components = np.tile([0, 1, 2], elements + 1)[free]
-        parts.append(tj.part(f"part {number + 1}", M[free][:, free], K[free][:, free], nodes=nodes[free], components=components,
-                             component_names=("u", "v", "theta"), interface=interface))
+        parts.append(
+            tj.part(f"part {number + 1}", M[free][:, free], K[free][:, free], nodes=nodes[free],
+                    components=components, component_names=("u", "v", "theta"),
+                    interface=interface))
     return parts
 
 
@@ -52,7 +57,8 @@ for method in methods:
         sizes.append(len(synthesis.model))
         # a mode of the full model that the reduced one has not
         errors.append(max(1.0 if row["error"] is None else abs(row["error"]) for row in rows))
-        known = [row["estimate"] for row in rows if row["estimate"] is not None]  # not of every basis
+        known = [row["estimate"] for row in rows if row["estimate"] is not None
+                 ]  # not of every basis
         estimates.append(max(known, default=np.nan))
     line, = left.semilogy(sizes, errors, "o-", label=method)
     right.loglog(errors, estimates, "o", color=line.get_color(), label=method)
@@ -60,8 +66,10 @@ for method in methods:
     assert errors[-1] < errors[0], f"{method}: more modes are not better: {errors}"
 bounds = right.get_xlim()
 right.loglog(bounds, bounds, color="0.8", zorder=0)
-left.set(title=f"Ten frequencies of {len(full)} dofs", xlabel="Coordinates", ylabel="Largest relative error")
-right.set(title="The estimate does not know the full model", xlabel="Error", ylabel="Estimated error")
+left.set(title=f"Ten frequencies of {len(full)} dofs", xlabel="Coordinates",
+         ylabel="Largest relative error")
+right.set(title="The estimate does not know the full model", xlabel="Error",
+          ylabel="Estimated error")
 left.legend()
 common.save(figure, options, "choose_a_basis")
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A string from survey to map: the well of the template follows a survey made here; the string lies in it, turns, and two figures of merit
-are mapped over rotary speed and weight on bit.
+"""A string from survey to map: the well of the template follows a survey made here; the string lies
+in it, turns, and two figures of merit are mapped over rotary speed and weight on bit.
 """
 import pathlib
 
@@ -15,9 +15,13 @@ TEMPLATE = pathlib.Path(__file__).resolve().parents[2] / "xml/templates/well.xml
 
 
 def stations(depth, turn):
-    """Measured depth [ft], inclination and azimuth [deg]: vertical to 1500 ft, then built to 30 degrees while the azimuth turns."""
+    """Measured depth [ft], inclination and azimuth [deg]: vertical to 1500 ft, then built to 30
+    degrees while the azimuth turns."""
     at = np.array([0, 1500, 2000, 2500, depth])
-    return np.column_stack([at, np.interp(at, [1500, 2500], [0, 30]), np.interp(at, [1500, depth], [40, 40 + turn])]).round(3)
+    return np.column_stack(
+        [at,
+         np.interp(at, [1500, 2500], [0, 30]),
+         np.interp(at, [1500, depth], [40, 40 + turn])]).round(3)
 
 
 def well(turn):
@@ -41,7 +45,8 @@ for turn in (0, 60):
     wall.plot(force[touches] / 1e3, depth[touches], ".", label=f"azimuth turns by {turn} deg")
     print(f"turn of {turn} deg: {force.sum() / 1e3:.1f} kN on the wall")
 wall.set(title="At rest")
-plots.profiles((wall, moves), ("normal force [kN]", "largest lateral displacement [mm]"), (depth[0], depth[-1]))
+plots.profiles((wall, moves), ("normal force [kN]", "largest lateral displacement [mm]"),
+               (depth[0], depth[-1]))
 wall.legend()
 
 # %% A motion
@@ -55,18 +60,30 @@ moves.plot(1e3 * lateral.max(axis=0), results["model/s"])
 moves.set(title=f"A bent joint, motion of {results['transient/time'][-1]:g} s")
 
 # %% A map
-speeds, weights = (["80 rpm", "120 rpm"], ["5 klbf", "15 klbf"]) if options.short else (
-    [f"{speed} rpm" for speed in range(60, 181, 30)], [f"{weight} klbf" for weight in (5, 10, 15, 20)])
+speeds, weights = (["80 rpm", "120 rpm"],
+                   ["5 klbf", "15 klbf"
+                    ]) if options.short else ([f"{speed} rpm" for speed in range(60, 181, 30)],
+                                              [f"{weight} klbf" for weight in (5, 10, 15, 20)])
 del deck["Transient"]
 del deck["Rotary Speed"]  # a string that turns at once, with the friction of its speed at rest
 deck.add("Rotary Speed", {"Law": "Constant", "Constant": {"Speed": "80 rpm"}})
-deck.add("Map", {
-    "Grid": {"speed": {"Parameter": "Rotary Speed/Constant/Speed", "Values": speeds}, "weight": {"Parameter": "Loads/Weight On Bit", "Values": weights}},
-    "Values": {"torque": {"Key": "static.top_torque"}, "contacts": {"Key": "static.contact_nodes"}}})
+deck.add(
+    "Map", {
+        "Grid": {
+            "speed": {"Parameter": "Rotary Speed/Constant/Speed", "Values": speeds},
+            "weight": {"Parameter": "Loads/Weight On Bit", "Values": weights},
+        },
+        "Values": {
+            "torque": {"Key": "static.top_torque"},
+            "contacts": {"Key": "static.contact_nodes"},
+        },
+    })
 rows = deck.map(options.output / "map")
 torque = np.array([row["torque"] for row in rows]).reshape(len(speeds), len(weights))
 cells.grid(False)
 image = cells.pcolormesh(abs(torque.T) / 1e3, cmap=plots.MAP)
-cells.set(title="Torque at the top", xlabel="rotary speed", ylabel="weight on bit", xticks=np.arange(len(speeds)) + 0.5, yticks=np.arange(len(weights)) + 0.5, xticklabels=speeds, yticklabels=weights)
+cells.set(title="Torque at the top", xlabel="rotary speed", ylabel="weight on bit",
+          xticks=np.arange(len(speeds)) + 0.5, yticks=np.arange(len(weights)) + 0.5,
+          xticklabels=speeds, yticklabels=weights)
 figure.colorbar(image, label="torque [kN m]")
 common.save(figure, options, "string_from_survey_to_map")

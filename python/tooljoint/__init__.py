@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tooljoint: component mode synthesis, and the drillstring simulator built on it.
 
-Parts come from scipy matrices (`part`), are reduced by any method of the deck (`reduce`), joined (`couple`, `synthesise`), compared
-(`modes`, `mac`, `compare_modes`, `estimate_frequencies`) and moved (`integrate`). Decks are read, changed and run in this process (`Deck`,
-`run`, `study`, `read`). Bases and point laws may be written in Python (`basis`, `point_law`).
+Parts come from scipy matrices (`part`), are reduced by any method of the deck (`reduce`), joined
+(`couple`, `synthesise`), compared (`modes`, `mac`, `compare_modes`, `estimate_frequencies`) and
+moved (`integrate`). Decks are read, changed and run in this process (`Deck`, `run`, `study`,
+`read`). Bases and point laws may be written in Python (`basis`, `point_law`).
 
-MPI begins with the import and ends with the interpreter; under mpirun every rank makes the same calls. Errors are exceptions of the class
-`Error` with the sentence of the program.
+MPI begins with the import and ends with the interpreter; under mpirun every rank makes the same
+calls. Errors are exceptions of the class `Error` with the sentence of the program.
 """
 import sys as _sys
 
@@ -23,7 +24,12 @@ from .results import Results, read
 from .variants import Parameter, basis, law, point_law
 
 __version__ = _core.version()
-__all__ = [name for name in dir() if not name.startswith("_") and name not in ("arguments", "decks", "errors", "lists", "modal", "motion", "parts", "quantity", "results", "variants")]
+__all__ = [
+    name for name in dir()
+    if not name.startswith("_") and name not in ("arguments", "decks", "errors", "lists", "modal",
+                                                 "motion", "parts", "quantity", "results",
+                                                 "variants")
+]
 
 
 def bases():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments of calls: one that makes no sense is a UsageError that names the call, the argument and what is expected."""
+"""Arguments of calls: one that makes no sense is a UsageError that names the call, the argument and
+what is expected."""
 from __future__ import annotations
 
 import numbers
@@ -8,7 +9,10 @@ from typing import Any
 from . import _core
 from .errors import UsageError
 
-KINDS = {"Part": _core.Part, "ReducedPart": _core.ReducedPart, "Synthesis": _core.Synthesis, "Model": _core.Model}
+KINDS = {
+    "Part": _core.Part, "ReducedPart": _core.ReducedPart, "Synthesis": _core.Synthesis,
+    "Model": _core.Model
+}
 
 
 def whole(value: Any, call: str, name: str) -> int:
@@ -21,7 +25,8 @@ def whole(value: Any, call: str, name: str) -> int:
     ...
     tooljoint.errors.UsageError: modes(): count is 2.5; expected is a whole number.
     """
-    if isinstance(value, bool) or not isinstance(value, numbers.Real) or not float(value).is_integer():
+    if isinstance(value,
+                  bool) or not isinstance(value, numbers.Real) or not float(value).is_integer():
         raise UsageError(f"{call}(): {name} is {value!r}; expected is a whole number.")
     return int(value)
 
@@ -45,7 +50,8 @@ def list_of(values: Any, kinds: tuple[str, ...], call: str, name: str) -> list:
     try:
         found = list(values)
     except TypeError:
-        raise UsageError(f"{call}(): {name} is {values!r}; expected is a list, each of them a {' or a '.join(kinds)}.") from None
+        raise UsageError(f"{call}(): {name} is {values!r}; expected is a list, each of them a "
+                         f"{' or a '.join(kinds)}.") from None
     return [one_of(value, kinds, call, f"{name}[{i}]") for i, value in enumerate(found)]
 
 

@@ -21,8 +21,10 @@ _NOTHING = object()  # stands for no value
 
 
 class Deck:
-    """A deck. `deck["Transient/End Time"]` is the value in SI, default or given; setting it changes the deck as `--set` does and refuses
-    what the program would refuse; `del deck["Mud"]` takes a list out. Relative names of files are relative to the folder of the deck.
+    """A deck.
+    `deck["Transient/End Time"]` is the value in SI, default or given; setting it changes the deck
+    as `--set` does and refuses what the program would refuse; `del deck["Mud"]` takes a list out.
+    Relative names of files are relative to the folder of the deck.
 
     >>> import tooljoint as tj
     >>> deck = tj.Deck(example_deck)
@@ -32,24 +34,28 @@ class Deck:
     >>> deck["Transient/End Tim"] = 1
     Traceback (most recent call last):
     ...
-    tooljoint.errors.DeckError: --set Transient/End Tim=1: /frame/Transient/End Tim is not a parameter. Did you mean "End Time"? ...
+    tooljoint.errors.DeckError: --set Transient/End Tim=1: /frame/Transient/End Tim is not a
+    parameter. Did you mean "End Time"? ...
     >>> deck["Transient/End Tim"]
     Traceback (most recent call last):
     ...
-    tooljoint.errors.DeckError: /frame/Transient/End Tim is not a parameter. Did you mean "End Time"? ...
+    tooljoint.errors.DeckError: /frame/Transient/End Tim is not a parameter. Did you mean
+    "End Time"? ...
     """
-
-    def __init__(self, file: str | os.PathLike, set: Mapping[str, Any] | None = None, without: Iterable[str] = ()):
+    def __init__(self, file: str | os.PathLike, set: Mapping[str, Any] | None = None,
+                 without: Iterable[str] = ()):
         self.file = str(file)
         self._folder = os.getcwd()
         self._text = ""
-        self.overrides = ["!" + path for path in without] + [f"{path}={text_of(value)}" for path, value in (set or {}).items()]
+        self.overrides = ["!" + path for path in without
+                          ] + [f"{path}={text_of(value)}" for path, value in (set or {}).items()]
         self._read = _core.read_deck(self._source())
 
     def _source(self, text=None, overrides=None):
         """What the toolkit reads, also after a change of the working folder."""
         file = self.file if os.getcwd() == self._folder else os.path.join(self._folder, self.file)
-        return _core.DeckSource(file, self._text if text is None else text, self.overrides if overrides is None else overrides)
+        return _core.DeckSource(file, self._text if text is None else text,
+                                self.overrides if overrides is None else overrides)
 
     def _change(self, override):
         self._read = _core.read_deck(self._source(overrides=[*self.overrides, override]))
@@ -90,19 +96,23 @@ class Deck:
         return self._value(path) is not _NOTHING
 
     def add(self, path: str, values: Mapping[str, Any]) -> None:
-        """Add a list with a name of your own, such as "Coupling/Point Laws/guy", where `--set` takes only names that are there. values: a
-        dict, with dicts for lists in it."""
+        """Add a list with a name of your own, such as "Coupling/Point Laws/guy", where `--set`
+        takes only names that are there. values: a dict, with dicts for lists in it."""
         *outer, name = _pieces(path)
         root, description = self._tree()
         element = root
         for each in outer:
             inner = _find(element, "ParameterList", each)
-            element = ElementTree.SubElement(element, "ParameterList", name=each) if inner is None else inner
+            element = ElementTree.SubElement(element, "ParameterList",
+                                             name=each) if inner is None else inner
             description = _described(description, each)
         overrides = list(self.overrides)
         if f"!{path}" in overrides:  # a list that was deleted is replaced, with what was set in it
             deleted = overrides.index(f"!{path}")
-            overrides = [one for i, one in enumerate(overrides) if i > deleted or (i < deleted and not one.startswith(f"{path}/"))]
+            overrides = [
+                one for i, one in enumerate(overrides)
+                if i > deleted or (i < deleted and not one.startswith(f"{path}/"))
+            ]
             old = _find(element, "ParameterList", name)
             if old is not None:
                 element.remove(old)
@@ -114,13 +124,17 @@ class Deck:
 
     def _tree(self):
         parser = ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))
-        return ElementTree.fromstring(self._read.text, parser), json.loads(self._read.description)[0]
+        return ElementTree.fromstring(self._read.text,
+                                      parser), json.loads(self._read.description)[0]
 
     def _whole(self, root):
         """The text of a tree, with the comments that stand before its root."""
         prolog = re.match(r"(\s|<!--.*?-->|<\?.*?\?>)*", self._read.text, re.DOTALL).group()
         ElementTree.indent(root)
-        return "\n".join([*re.findall(r"<!--.*?-->", prolog, re.DOTALL), ElementTree.tostring(root, encoding="unicode"), ""])
+        return "\n".join([
+            *re.findall(r"<!--.*?-->", prolog, re.DOTALL),
+            ElementTree.tostring(root, encoding="unicode"), ""
+        ])
 
     def gives(self, path: str) -> bool:
         """Whether the deck or a change gives this, and not a default."""
@@ -136,8 +150,9 @@ class Deck:
         return self._read.to_dict()
 
     def write(self, file: str | os.PathLike) -> None:
-        """Write the deck with its changes; comments stay. In another folder, relative names of files in it lead elsewhere: give absolute
-        ones before. FileError."""
+        """Write the deck with its changes; comments stay.
+        In another folder, relative names of files in it lead elsewhere: give absolute ones before.
+        FileError."""
         root, description = self._tree()
         for override in self.overrides:
             if override.startswith("!"):
@@ -151,54 +166,70 @@ class Deck:
             raise FileError(f"The deck {file} cannot be written: {error.strerror}.") from error
 
     def check(self, quiet: bool = True) -> None:
-        """Refuse what a run would refuse; with quiet=False print what will be modelled, as `tooljoint check`."""
+        """Refuse what a run would refuse; with quiet=False print what will be modelled, as
+        `tooljoint check`."""
         _core.check(self._source(), quiet)
 
-    def run(self, output: str | os.PathLike = "", restart: str | os.PathLike = "", quiet: bool = True) -> Results:
-        """Run the deck in this process, as `tooljoint run` does: its Results. Collective under MPI."""
+    def run(self, output: str | os.PathLike = "", restart: str | os.PathLike = "",
+            quiet: bool = True) -> Results:
+        """Run the deck in this process, as `tooljoint run` does: its Results.
+        Collective under MPI."""
         return Results(_core.run(self._source(), str(output), str(restart), quiet))
 
     def at_rest(self) -> _core.RestingCase:
-        """The case at rest: `full()` is its full model, `parts()` its parts and what joins them (for `synthesise`), `displacement` its
-        state at rest. ConvergenceError, ModelError."""
+        """The case at rest: `full()` is its full model, `parts()` its parts and what joins them
+        (for `synthesise`), `displacement` its state at rest. ConvergenceError, ModelError."""
         return _core.solve_static(self._source())
 
-    def study(self, output: str | os.PathLike = "", fresh: bool | None = None, shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
-        """Run its list Study in this process, as `tooljoint study` does: the rows of study.csv, a list of dicts. Rows known from an earlier
-        study of the folder are taken from there, unless `fresh`, or a variant written in Python takes part (it may have changed).
+    def study(self, output: str | os.PathLike = "", fresh: bool | None = None,
+              shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
+        """Run its list Study in this process, as `tooljoint study` does: the rows of study.csv, a
+        list of dicts. Rows known from an earlier study of the folder are taken from there, unless
+        `fresh`, or a variant written in Python takes part (it may have changed).
         """
         return self._analyse("study", output, fresh, shared_timing, quiet)
 
-    def map(self, output: str | os.PathLike = "", fresh: bool | None = None, quiet: bool = True) -> list[dict[str, Any]]:
-        """Compute its list Map, as `tooljoint map` does: the rows of map.csv. fresh: as of study()."""
+    def map(self, output: str | os.PathLike = "", fresh: bool | None = None,
+            quiet: bool = True) -> list[dict[str, Any]]:
+        """Compute its list Map, as `tooljoint map` does: the rows of map.csv. fresh: as of
+        study()."""
         return self._analyse("map", output, fresh, False, quiet)
 
-    def campbell(self, output: str | os.PathLike = "", fresh: bool | None = None, quiet: bool = True) -> list[dict[str, Any]]:
-        """Damped modes against the rotary speed (list Campbell), as `tooljoint campbell` does: the rows of campbell.csv. fresh: as of study()."""
+    def campbell(self, output: str | os.PathLike = "", fresh: bool | None = None,
+                 quiet: bool = True) -> list[dict[str, Any]]:
+        """Damped modes against the rotary speed (list Campbell), as `tooljoint campbell` does: the
+        rows of campbell.csv. fresh: as of study()."""
         return self._analyse("campbell", output, fresh, False, quiet)
 
-    def response(self, output: str | os.PathLike = "", fresh: bool | None = None, quiet: bool = True) -> list[dict[str, Any]]:
-        """Harmonic responses (list Response), as `tooljoint response` does: the rows of response.csv. fresh: as of study()."""
+    def response(self, output: str | os.PathLike = "", fresh: bool | None = None,
+                 quiet: bool = True) -> list[dict[str, Any]]:
+        """Harmonic responses (list Response), as `tooljoint response` does: the rows of
+        response.csv. fresh: as of study()."""
         return self._analyse("response", output, fresh, False, quiet)
 
     def _analyse(self, what, output, fresh, shared_timing, quiet):
         folder = str(output) or f"results/{pathlib.Path(self.file).stem}_{what}"
-        _core.analyse(what, self._source(), folder, any_written() if fresh is None else fresh, shared_timing, quiet)
+        _core.analyse(what, self._source(), folder,
+                      any_written() if fresh is None else fresh, shared_timing, quiet)
         return Results(folder).table(f"{what}.csv")
 
     def __repr__(self):
-        return f"<Deck {self.file}{f' with {len(self.overrides)} changes' if self.overrides else ''}>"
+        changes = f" with {len(self.overrides)} changes" if self.overrides else ""
+        return f"<Deck {self.file}{changes}>"
 
 
-def run(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None, without: Iterable[str] = (), output: str | os.PathLike = "",
+def run(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None,
+        without: Iterable[str] = (), output: str | os.PathLike = "",
         restart: str | os.PathLike = "", quiet: bool = True) -> Results:
-    """Run a deck (a file or a Deck) in this process: its Results. set: {"Transient/End Time": "2 s"}; without: lists to take out.
-    The errors are those of the program, with the same sentence. Collective under MPI."""
+    """Run a deck (a file or a Deck) in this process: its Results. set: {"Transient/End Time":
+    "2 s"}; without: lists to take out. The errors are those of the program, with the same sentence.
+    Collective under MPI."""
     return _with(deck, set, without).run(output, restart, quiet)
 
 
-def study(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None, without: Iterable[str] = (), output: str | os.PathLike = "",
-          fresh: bool | None = None, shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
+def study(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None,
+          without: Iterable[str] = (), output: str | os.PathLike = "", fresh: bool | None = None,
+          shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
     """Run the study of a deck (a file or a Deck) in this process: see Deck.study."""
     return _with(deck, set, without).study(output, fresh, shared_timing, quiet)
 
@@ -220,9 +251,12 @@ def _pieces(path):
 
 
 def _described(description, name):
-    """The description of a list in a list; of none, when it passes through or has free names, an empty one."""
+    """The description of a list in a list; of none, when it passes through or has free names, an
+    empty one."""
     lists = [one for one in description["lists"] if one["name"] == name]
-    return lists[0] if lists else description["named_lists"] or {"lists": [], "parameters": [], "named_lists": None}
+    return lists[0] if lists else description["named_lists"] or {
+        "lists": [], "parameters": [], "named_lists": None
+    }
 
 
 def _find(element, tag, name):
@@ -241,7 +275,8 @@ def _remove(root, pieces):
 
 
 def _place(root, pieces, text, description):
-    """Puts a value into the tree, with lists that are not there yet, of the type the description has."""
+    """Puts a value into the tree, with lists that are not there yet, of the type the description
+    has."""
     for name in pieces[:-1]:
         inner = _find(root, "ParameterList", name)
         root = ElementTree.SubElement(root, "ParameterList", name=name) if inner is None else inner
@@ -255,7 +290,8 @@ def _place(root, pieces, text, description):
 
 
 def _type(text, known, before):
-    """A quantity with a unit is a text; otherwise the type of the description, or the one that stood there."""
+    """A quantity with a unit is a text; otherwise the type of the description, or the one that
+    stood there."""
     declared = known["type"] if known else before or "string"
     plain = re.fullmatch(r"\{?[-+0-9.eE, ]*\}?", text) is not None
     if "double" in declared and not plain:

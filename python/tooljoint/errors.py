@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Errors a user can act on: the sentence says what was found, what is expected and what to change.
 
-An interrupt (Ctrl-C, or SIGTERM, which mpirun sends in its place) ends a long call with KeyboardInterrupt.
+An interrupt (Ctrl-C, or SIGTERM, which mpirun sends in its place) ends a long call with
+KeyboardInterrupt.
 """
 
-
-not_finite: dict[str, str] = {}  # point laws in Python whose last forces were no numbers, each with a sentence
+not_finite: dict[str, str] = {
+}  # point laws in Python whose last forces were no numbers, each with a sentence
 
 
 class Error(Exception):
@@ -21,19 +22,22 @@ class UsageError(Error):
 
 
 class DeckError(Error):
-    """An invalid deck or parameter, or a file named in a deck that is missing or malformed (exit code 2)."""
+    """An invalid deck or parameter, or a file named in a deck that is missing or malformed (exit
+    code 2)."""
 
     code = 2
 
 
 class ModelError(Error):
-    """No model can be built: a floating part, a singular matrix, matrices that do not fit (exit code 3)."""
+    """No model can be built: a floating part, a singular matrix, matrices that do not fit (exit
+    code 3)."""
 
     code = 3
 
 
 class ConvergenceError(Error):
-    """A solver did not converge: what was tried and what to change (exit code 4). Point laws that gave it no numbers are named first."""
+    """A solver did not converge: what was tried and what to change (exit code 4).
+    Point laws that gave it no numbers are named first."""
 
     code = 4
 

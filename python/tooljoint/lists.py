@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keyword arguments as deck lists: the names are those of the deck in snake_case, and the deck's reader checks them."""
+"""Keyword arguments as deck lists: the names are those of the deck in snake_case, and the deck's
+reader checks them."""
 from __future__ import annotations
 
 import difflib
@@ -33,7 +34,8 @@ def title(name: str) -> str:
 
 
 def describe(name: str) -> dict[str, Any]:
-    """The description of the list "Reduction", "Transient" or "Coupling", or of a point law, as `tooljoint doc --format json` prints it.
+    """The description of the list "Reduction", "Transient" or "Coupling", or of a point law, as
+    `tooljoint doc --format json` prints it.
 
     >>> describe("Transient")["parameters"][0]["name"]
     'Integrator'
@@ -42,35 +44,43 @@ def describe(name: str) -> dict[str, Any]:
 
 
 def write(name: str, values: Mapping[str, Any], description: Mapping[str, Any]) -> str:
-    """XML of the list `name` with these values, a dict. Lists are dicts, arrays are lists; numbers may be texts with a unit."""
+    """XML of the list `name` with these values, a dict.
+    Lists are dicts, arrays are lists; numbers may be texts with a unit."""
     known = {keyword(each["name"]): each for each in description["lists"]}
     parameters = {keyword(each["name"]): each for each in description["parameters"]}
     free = description["named_lists"]
     lines = []
     for given, value in values.items():
         if isinstance(value, dict):
-            own = known.get(keyword(given)) or ({**free, "name": given} if free else {"name": title(given), "lists": [], "parameters": [], "named_lists": None})
+            own = known.get(keyword(given)) or ({**free, "name": given} if free else {
+                "name": title(given), "lists": [], "parameters": [], "named_lists": None
+            })
             lines.append(write(own["name"], value, own))
         elif value is not None:
             lines.append(_parameter(given, value, parameters.get(keyword(given))))
     return f"<ParameterList name={_quote(name)}>{''.join(lines)}</ParameterList>"
 
 
-def placed(description: Mapping[str, Any], values: Mapping[str, Any], places: Sequence[str | None]) -> dict[str, Any]:
-    """Values by keyword in the lists they belong to: the list described, else the first of its lists `places` that knows the keyword.
-    One that none knows goes where the most similar is, so that the reader can suggest that.
+def placed(description: Mapping[str, Any], values: Mapping[str, Any],
+           places: Sequence[str | None]) -> dict[str, Any]:
+    """Values by keyword in the lists they belong to: the list described, else the first of its
+    lists `places` that knows the keyword. One that none knows goes where the most similar is, so
+    that the reader can suggest that.
 
-    >>> placed(describe("Reduction"), {"modes": 6, "basis_checks": False, "mods": 6}, ["Mode Selection"])
+    >>> values = {"modes": 6, "basis_checks": False, "mods": 6}
+    >>> placed(describe("Reduction"), values, ["Mode Selection"])
     {'basis_checks': False, 'Mode Selection': {'modes': 6, 'mods': 6}}
     """
     lists = {each["name"]: each for each in description["lists"]}
     known: list[tuple[str, str]] = [("", name) for name in map(keyword, _names(description))]
-    known += [(place, name) for place in places if place and place in lists for name in map(keyword, _names(lists[place]))]
+    known += [(place, name) for place in places if place and place in lists
+              for name in map(keyword, _names(lists[place]))]
     out: dict[str, Any] = {}
     inner: dict[str, dict[str, Any]] = {}
     for name, value in values.items():
         similar = difflib.get_close_matches(keyword(name), [one for _, one in known], 1)
-        place = next((place for place, one in known if one == (similar[0] if similar else name)), "")
+        place = next((place for place, one in known if one == (similar[0] if similar else name)),
+                     "")
         if place and not isinstance(value, dict):
             inner.setdefault(place, {})[name] = value
         else:
@@ -108,18 +118,21 @@ def text_of(value: Any) -> str:
     try:
         values = list(value)
     except TypeError:
-        raise UsageError(f"{value!r} is no value of a deck; expected is a number, a text, a boolean or a list of them.") from None
+        raise UsageError(f"{value!r} is no value of a deck; expected is a number, a text, a "
+                         "boolean or a list of them.") from None
     return "{" + ", ".join(map(text_of, values)) + "}"
 
 
 def type_of(value: Any, kind: str = "") -> str:
-    """The type attribute of a value: what the parameter is (`kind`, empty when not known) decides for whole numbers and texts."""
+    """The type attribute of a value: what the parameter is (`kind`, empty when not known) decides
+    for whole numbers and texts."""
     if isinstance(value, bool):
         return "bool"
     if isinstance(value, str):
         return "string"
     if isinstance(value, numbers.Real):
-        return "int" if isinstance(value, numbers.Integral) and not kind.startswith("real") else "double"
+        return "int" if isinstance(value,
+                                   numbers.Integral) and not kind.startswith("real") else "double"
     inner = {type_of(each, kind) for each in value} or {"string"}
     return f"Array({'double' if inner == {'int', 'double'} else inner.pop()})"
 
@@ -128,7 +141,8 @@ def _parameter(given, value, description):
     name = description["name"] if description else title(given)
     kind = description["kind"] if description else ""
     text = text_of(value)
-    return f"<Parameter name={_quote(name)} type={_quote(type_of(value, kind))} value={_quote(text)}/>"
+    return (f"<Parameter name={_quote(name)} type={_quote(type_of(value, kind))} "
+            f"value={_quote(text)}/>")
 
 
 def _quote(text):

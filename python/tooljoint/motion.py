@@ -17,11 +17,12 @@ if TYPE_CHECKING:
 
 
 class Motion:
-    """A motion: `time` [s], and `displacement`, `velocity` and `acceleration` (samples x coordinates of the model), with the units of the
-    coordinates in `model.dof_units`; `report` has counts, times and energies of the integration. `at()` gives the motion of nodes.
+    """A motion: `time` [s], and `displacement`, `velocity` and `acceleration` (samples x
+    coordinates of the model), with the units of the coordinates in `model.dof_units`; `report` has
+    counts, times and energies of the integration. `at()` gives the motion of nodes.
     """
-
-    def __init__(self, model: _core.Model, time: np.ndarray, displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, report: dict[str, Any]):
+    def __init__(self, model: _core.Model, time: np.ndarray, displacement: np.ndarray,
+                 velocity: np.ndarray, acceleration: np.ndarray, report: dict[str, Any]):
         self.model, self.report = model, report
         self.time = Quantity(time, "s", "Time")
         unit = ", ".join(dict.fromkeys(model.dof_units))
@@ -30,8 +31,9 @@ class Motion:
         self.acceleration = Quantity(acceleration, _rate(unit, 2), "Acceleration")
 
     def at(self, node: int, component: str, what: str = "displacement") -> Quantity:
-        """The history of a component of a node, recovered from the coordinates: of an interior node of a reduced part too.
-        what: "displacement", "velocity" or "acceleration". ModelError for a node that the model does not recover.
+        """The history of a component of a node, recovered from the coordinates: of an interior node
+        of a reduced part too. what: "displacement", "velocity" or "acceleration". ModelError for a
+        node that the model does not recover.
         """
         numbers, names = self.model.recovery_nodes, self.model.component_names
         place = np.flatnonzero(numbers == node)
@@ -47,7 +49,8 @@ class Motion:
         return Quantity(values, unit, f"{history.long_name} {component} of node {node}")
 
     def __repr__(self):
-        return f"<Motion of {self.displacement.shape[1]} coordinates, {len(self.time)} samples to {self.time[-1]:g} s>"
+        return (f"<Motion of {self.displacement.shape[1]} coordinates, {len(self.time)} samples to "
+                f"{self.time[-1]:g} s>")
 
 
 def _rate(units: str, order: int) -> str:
@@ -59,11 +62,14 @@ def _rate(units: str, order: int) -> str:
     return ", ".join(unit + ("", "/s", "/s2")[order] for unit in units.split(", "))
 
 
-def integrate(of: HasModel, end_time: float | str, *, integrator: str = "Generalized-alpha", **parameters: Any) -> Motion:
-    """Integrate the motion of a model, a part or a synthesis from its start. Arguments are the deck list Transient: names in snake_case,
-    of the list itself or of the list of the integrator (sampling_interval, step, spectral_radius ...). Collective under MPI.
+def integrate(of: HasModel, end_time: float | str, *, integrator: str = "Generalized-alpha",
+              **parameters: Any) -> Motion:
+    """Integrate the motion of a model, a part or a synthesis from its start.
+    Arguments are the deck list Transient: names in snake_case, of the list itself or of the list of
+    the integrator (sampling_interval, step, spectral_radius ...). Collective under MPI.
 
-    DeckError, ModelError, ConvergenceError (an unstable or too coarse integration is refused); KeyboardInterrupt.
+    DeckError, ModelError, ConvergenceError (an unstable or too coarse integration is refused);
+    KeyboardInterrupt.
 
     >>> import numpy as np, tooljoint as tj
     >>> mass = tj.part("mass", [[1.0]], [[(2 * np.pi) ** 2]])
@@ -72,6 +78,9 @@ def integrate(of: HasModel, end_time: float | str, *, integrator: str = "General
     >>> motion.displacement.round(3).ravel().tolist(), motion.displacement.unit
     ([1.0, 0.0, -1.0], 'm')
     """
-    values = placed(describe("Transient"), {"integrator": integrator, "end_time": end_time, "progress": False, **parameters}, [integrator])
+    values = placed(
+        describe("Transient"),
+        {"integrator": integrator, "end_time": end_time, "progress": False, **parameters},
+        [integrator])
     model = model_of(of, "integrate")
     return Motion(model, *_core.integrate(model, checked("Transient", values)))

@@ -20,21 +20,27 @@ if TYPE_CHECKING:
     MatrixLike = Union[ArrayLike, spmatrix]
 
 
-def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Iterable[int] = (), retained: Iterable[int] = (), damping: MatrixLike | None = None,
-         load: ArrayLike | None = None, nodes: ArrayLike | None = None, components: ArrayLike | None = None, component_names: Sequence[str] = ("u",)) -> _core.Part:
+def part(
+    name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Iterable[int] = (),
+    retained: Iterable[int] = (), damping: MatrixLike | None = None, load: ArrayLike | None = None,
+    nodes: ArrayLike | None = None, components: ArrayLike | None = None,
+    component_names: Sequence[str] = ("u",)) -> _core.Part:
     """A part from its matrices.
 
-    mass, stiffness, damping: scipy.sparse matrices or arrays, dofs x dofs [kg, N/m, N s/m]; load: a constant load, dofs [N].
-    nodes: number of the node of each dof, 1 or more; by default the dofs go through the nodes 1, 2, ... one after the other.
-    components: for each dof the position of its component in `component_names`; by default they repeat node by node.
-    interface: positions of the dofs that may be joined with equal ones (node and component) of other parts.
-    retained: positions of further dofs that stay as they are when the part is reduced.
+    mass, stiffness, damping: scipy.sparse matrices or arrays, dofs x dofs [kg, N/m, N s/m]; load: a
+    constant load, dofs [N]. nodes: number of the node of each dof, 1 or more; by default the dofs
+    go through the nodes 1, 2, ... one after the other. components: for each dof the position of its
+    component in `component_names`; by default they repeat node by node. interface: positions of the
+    dofs that may be joined with equal ones (node and component) of other parts. retained: positions
+    of further dofs that stay as they are when the part is reduced.
 
-    ModelError for matrices that do not fit each other, a mass that is not symmetric, and positions that are none. Undamped modes are those of
-    the symmetric part of the stiffness; `damped_modes` takes all of it.
+    ModelError for matrices that do not fit each other, a mass that is not symmetric, and positions
+    that are none. Undamped modes are those of the symmetric part of the stiffness; `damped_modes`
+    takes all of it.
 
     >>> import numpy as np, tooljoint as tj
-    >>> bar = tj.part("bar", np.eye(3), [[2, -1, 0], [-1, 2, -1], [0, -1, 1]], interface=[2], nodes=[1, 2, 3])
+    >>> stiffness = [[2, -1, 0], [-1, 2, -1], [0, -1, 1]]
+    >>> bar = tj.part("bar", np.eye(3), stiffness, interface=[2], nodes=[1, 2, 3])
     >>> bar
     <Part "bar": 3 dofs, 1 of them interface>
     >>> bar.model.dof_names[2]
@@ -48,19 +54,22 @@ def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Itera
         raise ModelError(f"nodes has {min(nodes)}; nodes are numbered from 1 on.")
     if components is None:
         components = _repeating(nodes, width)
-    model = _core.Model(mass, stiffness, nodes, _whole(components, "components"), list(component_names))
+    model = _core.Model(mass, stiffness, nodes, _whole(components, "components"),
+                        list(component_names))
     if damping is not None:
         model.add_damping(damping)
     if load is not None:
         model.add_load(load)
-    return _core.Part(name, model, sorted(_whole(interface, "interface")), sorted(_whole(retained, "retained")))
+    return _core.Part(name, model, sorted(_whole(interface, "interface")),
+                      sorted(_whole(retained, "retained")))
 
 
 def _whole(values: Any, what: str) -> list[int]:
     """Whole numbers of any kind as a list of int. ModelError."""
     values = list(values) if np.iterable(values) else [values]
     for value in values:
-        if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)) or not float(value).is_integer():
+        if isinstance(value, (bool, np.bool_)) or not isinstance(
+                value, (int, float, np.integer, np.floating)) or not float(value).is_integer():
             raise ModelError(f"{what} has {value!r}; expected are whole numbers.")
     return [int(value) for value in values]
 
@@ -75,89 +84,115 @@ def _repeating(nodes, width):
     return components
 
 
-def write_part(part: _core.Part, path: str | os.PathLike, interfaces: Mapping[str, Iterable[int]] | None = None,
+def write_part(part: _core.Part, path: str | os.PathLike,
+               interfaces: Mapping[str, Iterable[int]] | None = None,
                positions: Mapping[int, ArrayLike] | None = None) -> None:
-    """Write a part for `Parts/Imported` of a deck: one file when the path ends with .h5, else a folder of Matrix Market files.
+    """Write a part for `Parts/Imported` of a deck: one file when the path ends with .h5, else a
+    folder of Matrix Market files.
 
-    interfaces: positions of dofs by the name of their set, for Parts/Joints; by default all of the interface as "interface".
-    positions: coordinates [m] of nodes by their number, for pictures and for moved parts. Point laws are no part of the format.
-    A reduced part is refused: make a part of its `model` with `part()`.
+    interfaces: positions of dofs by the name of their set, for Parts/Joints; by default all of the
+    interface as "interface". positions: coordinates [m] of nodes by their number, for pictures and
+    for moved parts. Point laws are no part of the format. A reduced part is refused: make a part of
+    its `model` with `part()`.
     """
     if not isinstance(part, _core.Part):
-        raise UsageError(f"write_part() takes a Part, not {part!r}. Of a reduced part, write part(name, model.mass, model.stiffness(), ...) of its model.")
+        raise UsageError(f"write_part() takes a Part, not {part!r}. Of a reduced part, write "
+                         "part(name, model.mass, model.stiffness(), ...) of its model.")
     sets = {"interface": part.interface} if interfaces is None else interfaces
-    _core.write_part(part, str(path), {name: found for name, dofs in sets.items() if (found := _whole(dofs, f'the interface "{name}"'))}, dict(positions or {}))
+    _core.write_part(
+        part, str(path), {
+            name: found
+            for name, dofs in sets.items() if (found := _whole(dofs, f'the interface "{name}"'))
+        }, dict(positions or {}))
 
 
-def read_part(path: str | os.PathLike, name: str = "part", laws: dict[str, Any] | None = None) -> _core.Part:
-    """Read a part: a file .h5 or .json, or a folder with a part.json. DeckError for what is malformed, ModelError.
+def read_part(path: str | os.PathLike, name: str = "part",
+              laws: dict[str, Any] | None = None) -> _core.Part:
+    """Read a part: a file .h5 or .json, or a folder with a part.json.
+    DeckError for what is malformed, ModelError.
 
-    laws: of every law of time that terms of the file name, its function of the time [s], or a number: `laws={"Omega": 12.5}`.
-    Point laws, which a file cannot hold, are warned of.
+    laws: of every law of time that terms of the file name, its function of the time [s], or a
+    number: `laws={"Omega": 12.5}`. Point laws, which a file cannot hold, are warned of.
     """
-    functions = {law: value if callable(value) else (lambda t, value=real(value, "read_part", law): value) for law, value in (laws or {}).items()}
+    functions = {
+        law: value if callable(value) else (lambda t, value=real(value, "read_part", law): value)
+        for law, value in (laws or {}).items()
+    }
     return _core.read_part(str(path), name, functions)
 
 
 def reduction(method: str = "Craig-Bampton", **parameters: Any) -> _core.DeckList:
-    """The deck list Reduction from keyword arguments, checked as in a deck: names in snake_case, of the list itself, of its list Mode
-    Selection and of the list of the method. A dict where a list is to be given as such.
+    """The deck list Reduction from keyword arguments, checked as in a deck: names in snake_case, of
+    the list itself, of its list Mode Selection and of the list of the method. A dict where a list
+    is to be given as such.
 
     >>> reduction("Craig-Bampton", cut_off_frequency="30 Hz").to_dict()["Mode Selection"]
     {'Cut-off Frequency': 30.0}
     >>> reduction("Craig-Bampton", mods=6)
     Traceback (most recent call last):
     ...
-    tooljoint.errors.DeckError: /Reduction/Mode Selection/Mods is not a parameter. Did you mean "Modes"? ...
+    tooljoint.errors.DeckError: /Reduction/Mode Selection/Mods is not a parameter. Did you mean
+    "Modes"? ...
     """
     places = ["Mode Selection", method, parameters.get("interface_reduction")]
     values = placed(describe("Reduction"), {"basis": method, **parameters}, places)
     return checked("Reduction", values)
 
 
-def reduce(parts: _core.Part | Sequence[_core.Part], method: str = "Craig-Bampton", **parameters: Any) -> _core.ReducedPart | list[_core.ReducedPart]:
+def reduce(parts: _core.Part | Sequence[_core.Part], method: str = "Craig-Bampton",
+           **parameters: Any) -> _core.ReducedPart | list[_core.ReducedPart]:
     """Reduce a part, or each of a list of parts by itself.
 
-    method and parameters: as `reduction()`; "modes=6" or "cut_off_frequency='30 Hz'", for example. Collective under MPI.
-    Returns a ReducedPart, or a list of them. DeckError, ModelError, ConvergenceError.
+    method and parameters: as `reduction()`; "modes=6" or "cut_off_frequency='30 Hz'", for example.
+    Collective under MPI. Returns a ReducedPart, or a list of them. DeckError, ModelError,
+    ConvergenceError.
 
     >>> import numpy as np, tooljoint as tj
-    >>> chain = tj.part("chain", np.eye(5), 2 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1), interface=[0, 4])
+    >>> stiffness = 2 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1)
+    >>> chain = tj.part("chain", np.eye(5), stiffness, interface=[0, 4])
     >>> tj.reduce(chain, modes=2)
     <ReducedPart "chain": 4 coordinates, 2 of them modes>
     """
     if isinstance(parts, _core.Part):
         return _core.reduce([parts], reduction(method, **parameters))[0]
-    return _core.reduce(list_of(parts, ("Part",), "reduce", "parts"), reduction(method, **parameters))
+    return _core.reduce(list_of(parts, ("Part",), "reduce", "parts"),
+                        reduction(method, **parameters))
 
 
 def _joining(coupling):
     if coupling is None or isinstance(coupling, _core.Connections):
         return coupling
     if not isinstance(coupling, dict):
-        raise UsageError(f"coupling is {coupling!r}; expected is the deck list Coupling as a dict, or what joins the parts of Deck.at_rest().")
+        raise UsageError(f"coupling is {coupling!r}; expected is the deck list Coupling as a dict, "
+                         "or what joins the parts of Deck.at_rest().")
     return checked("Coupling", coupling)
 
 
 def couple(parts: Iterable[Any], coupling: dict | _core.Connections | None = None) -> _core.Model:
-    """The model of parts joined by equal labels of their interface dofs: unreduced parts give the full model, reduced parts the
-    reduced one. coupling: the deck list Coupling as a dict (unreduced parts), for springs, hinges, constraints, frames and point laws.
-    ModelError names what cannot be joined.
+    """The model of parts joined by equal labels of their interface dofs: unreduced parts give the
+    full model, reduced parts the reduced one. coupling: the deck list Coupling as a dict (unreduced
+    parts), for springs, hinges, constraints, frames and point laws. ModelError names what cannot be
+    joined.
     """
     parts = list_of(parts, ("Part", "ReducedPart"), "couple", "parts")
     reduced = [isinstance(part, _core.ReducedPart) for part in parts]
     if any(reduced) and not all(reduced):
-        raise UsageError("Some of the parts are reduced and some are not. Reduce all of them, or none.")
+        raise UsageError(
+            "Some of the parts are reduced and some are not. Reduce all of them, or none.")
     if any(reduced):
         if coupling is not None:
-            raise UsageError("Reduced parts are joined by their labels alone. Give the coupling to synthesise(), which reduces and couples.")
+            raise UsageError("Reduced parts are joined by their labels alone. Give the coupling to "
+                             "synthesise(), which reduces and couples.")
         return _core.couple_reduced(parts)
     return _core.couple(parts, _joining(coupling))
 
 
-def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton", coupling: dict | _core.Connections | None = None, **parameters: Any) -> _core.Synthesis:
-    """Component mode synthesis: reduce the parts, couple them, augment bases that need the coupled model, reduce the interface where
-    asked for. parameters: as `reduction()`; with frequency_tolerance the modes are chosen by the estimated error. Collective under MPI.
+def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton",
+               coupling: dict | _core.Connections | None = None,
+               **parameters: Any) -> _core.Synthesis:
+    """Component mode synthesis: reduce the parts, couple them, augment bases that need the coupled
+    model, reduce the interface where asked for. parameters: as `reduction()`; with
+    frequency_tolerance the modes are chosen by the estimated error. Collective under MPI.
 
     >>> import numpy as np, tooljoint as tj
     >>> K = 2 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1)
@@ -167,4 +202,5 @@ def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton", coupl
     >>> both
     <Synthesis of 2 parts, 5 dofs>
     """
-    return _core.synthesise(list_of(parts, ("Part",), "synthesise", "parts"), reduction(method, **parameters), _joining(coupling))
+    return _core.synthesise(list_of(parts, ("Part",), "synthesise", "parts"),
+                            reduction(method, **parameters), _joining(coupling))

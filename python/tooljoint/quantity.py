@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 class Quantity(np.ndarray):
     """A numpy array with `unit`, a text in SI, and `long_name`, a sentence; both may be empty.
 
-    Parts of it keep the unit; what is computed from it is a plain array or number, whose unit is the caller's to know.
+    Parts of it keep the unit; what is computed from it is a plain array or number, whose unit is
+    the caller's to know.
 
     >>> length = Quantity([1.0, 2.0], "m", "Length")
     >>> length.unit, length[1:].unit
@@ -24,7 +25,6 @@ class Quantity(np.ndarray):
     >>> pickle.loads(pickle.dumps(length)).label
     'Length [m]'
     """
-
     def __new__(cls, values: ArrayLike, unit: str = "", long_name: str = "") -> Quantity:
         array = np.asarray(values).view(cls)
         array.unit, array.long_name = unit, long_name
@@ -45,12 +45,15 @@ class Quantity(np.ndarray):
     def __array_ufunc__(self, ufunc, method, *inputs, **options):
         plain = [np.asarray(each) if isinstance(each, Quantity) else each for each in inputs]
         if "out" in options:
-            options["out"] = tuple(np.asarray(each) if isinstance(each, Quantity) else each for each in options["out"])
+            options["out"] = tuple(
+                np.asarray(each) if isinstance(each, Quantity) else each for each in options["out"])
         return getattr(ufunc, method)(*plain, **options)
 
     def __array_function__(self, function, types, arguments, options):
-        plain = lambda each: np.asarray(each) if isinstance(each, Quantity) else type(each)(map(plain, each)) if type(each) in (list, tuple) else each
-        return function(*map(plain, arguments), **{name: plain(each) for name, each in options.items()})
+        plain = lambda each: np.asarray(each) if isinstance(each, Quantity) else type(each)(map(
+            plain, each)) if type(each) in (list, tuple) else each
+        return function(*map(plain, arguments),
+                        **{name: plain(each) for name, each in options.items()})
 
     @property
     def label(self) -> str:

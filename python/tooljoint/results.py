@@ -13,24 +13,26 @@ from . import _core
 from .errors import FileError
 from .quantity import Quantity
 
-
-FILES = ("study.h5", "results.h5", "map.h5", "campbell.h5", "response.h5", "torque_drag.h5", "bha.h5", "buckling.h5", "modes.h5")  # a folder has one of them, or the first and others
+FILES = ("study.h5", "results.h5", "map.h5", "campbell.h5", "response.h5", "torque_drag.h5",
+         "bha.h5", "buckling.h5", "modes.h5")  # a folder has one of them, or the first and others
 
 
 class Results:
-    """The folder of a run or of an analysis. `results["transient/displacement"]` is a dataset of its HDF5 file (results.h5, campbell.h5), an array with unit and long_name; `summary`
-    is summary.json as a dict; `table("motion.csv")` are the rows of a table.
+    """The folder of a run or of an analysis.
+    `results["transient/displacement"]` is a dataset of its HDF5 file (results.h5, campbell.h5), an
+    array with unit and long_name; `summary` is summary.json as a dict; `table("motion.csv")` are
+    the rows of a table.
 
     FileError for a folder that holds no results, or a dataset that is not there.
     """
-
     def __init__(self, folder: str | os.PathLike):
         self.folder = pathlib.Path(folder)
         file = self.folder / "summary.json"
         try:
             self.summary = json.loads(file.read_text(encoding="utf-8"))
         except OSError as error:
-            raise FileError(f"The results folder {folder} cannot be read: {error.strerror}: {file}. Give the folder of a finished run.") from error
+            raise FileError(f"The results folder {folder} cannot be read: {error.strerror}: "
+                            f"{file}. Give the folder of a finished run.") from error
         except ValueError as error:
             raise FileError(f"{file} is no summary of a run: {error}.") from error
 
@@ -56,9 +58,11 @@ class Results:
         """Rows of a table of the folder, dicts; numbers are numbers."""
         try:
             with open(self.folder / name, newline="", encoding="utf-8") as file:
-                return [{key: _value(text) for key, text in row.items()} for row in csv.DictReader(line for line in file if not line.startswith("#"))]
+                return [{key: _value(text) for key, text in row.items()} for row in csv.DictReader(
+                    line for line in file if not line.startswith("#"))]
         except OSError as error:
-            raise FileError(f"The table {self.folder / name} cannot be read: {error.strerror}.") from error
+            raise FileError(
+                f"The table {self.folder / name} cannot be read: {error.strerror}.") from error
 
     @property
     def warnings(self) -> list[str]:

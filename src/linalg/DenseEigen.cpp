@@ -55,24 +55,37 @@ bool comesFirst(const std::complex<double>& a, const std::complex<double>& b, do
 constexpr double mostResidual = 1e-8;
 constexpr int mostIterations = 3;
 
+/// A x, by two real products: one of mixed types would copy A as complex.
+Eigen::VectorXcd times(const Matrix& A, const Eigen::VectorXcd& x) {
+  Eigen::VectorXcd y(A.rows());
+  y.real() = A * Vector(x.real());
+  y.imag() = A * Vector(x.imag());
+  return y;
+}
+
 struct QuadraticPencil {
-  const Matrix &M, &C, &K;
+  QuadraticPencil(const Matrix& mass, const Matrix& damping, const Matrix& stiffness)
+      : M(mass), C(damping), K(stiffness) {}
+
   double residual(std::complex<double> s, const Eigen::VectorXcd& phi) const {
-    const Eigen::VectorXcd r = s * s * (M * phi) + s * (C * phi) + K * phi;
-    const double size = std::norm(s) * maxNorm(M) + std::abs(s) * maxNorm(C) + maxNorm(K);
+    const Eigen::VectorXcd r = s * s * times(M, phi) + s * times(C, phi) + times(K, phi);
+    const double size = std::norm(s) * normM + std::abs(s) * normC + normK;
     return size > 0.0 ? r.cwiseAbs().maxCoeff() / size : 0.0;
   }
   /// y = Q(s)^-1 Q'(s) phi, s <- s - phi_k / y_k (Ruhe, SIAM J. Numer. Anal. 10 (1973) 674-689):
   /// eigenvalues far below the largest one (strong damping) have lost digits to the QR iteration.
   void refine(std::complex<double>& s, Eigen::VectorXcd& phi) const {
     const Eigen::MatrixXcd Q = s * s * M + s * C + K;
-    const Eigen::VectorXcd y = Q.partialPivLu().solve(C * phi + 2.0 * s * (M * phi));
+    const Eigen::VectorXcd y = Q.partialPivLu().solve(times(C, phi) + 2.0 * s * times(M, phi));
     Eigen::Index k = 0;
     y.cwiseAbs().maxCoeff(&k);
     if (!y.allFinite() || y[k] == 0.0) return;  // Q(s) is singular: s is the eigenvalue
     s -= phi[k] / y[k];
     phi = y / y[k];
   }
+
+  const Matrix &M, &C, &K;
+  const double normM = maxNorm(M), normC = maxNorm(C), normK = maxNorm(K);
 };
 
 }  // namespace
@@ -128,11 +141,14 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
     Eigen::Index largest = 0;
     phi.cwiseAbs().maxCoeff(&largest);
     phi /= phi[largest];
-    for (int i = 0; i < mostIterations && pencil.residual(s, phi) > mostResidual; ++i)
+    double residual = pencil.residual(s, phi);
+    for (int i = 0; i < mostIterations && residual > mostResidual; ++i) {
       pencil.refine(s, phi);
+      residual = pencil.residual(s, phi);
+    }
     modes.values[j] = s;
     modes.vectors.col(j) = phi;
-    modes.residuals[j] = pencil.residual(s, phi);
+    modes.residuals[j] = residual;
     if (!(modes.residuals[j] <= mostResidual))
       throw ConvergenceError("An eigenvalue of a quadratic eigenproblem has a residual of " +
                              scientific(modes.residuals[j]) + ".");

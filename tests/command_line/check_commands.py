@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of the documents: check_commands.py PROGRAM PROJECT CTEST BUILD
 
-Blocks `sh` of the user's pages run line by line in a folder that looks like the project; motions and studies are made short on the way, so that all
-words are tried. Of the commands of docs/validation.md that differ in numbers alone one is run, static states as they stand, and the decks and overrides
-of the others are read. Of all other commands in the pages, in blocks and within lines, the command, its options, decks, tools and targets must exist,
-and the tests of this build that a page names. README.md, the tutorials, docs/first-report.md and docs/python.md have
-tests of their own, which run them word for word.
+Blocks `sh` of the user's pages run line by line in a folder that looks like the project; motions
+and studies are made short on the way, so that all words are tried. Of the commands of
+docs/validation.md that differ in numbers alone one is run, static states as they stand, and the
+decks and overrides of the others are read. Of all other commands in the pages, in blocks and within
+lines, the command, its options, decks, tools and targets must exist, and the tests of this build
+that a page names. README.md, the tutorials, docs/first-report.md and docs/python.md have tests of
+their own, which run them word for word.
 """
 import functools
 import json
@@ -23,21 +25,41 @@ from checks import TIME_FACTOR, expect, finish  # noqa: E402
 
 PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 CTEST, BUILD = sys.argv[3:5]
-RUN = (*[f"docs/guide/{page}.md" for page in ("torque-drag", "buckling", "bottom-hole-assembly", "bit-and-top-drive", "critical-speeds", "figures-of-merit", "measured-logs", "maps")], "docs/report.md", "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md", "docs/guide/coupling.md", "docs/guide/troubleshooting.md",
-       "docs/guide/studies.md")
+RUN = (*[
+    f"docs/guide/{page}.md"
+    for page in ("torque-drag", "buckling", "bottom-hole-assembly", "bit-and-top-drive",
+                 "critical-speeds", "figures-of-merit", "measured-logs", "maps")
+], "docs/report.md", "docs/guide/decks.md", "docs/guide/recipes.md", "docs/guide/parts.md",
+       "docs/guide/coupling.md", "docs/guide/troubleshooting.md", "docs/guide/studies.md")
 VALIDATION = "docs/validation.md"
-SHORT = {"run": ["Transient/End Time=0.02"], "study": ["Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"],
-         "map": ["Transient/End Time=0.02", "Map/Pictures=false", "Map/Grid/speed/Count=2", "Map/Grid/weight on bit/Values={10 kN, 20 kN}"],
-         "bha": ["Bottom-Hole Assembly/Tool Face={0 deg}"],
-         "torque-drag": ["Torque and Drag/Count=1", "Torque and Drag/Operations={Drill rotating}"], "campbell": ["Campbell/Points=2", "Campbell/Modes=2"], "response": ["Response/Points=3"]}
+SHORT = {
+    "run": ["Transient/End Time=0.02"],
+    "study": [
+        "Study/End Time=0.06", "Study/Window=0.03", "Study/Repeats=1", "Study/Pictures=false"
+    ],
+    "map": [
+        "Transient/End Time=0.02", "Map/Pictures=false", "Map/Grid/speed/Count=2",
+        "Map/Grid/weight on bit/Values={10 kN, 20 kN}"
+    ],
+    "bha": [
+        "Bottom-Hole Assembly/Tool Face={0 deg}", "Bottom-Hole Assembly/Rotating Tool Faces=3",
+        "Bottom-Hole Assembly/Element Length=2"
+    ],
+    "buckling": ["Buckling/Last Weight On Bit=300 kN"],
+    "torque-drag": ["Torque and Drag/Count=1", "Torque and Drag/Operations={Drill rotating}"],
+    "campbell": ["Campbell/Points=2", "Campbell/Modes=2"],
+    "response": ["Response/Points=3"],
+}
 MAPPED = {}  # deck: folder
-COMPARED = ["Transient/End Time=1", "Measured Log/Begin=0 s", "Measured Log/End=0.9 s"]  # of a motion with a log, which needs samples
+COMPARED = ["Transient/End Time=1", "Measured Log/Begin=0 s",
+            "Measured Log/End=0.9 s"]  # of a motion with a log, which needs samples
 OPTIONS_OF_DECKS = ("--set", "--without")
 PLACES = re.compile(r"\b(DECK|DIR|FILE|NAME|[A-Z]{2,})\b")
 
 
 def blocks(page, kinds=("sh",)):
-    """Commands in the blocks of a page, lines that go on joined, and the text of the block before each."""
+    """Commands in the blocks of a page, lines that go on joined, and the text of the block before
+    each."""
     text, before, found = (PROJECT / page).read_text(encoding="utf-8"), "", []
     for kind, body in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S):
         if kind in kinds:
@@ -56,7 +78,8 @@ def stage(folder):
         (folder / name).symlink_to(PROJECT / name)
     for place in ("bin", "build/release"):
         program = folder / place / "tooljoint"
-        program.write_text(f"#!/bin/bash\nexec {shlex.quote(str(PROGRAM))} \"$@\"\n", encoding="utf-8")
+        program.write_text(f"#!/bin/bash\nexec {shlex.quote(str(PROGRAM))} \"$@\"\n",
+                           encoding="utf-8")
         program.chmod(0o755)
 
 
@@ -71,12 +94,18 @@ def shortened(words):
     if words[1] == "map":  # a second map of a deck goes on from the points of the first
         at = words.index("--output") + 1
         words = [*words[:at], MAPPED.setdefault(words[2], words[at]), *words[at + 1:]]
-    compared = words[1] == "run" and "Measured Log" in (PROJECT / words[2]).read_text(encoding="utf-8")
-    return [*words, *(word for text in (COMPARED if compared else SHORT[words[1]]) for word in ("--set", text))]
+    compared = words[1] == "run" and "Measured Log" in (PROJECT / words[2]).read_text(
+        encoding="utf-8")
+    return [
+        *words,
+        *(word for text in (COMPARED if compared else SHORT[words[1]]) for word in ("--set", text))
+    ]
 
 
 def run_pages(folder):
-    environment = {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "TOOLJOINT_REPORT": "off"}
+    environment = {
+        **os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "TOOLJOINT_REPORT": "off"
+    }
     for page in RUN:
         for line, before in blocks(page):
             words = words_of(line)
@@ -86,13 +115,16 @@ def run_pages(folder):
             measured = re.search(r"Measured=(\S+\.csv)", line)
             if measured:
                 (folder / "xml" / measured[1]).write_text(before, encoding="utf-8")
-            done = subprocess.run(shortened(words), cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False,
-                                  timeout=240 * TIME_FACTOR)
-            expect(f"{page}: {line.strip()[:110]}", done.returncode == 0, f"({done.returncode}) {done.stderr[-400:]}")
+            done = subprocess.run(shortened(words), cwd=folder, env=environment,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                  check=False, timeout=240 * TIME_FACTOR)
+            expect(f"{page}: {line.strip()[:110]}", done.returncode == 0,
+                   f"({done.returncode}) {done.stderr[-400:]}")
 
 
 def run_validation(folder):
-    """One of the commands that differ in numbers alone is run; of the others, decks and overrides are read."""
+    """One of the commands that differ in numbers alone is run; of the others, decks and overrides
+    are read."""
     seen, alike, ran = set(), set(), 0
     for line, _ in blocks(VALIDATION, ("sh", "")):
         words = words_of(line)
@@ -110,14 +142,18 @@ def run_validation(folder):
             continue
         alike.add(kind)
         seen.add(tuple(kept))
-        done = subprocess.run(command, cwd=folder, env={**os.environ, "TOOLJOINT_REPORT": "off"}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(command, cwd=folder, env={**os.environ, "TOOLJOINT_REPORT": "off"},
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              check=False)
         expect(f"{VALIDATION}: {line.strip()[:110]}", done.returncode == 0, done.stderr[-300:])
-    expect(f"{VALIDATION} has {len(seen)} commands, of which {ran} run", len(seen) > 20 and ran >= 10, f"{len(seen)} {ran}")
+    expect(f"{VALIDATION} has {len(seen)} commands, of which {ran} run",
+           len(seen) > 20 and ran >= 10, f"{len(seen)} {ran}")
 
 
 @functools.lru_cache(maxsize=None)
 def helped(*words):
-    done = subprocess.run([*words, "--help"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    done = subprocess.run([*words, "--help"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, check=False)
     return done.stdout if done.returncode == 0 else None
 
 
@@ -125,7 +161,8 @@ def spelled(text, page, targets):
     """A command as it stands in a page: what it names exists."""
     text = text.split("#")[0].replace("\\|", "|")
     options = re.findall(r"(?<![\w-])--[a-z][\w-]*", text)
-    if match := re.match(r"(?:mpirun -np \S+ |mpiexec -n \S+ )?(?:\S*/)?tooljoint(?: ([a-z-]+))?\b", text):
+    if match := re.match(r"(?:mpirun -np \S+ |mpiexec -n \S+ )?(?:\S*/)?tooljoint(?: ([a-z-]+))?\b",
+                         text):
         help_text = helped(str(PROGRAM), *([match[1]] if match[1] else []))
     elif match := re.match(r"(?:python3 )?(tools/[\w/]+\.py|tests/[\w/]+\.py)", text):
         expect(f"{page}: {match[1]} exists", (PROJECT / match[1]).is_file())
@@ -136,21 +173,33 @@ def spelled(text, page, targets):
         for target in re.findall(r"--target (\S+)", text):
             expect(f"{page}: the target {target} exists", target in targets, sorted(targets)[:5])
         return
-    expect(f"{page}: {text[:100]}", help_text is not None and all(re.search(rf"{option}\b", help_text) for option in options),
-           "no such command" if help_text is None else [option for option in options if option not in help_text])
+    expect(
+        f"{page}: {text[:100]}", help_text is not None
+        and all(re.search(rf"{option}\b", help_text) for option in options), "no such command"
+        if help_text is None else [option for option in options if option not in help_text])
     for deck in re.findall(r"\b(?:xml|examples)/[\w/]+\.xml", text):
         expect(f"{page}: {deck} exists", (PROJECT / deck).is_file())
 
 
 def targets():
     """Names of custom targets in the sources of the build."""
-    files = [PROJECT / "CMakeLists.txt", *PROJECT.glob("cmake/*.cmake"), *PROJECT.glob("tests/**/CMakeLists.txt"), *PROJECT.glob("python/**/CMakeLists.txt"), *PROJECT.glob("docs/CMakeLists.txt")]
+    files = [
+        PROJECT / "CMakeLists.txt", *PROJECT.glob("cmake/*.cmake"),
+        *PROJECT.glob("tests/**/CMakeLists.txt"), *PROJECT.glob("python/**/CMakeLists.txt"),
+        *PROJECT.glob("docs/CMakeLists.txt")
+    ]
     text = "\n".join(path.read_text(encoding="utf-8") for path in files)
-    return set(re.findall(r"(?:add_custom_target|pybind11_add_module|add_executable|add_library)\(\s*([\w-]+)", text)) | {"install", "all", "package"}
+    return set(
+        re.findall(
+            r"(?:add_custom_target|pybind11_add_module|add_executable|add_library)\(\s*([\w-]+)",
+            text)) | {"install", "all", "package"}
 
 
 def pages():
-    found = [*PROJECT.glob("docs/*.md"), *PROJECT.glob("docs/guide/*.md"), *PROJECT.glob("examples/*/README.md"), PROJECT / "README.md", PROJECT / "CONTRIBUTING.md"]
+    found = [
+        *PROJECT.glob("docs/*.md"), *PROJECT.glob("docs/guide/*.md"),
+        *PROJECT.glob("examples/*/README.md"), PROJECT / "README.md", PROJECT / "CONTRIBUTING.md"
+    ]
     return [page for page in sorted(found) if page.name not in ("parameters.md", "CHANGELOG.md")]
 
 
@@ -158,33 +207,61 @@ def check_words():
     known, count = targets(), 0
     for page in pages():
         text, name = page.read_text(encoding="utf-8"), str(page.relative_to(PROJECT))
-        begins = r"(?:mpirun -np \S+ |mpiexec -n \S+ )?(?:tooljoint|build/release/tooljoint|tools/\w+\.py|python3 tests/|cmake --build)\b"
+        begins = (r"(?:mpirun -np \S+ |mpiexec -n \S+ "
+                  r")?(?:tooljoint|build/release/tooljoint|tools/\w+\.py|python3 tests/|cmake "
+                  r"--build)\b")
         commands = set(re.findall(rf"`({begins}[^`\n]*)`", text))
-        commands |= {line.strip() for line in re.findall(rf"^(?:    )?({begins}.*)$", text.replace("\\\n", " "), re.M) if not line.endswith(".")}
+        commands |= {
+            line.strip()
+            for line in re.findall(rf"^(?:    )?({begins}.*)$", text.replace("\\\n", " "), re.M)
+            if not line.endswith(".")
+        }
         for command in sorted(commands):
             spelled(command, name, known)
         count += len(commands)
     expect("the pages have commands", count > 100, count)
-    made = re.search(r"Every table and figure of record.*?\nendif", (PROJECT / "cmake/DeveloperTools.cmake").read_text(encoding="utf-8"), re.S)[0]
-    written = {tool.stem for tool in PROJECT.glob("tools/*.py") if re.search(r"writes? docs/|rewrites (the tables|tables and figures) of docs/|rewrites docs/", tool.read_text(encoding="utf-8"))}
-    absent = [name for name in written | {"docs-pictures", "update-docs", "hard-cases", "strategies"} if not re.search(rf"[( ]({name}|{name.replace('_', '-')})[ )]", made)]
-    expect("the target records makes what tools write into docs/", len(written) > 4 and not absent, f"{absent} {sorted(written)}")
+    made = re.search(r"Every table and figure of record.*?\nendif",
+                     (PROJECT / "cmake/DeveloperTools.cmake").read_text(encoding="utf-8"), re.S)[0]
+    written = {
+        tool.stem for tool in PROJECT.glob("tools/*.py") if re.search(
+            r"writes? docs/|rewrites (the tables|tables and figures) of docs/|rewrites docs/",
+            " ".join(tool.read_text(encoding="utf-8").split()))
+    }
+    absent = [
+        name for name in written | {"docs-pictures", "update-docs", "hard-cases", "strategies"}
+        if not re.search(rf"[( ]({name}|{name.replace('_', '-')})[ )]", made)
+    ]
+    expect("the target records makes what tools write into docs/",
+           len(written) > 4 and not absent, f"{absent} {sorted(written)}")
 
 
 def draw_map(folder):
     """The tool that draws the maps of record takes the words of their page."""
     changes = [word for text in SHORT["map"] if "Pictures" not in text for word in ("--set", text)]
-    done = subprocess.run([PROJECT / "tools/maps.py", "--program", PROGRAM, "--work", folder / "maps", "--figures", folder, "--only", "map_helical_170m", *changes],
-                          env={**os.environ, "TOOLJOINT_REPORT": "off"}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-    drawn = (folder / "map_helical_170m.svg").read_text(encoding="utf-8") if done.returncode == 0 else ""
-    expect("tools/maps.py draws a map, which says of what scene and with what the axes do not vary", "<svg" in drawn and ">map_helical_170m; TOB 5 kN m, " in drawn, done.stderr[-300:])
+    done = subprocess.run([
+        PROJECT / "tools/maps.py", "--program", PROGRAM, "--work", folder / "maps", "--figures",
+        folder, "--only", "map_helical_170m", *changes
+    ], env={**os.environ, "TOOLJOINT_REPORT": "off"}, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, check=False)
+    drawn = (folder / "map_helical_170m.svg").read_text(
+        encoding="utf-8") if done.returncode == 0 else ""
+    expect("tools/maps.py draws a map, which says of what scene and with what the axes do not vary",
+           "<svg" in drawn and ">map_helical_170m; TOB 5 kN m, " in drawn, done.stderr[-300:])
 
 
 def check_tests():
-    """Each pattern of `ctest -R` fits a test of this build, or one that the build has with more packages; each label of `-L` has tests."""
-    listed = json.loads(subprocess.run([CTEST, "--test-dir", BUILD, "--show-only=json-v1"], stdout=subprocess.PIPE, text=True, check=True).stdout)["tests"]
-    labels = {label for test in listed for entry in test.get("properties", ()) if entry["name"] == "LABELS" for label in entry["value"]}
-    names = {test["name"] for test in listed} | set(re.findall(r"tooljoint_add_test\(([\w.]+) ", (PROJECT / "tests/CMakeLists.txt").read_text(encoding="utf-8")))
+    """Each pattern of `ctest -R` fits a test of this build, or one that the build has with more
+    packages; each label of `-L` has tests."""
+    listed = json.loads(
+        subprocess.run([CTEST, "--test-dir", BUILD, "--show-only=json-v1"], stdout=subprocess.PIPE,
+                       text=True, check=True).stdout)["tests"]
+    labels = {
+        label for test in listed for entry in test.get("properties", ())
+        if entry["name"] == "LABELS" for label in entry["value"]
+    }
+    names = {test["name"] for test in listed} | set(
+        re.findall(r"tooljoint_add_test\(([\w.]+) ",
+                   (PROJECT / "tests/CMakeLists.txt").read_text(encoding="utf-8")))
     named = 0
     for page in pages():
         for command in re.findall(r"`(ctest [^`]+)`", page.read_text(encoding="utf-8")):
@@ -193,7 +270,9 @@ def check_tests():
                 known = {"-R": names, "-L": labels}.get(option)
                 if known:
                     named += 1
-                    expect(f"{page.name}: {command} has tests", any(re.search(pattern, name) for name in known), sorted(known)[:5])
+                    expect(f"{page.name}: {command} has tests",
+                           any(re.search(pattern, name) for name in known),
+                           sorted(known)[:5])
     expect("the pages name tests", named > 30, named)
 
 

@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The first scene a user sees: tools/first_run.py runs, its figures agree with a calculation by hand, and reduction pays.
+"""The first scene a user sees: tools/first_run.py runs, its figures agree with a calculation by
+hand, and reduction pays.
 
     check_first_run.py PROGRAM PROJECT
 
-By hand, with w the weight in mud per metre, Z the vertical depth, N the contact force, R its lever arm and mu(v) the friction curve
-(Nguyen et al. 2020, eq. 9) at the sliding speed v = Omega R:
+By hand, with w the weight in mud per metre, Z the vertical depth, N the contact force, R its lever
+arm and mu(v) the friction curve (Nguyen et al. 2020, eq. 9) at the sliding speed v = Omega R:
 
-    hook load = sum w dZ - weight on bit                 friction acts around the hole, so none of it along
+    hook load = sum w dZ - weight on bit
+    (friction acts around the hole, so none of it along)
     torque    = torque on bit + sum mu(Omega R) N R
 
-The first neglects that the top element carries the mean of its ends and the bending of the string: 0.1 %. The second is exact: 0.1 %.
+The first neglects that the top element carries the mean of its ends and the bending of the string:
+0.1 %. The second is exact: 0.1 %.
 """
 import json
 import math
@@ -39,8 +42,9 @@ def main():
     import first_run
 
     out = pathlib.Path("first_run")
-    said = subprocess.run([sys.executable, project / "tools" / "first_run.py", "--program", program, "--output", out],
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    said = subprocess.run(
+        [sys.executable, project / "tools" / "first_run.py", "--program", program, "--output", out],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     print(said.stdout)
     faults = [] if said.returncode == 0 else [f"exit code {said.returncode}"]
     found = json.loads((out / "comparison.json").read_text(encoding="utf-8"))
@@ -62,14 +66,19 @@ def main():
     torque = torque_on_bit + sum(friction(OMEGA * r) * n * r for n, r in zip(force, arm))
     check("hook load [N]", found["hook_load"], 0.999 * hook, 1.001 * hook)
     check("surface torque [N m]", found["surface_torque"], 0.999 * torque, 1.001 * torque)
-    check("friction in the torque [N m]", found["surface_torque"] - torque_on_bit, 50, 500)  # there is some
-    check("largest side force [N]", found["side_force"]["value"], force.max() * (1 - 1e-9), force.max() * (1 + 1e-9))
-    # What reduction is for. CPU times vary by a fifth or so on a busy machine; 3.5 was measured on an idle one.
+    check("friction in the torque [N m]", found["surface_torque"] - torque_on_bit, 50,
+          500)  # there is some
+    check("largest side force [N]", found["side_force"]["value"],
+          force.max() * (1 - 1e-9),
+          force.max() * (1 + 1e-9))
+    # What reduction is for. CPU times vary by a fifth or so on a busy machine; 3.5 was measured on
+    # an idle one.
     check("dofs left", found["dofs"]["reduced"] / found["dofs"]["full"], 0.0, 0.2)
     check("vibration error", found["vibration_error"], 1e-6, 0.01)
     check("speed-up", found["speed_up"], 1.5, 20)
-    for words in ("vibration error", "times as fast", "hook load", "surface torque", "largest side force", "string stabiliser", "bit speed",
-                  "worst check", "results.png", "new my_well"):
+    for words in ("vibration error", "times as fast", "hook load", "surface torque",
+                  "largest side force", "string stabiliser", "bit speed", "worst check",
+                  "results.png", "new my_well"):
         if words not in said.stdout:
             faults.append(f"it does not print \"{words}\"")
     printed = said.stdout.splitlines()

@@ -9,10 +9,11 @@ A deck says in its first XML comment what the user must see:
          set: Contact/Stiffness=1e6
          args: \\-\\-quiet -->
 
-Each `expect(code):` line is text that stderr must contain (runs of blanks count as one); all codes must be equal.
-`set: PATH=VALUE` adds `--set PATH=VALUE`; `args:` adds words as a shell would split them, where `\\-\\-` stands for the two
-hyphens XML forbids in a comment. A deck that cannot hold a comment (empty, no XML at all) has the same lines in a
-file NAME.xml.expect beside it. Only *.xml directly in the folder are decks; what they name may stand in subfolders.
+Each `expect(code):` line is text that stderr must contain (runs of blanks count as one); all codes
+must be equal. `set: PATH=VALUE` adds `--set PATH=VALUE`; `args:` adds words as a shell would split
+them, where `\\-\\-` stands for the two hyphens XML forbids in a comment. A deck that cannot hold a
+comment (empty, no XML at all) has the same lines in a file NAME.xml.expect beside it. Only *.xml
+directly in the folder are decks; what they name may stand in subfolders.
 """
 import argparse
 import concurrent.futures
@@ -30,7 +31,8 @@ def read_expectations(deck):
     if aside.exists():
         text = aside.read_text(encoding="utf-8")
     else:
-        comment = re.search(r"<!--(.*?)-->", deck.read_text(encoding="utf-8", errors="replace"), re.S)
+        comment = re.search(r"<!--(.*?)-->", deck.read_text(encoding="utf-8", errors="replace"),
+                            re.S)
         text = comment.group(1) if comment else ""
     codes, sentences, arguments = set(), [], []
     for line in (one.strip() for one in text.splitlines()):
@@ -44,7 +46,8 @@ def read_expectations(deck):
         elif re.match(r"(expect|set|args)\b.*:", line):
             raise ValueError(f"cannot read the line \"{line}\"")
     if len(codes) != 1:
-        raise ValueError("has no line `expect(CODE): sentence`" if not codes else f"expects several exit codes {sorted(codes)}")
+        raise ValueError("has no line `expect(CODE): sentence`"
+                         if not codes else f"expects several exit codes {sorted(codes)}")
     if codes == {0}:
         raise ValueError("expects exit code 0, so it is not a bad deck")
     return codes.pop(), sentences, arguments
@@ -61,14 +64,19 @@ def check(program, deck):
     except ValueError as problem:
         return [str(problem)]
     try:
-        run = subprocess.run([program, "check", str(deck), *arguments], capture_output=True, text=True, errors="replace", timeout=60 * float(os.environ.get("TOOLJOINT_TIME_FACTOR", "1")))
+        run = subprocess.run([program, "check", str(deck), *arguments], capture_output=True,
+                             text=True, errors="replace",
+                             timeout=60 * float(os.environ.get("TOOLJOINT_TIME_FACTOR", "1")))
     except subprocess.TimeoutExpired:
         return ["did not end within 60 s"]
     complaints = []
     if run.returncode != code:
         complaints.append(f"exit code {run.returncode}, expected {code}")
     seen = squeeze(run.stderr)
-    complaints += [f"stderr does not say: {sentence}" for sentence in sentences if squeeze(sentence) not in seen]
+    complaints += [
+        f"stderr does not say: {sentence}" for sentence in sentences
+        if squeeze(sentence) not in seen
+    ]
     if complaints:
         complaints.append("stderr was:\n" + (run.stderr.rstrip() or "(empty)"))
     return complaints
@@ -78,7 +86,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="the tooljoint program")
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--at-least", type=int, default=1, help="fail when the folder holds fewer decks")
+    parser.add_argument("--at-least", type=int, default=1,
+                        help="fail when the folder holds fewer decks")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
 

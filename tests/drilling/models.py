@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks of bits and drives, and what their motions should be: independent integrations and characteristic equations."""
+"""Decks of bits and drives, and what their motions should be: independent integrations and
+characteristic equations."""
 import math
 
 import numpy as np
@@ -11,6 +12,8 @@ PIPE = {"Length": 300.0, "Elements": 3, "Outer Radius": 0.0635, "Inner Radius": 
 COLLAR = {"Length": 100.0, "Elements": 1, "Outer Radius": 0.0795, "Inner Radius": 0.0355}
 STEEL = {"Density": 7850.0, "Young Modulus": 2.1e11, "Poisson Ratio": 0.3}
 BORE = 0.2  # radius of the hole [m]
+RPM = math.pi / 30
+THETA_Z, W = 5, 2  # components of a node
 DENSITY, YOUNG, SHEAR = 7850.0, 2.1e11, 2.1e11 / 2.6
 
 
@@ -34,9 +37,9 @@ def smoothed_sign(w, width):
 
 class Friction:
     """Torque of a bit that weakens with speed."""
-
     def __init__(self, static, dynamic, decay, viscous, width):
-        self.static, self.dynamic, self.decay, self.viscous, self.width = static, dynamic, decay, viscous, width
+        self.static, self.dynamic, self.decay = static, dynamic, decay
+        self.viscous, self.width = viscous, width
 
     def torque(self, w):
         dry = self.dynamic + (self.static - self.dynamic) * np.exp(-np.abs(w) / self.decay)
@@ -56,15 +59,17 @@ def string_deck(pieces, **lists):
         components[name] = part
         assembly.append(f"{count}*{name}")
         length += count * part["Length"]
-    base = {"Well": {"Trajectory": "Vertical", "Vertical": {"Length": length}, "Bore Radius": BORE},
-            "Drillstring": {"Assembly": assembly, "Components": components, "Material": STEEL},
-            "Supports": {"Dofs": "axial torsional"}}
+    base = {
+        "Well": {"Trajectory": "Vertical", "Vertical": {"Length": length}, "Bore Radius": BORE},
+        "Drillstring": {"Assembly": assembly, "Components": components, "Material": STEEL},
+        "Supports": {"Dofs": "axial torsional"},
+    }
     return {**base, **lists}
 
 
 class TorsionalString:
-    """Linear torsional elements, in the frame that turns with Omega(t): an implementation of its own."""
-
+    """Linear torsional elements, in the frame that turns with Omega(t): an implementation of its
+    own."""
     def __init__(self, pieces, damping=0.0, inertia=0.0):
         elements = [(part, part["Length"] / part["Elements"]) for part, count in pieces
                     for _ in range(count * part["Elements"])]
@@ -89,27 +94,31 @@ class TorsionalString:
             force[0] += torque - kp * speed[0] - ki * theta[0]
             force[-1] -= bit.torque(omega(t) + speed[-1])
             return np.concatenate([speed, self.inverse @ force])
-        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="DOP853", rtol=1e-9, atol=1e-10, t_eval=times,
-                          max_step=0.05)
+
+        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="DOP853", rtol=1e-9,
+                          atol=1e-10, t_eval=times, max_step=0.05)
         return found.y[:n].T, found.y[n:].T
 
 
 class CuttingString:
-    """Axial and torsional elements above a bit of sharp blades, as deviations from steady drilling, by the classical
-    Runge-Kutta method; the delay is the root of phi(t) - phi(t - t_n) = 2 pi/n in the motion so far."""
-
+    """Axial and torsional elements above a bit of sharp blades, as deviations from steady drilling,
+    by the classical Runge-Kutta method; the delay is the root of phi(t) - phi(t - t_n) = 2 pi/n in
+    the motion so far."""
     def __init__(self, pieces, damping, inertia, blades, radius, energy, inclination):
         torsion = TorsionalString(pieces, damping, inertia)
         n = len(torsion.K)
         K, M = np.zeros((n, n)), np.zeros((n, n))
-        elements = [(part, part["Length"] / part["Elements"]) for part, count in pieces for _ in range(count * part["Elements"])]
+        elements = [(part, part["Length"] / part["Elements"]) for part, count in pieces
+                    for _ in range(count * part["Elements"])]
         for e, (part, h) in enumerate(elements):
             at = slice(e, e + 2)
             K[at, at] += YOUNG * area(part) / h * np.array([[1, -1], [-1, 1]])
             M[at, at] += DENSITY * area(part) * h / 6 * np.array([[2, 1], [1, 2]])
         self.torsion, self.K, self.M = torsion, K[1:, 1:], M[1:, 1:]
         self.C, self.inverse = damping * self.M, np.linalg.inv(self.M)
-        self.pitch, self.weight, self.torque = 2 * math.pi / blades, blades * radius * inclination * energy, 0.5 * blades * radius**2 * energy
+        self.pitch, self.weight, self.torque = (2 * math.pi / blades,
+                                                blades * radius * inclination * energy,
+                                                0.5 * blades * radius**2 * energy)
 
     def integrate(self, end, step, feed, omega, acceleration, angle, kp, ki):
         """Times, deviations of w and theta_z of the bit, depth of cut of a blade."""
@@ -134,6 +143,7 @@ class CuttingString:
             turn[-1] -= self.torque * more
             turn[0] -= kp * rate[0] + ki * theta[0]
             return np.concatenate([v, self.inverse @ axial, rate, self.torsion.inverse @ turn])
+
         y = np.zeros(2 * m + 2 * n)
         found = np.zeros((steps + 1, 3))
         found[0] = 0, 0, start
@@ -145,7 +155,8 @@ class CuttingString:
             d = rates(t + step, y + step * c, known)
             y = y + step / 6 * (a + 2 * b + 2 * c + d)
             U[known], phi[known] = feed * (t + step) + y[m - 1], angle(t + step) + y[2 * m + n - 1]
-            found[i + 1] = y[m - 1], y[2 * m + n - 1], depth(t + step, y[m - 1], y[2 * m + n - 1], known + 1)
+            u, theta = y[m - 1], y[2 * m + n - 1]
+            found[i + 1] = u, theta, depth(t + step, u, theta, known + 1)
         return step * np.arange(steps + 1), found
 
 
@@ -160,8 +171,8 @@ def cycles(t, w, width):
 
 
 class Chatter:
-    """m s^2 + c s + k + A (1 - exp(-s tau)) = 0: a mass on a spring that cuts what it left a delay ago."""
-
+    """m s^2 + c s + k + A (1 - exp(-s tau)) = 0: a mass on a spring that cuts what it left a delay
+    ago."""
     def __init__(self, mass, damping, stiffness):
         self.m, self.c, self.k = mass, damping, stiffness
         self.natural = math.sqrt(stiffness / mass)
@@ -172,7 +183,9 @@ class Chatter:
             k - m w^2 + A (1 - cos w tau) = 0,   c w + A sin w tau = 0."""
         def imaginary(w):
             # A from the real part, in the imaginary one times (1 - cos)
-            return self.c * w * (1 - math.cos(w * delay)) + (self.m * w * w - self.k) * math.sin(w * delay)
+            return self.c * w * (1 - math.cos(w * delay)) + (self.m * w * w - self.k) * math.sin(
+                w * delay)
+
         grid = np.linspace(self.natural * 1.0001, self.natural * 6, 200001)
         values = [imaginary(w) for w in grid]
         found = []
@@ -200,20 +213,26 @@ class Chatter:
 
     def rightmost(self, A, delay):
         """The root with the largest real part, from starts around the natural frequency."""
-        starts = [complex(re, im * self.natural) for re in (-5.0, 0.0, 5.0) for im in np.linspace(0.5, 4, 71)]
+        starts = [
+            complex(re, im * self.natural) for re in (-5.0, 0.0, 5.0)
+            for im in np.linspace(0.5, 4, 71)
+        ]
         roots = [self.root(A, delay, start) for start in starts]
         roots = [s for s in roots if abs(s.imag) > 1e-3 * self.natural]
         return max(roots, key=lambda s: s.real)
 
 
 class CoupledChatter:
-    """One axial and one torsional element above a bit of n blades that cuts (T. Richard, C. Germay and E. Detournay 2007). With A = n a zeta eps, B = n a^2 eps/2,
-    the advance V and the speed Omega of steady drilling, d = (1 - exp(-s tau)) (w - V/Omega theta) is the change of the depth of cut, and
+    """One axial and one torsional element above a bit of n blades that cuts (T. Richard, C. Germay
+    and E. Detournay 2007). With A = n a zeta eps, B = n a^2 eps/2, the advance V and the speed
+    Omega of steady drilling, d = (1 - exp(-s tau)) (w - V/Omega theta) is the change of the depth
+    of cut, and
 
-        1 + A (1 - exp(-s tau)) G(s) = 0,   G = 1/(m s^2 + c s + k) - V/Omega B/A 1/(I s^2 + c_t s + k_t)."""
-
+        1 + A (1 - exp(-s tau)) G(s) = 0,
+        G = 1/(m s^2 + c s + k) - V/Omega B/A 1/(I s^2 + c_t s + k_t)."""
     def __init__(self, axial, torsional, slope, torque_over_force):
-        """`axial`, `torsional`: mass, damping, stiffness; `slope`: V/Omega [m/rad]; `torque_over_force`: B/A [m]."""
+        """`axial`, `torsional`: mass, damping, stiffness; `slope`: V/Omega [m/rad];
+        `torque_over_force`: B/A [m]."""
         self.axial, self.torsional, self.gain = axial, torsional, slope * torque_over_force
         self.natural = [math.sqrt(one[2] / one[0]) for one in (axial, torsional)]
 
@@ -221,12 +240,14 @@ class CoupledChatter:
         """(1 - exp(-s tau)) G(s), which is -1/A at a root."""
         def of(one):
             return 1 / (one[0] * s * s + one[1] * s + one[2])
+
         return (1 - np.exp(-s * delay)) * (of(self.axial) - self.gain * of(self.torsional))
 
     def critical(self, delay):
         """Smallest A [N/m] of the limit of stability, and its frequency [rad/s]."""
         def imaginary(w):
             return (1 / self.over(1j * w, delay)).imag
+
         grid = np.linspace(0.05 * min(self.natural), 8 * max(self.natural), 400001)
         values = (1 / self.over(1j * grid, delay)).imag
         found = []
@@ -238,13 +259,16 @@ class CoupledChatter:
         return min(found)
 
     def rightmost(self, A, delay):
-        """The vibrating root with the largest real part, by Newton's method from starts about both natural frequencies."""
+        """The vibrating root with the largest real part, by Newton's method from starts about both
+        natural frequencies."""
         roots = []
-        for start in (complex(re, im) for re in (-2.0, 0.0, 2.0) for im in np.linspace(0.3 * min(self.natural), 5 * max(self.natural), 121)):
+        for start in (complex(re, im) for re in (-2.0, 0.0, 2.0)
+                      for im in np.linspace(0.3 * min(self.natural), 5 * max(self.natural), 121)):
             s = start
             for _ in range(60):
                 h = 1e-6 * abs(s)
-                f, slope = 1 / self.over(s, delay) + A, (1 / self.over(s + h, delay) - 1 / self.over(s - h, delay)) / (2 * h)
+                f, slope = 1 / self.over(s, delay) + A, (1 / self.over(s + h, delay) -
+                                                         1 / self.over(s - h, delay)) / (2 * h)
                 change = f / slope
                 s -= change
                 if not abs(s.real) < 10 * max(self.natural):
@@ -261,6 +285,7 @@ def drive_root(length, speed, zeta, kp, ki, inertia, start):
 
     def f(z):
         return zeta * np.tanh(z * length / speed) + kp + ki / z + inertia * z
+
     for _ in range(100):
         h = 1e-6 * abs(s)
         change = f(s) / ((f(s + h) - f(s - h)) / (2 * h))
@@ -272,7 +297,6 @@ def drive_root(length, speed, zeta, kp, ki, inertia, start):
 
 class TanhBit:
     """T = W b0 [tanh(b1 w) + b2 w/(1 + b3 w^2)] with the constants of COPPE."""
-
     def __init__(self, weight, b0=0.0239, b1=1.91, b2=8.5, b3=5.47):
         self.force, self.b1, self.b2, self.b3 = weight * b0, b1, b2, b3
 
@@ -281,7 +305,8 @@ class TanhBit:
 
 
 class PenetrationBit:
-    """Weight and torque after Tucker and Wang 2003 with the constants of Ritto, Soize and Sampaio 2009; Z^2 at least 0.01 where it divides."""
+    """Weight and torque after Tucker and Wang 2003 with the constants of Ritto, Soize and Sampaio
+    2009; Z^2 at least 0.01 where it divides."""
     A1, A2, A3, A4, A5, E, FLOOR = 3.429e-3, 5.672e-8, 1.374e-4, 9.537e6, 1.475e3, 2.0, 1e-2
 
     def factor(self, w):
@@ -289,21 +314,23 @@ class PenetrationBit:
         return 1 / (self.A2 * np.maximum(w * w / (w * w + self.E**2), self.FLOOR))
 
     def weight(self, v, w):
-        return v * self.factor(w) - self.A3 * np.sqrt(w * w + self.E**2) / self.A2 + self.A1 / self.A2
+        return v * self.factor(w) - self.A3 * np.sqrt(w * w +
+                                                      self.E**2) / self.A2 + self.A1 / self.A2
 
     def torque(self, v, w):
         return v * self.A4 * w / (w * w + self.E**2) + self.A5 * w / np.sqrt(w * w + self.E**2)
 
 
 class PenetratingString:
-    """Axial and torsional elements above a bit with weight and torque by its rates, below a PI drive and a block that advances steadily."""
-
+    """Axial and torsional elements above a bit with weight and torque by its rates, below a PI
+    drive and a block that advances steadily."""
     def __init__(self, pieces, damping, inertia):
         self.torsion = TorsionalString(pieces, damping, inertia)
         self.axial = CuttingString(pieces, damping, inertia, 1, 1.0, 1.0, 1.0)
 
     def integrate(self, times, feed, omega, acceleration, kp, ki, bit):
-        """Rates of w and theta_z of the bit and theta_z of the top, from steady drilling at the speed of the start."""
+        """Rates of w and theta_z of the bit and theta_z of the top, from steady drilling at the
+        speed of the start."""
         turn, axial = self.torsion, self.axial
         n, m = len(turn.K), len(axial.K)
         total = turn.M.sum(axis=1)
@@ -318,16 +345,19 @@ class PenetratingString:
             moment[-1] -= bit.torque(feed + v[-1], speed) - torque
             moment[0] -= kp * rate[0] + ki * theta[0]
             return np.concatenate([v, axial.inverse @ force, rate, turn.inverse @ moment])
-        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * (n + m)), method="Radau", rtol=1e-8, atol=1e-10, t_eval=times, max_step=0.05)
+
+        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * (n + m)), method="Radau", rtol=1e-8,
+                          atol=1e-10, t_eval=times, max_step=0.05)
         return found.y[2 * m - 1], found.y[-1], found.y[2 * m]
 
 
 class DrillerLoop:
-    """One axial element between the lines of an autodriller and a bit of the slope D = dW/dv: exact linear motion."""
-
+    """One axial element between the lines of an autodriller and a bit of the slope D = dW/dv: exact
+    linear motion."""
     def __init__(self, part, line, slope, kp, ki, mass):
         k = YOUNG * area(part) / part["Length"]
-        M = DENSITY * area(part) * part["Length"] / 6 * np.array([[2.0, 1.0], [1.0, 2.0]]) + np.diag([mass, 0.0])
+        M = DENSITY * area(part) * part["Length"] / 6 * np.array([[2.0, 1.0], [1.0, 2.0]])
+        M[0, 0] += mass
         K = k * np.array([[1.0, -1.0], [-1.0, 1.0]])
         inverse = np.linalg.inv(M)
         # states: w_1, w_2, their rates, block x, integral e; forces f = -line (w_1 - x) and -D w_2'
@@ -342,7 +372,8 @@ class DrillerLoop:
         self.stiffness = k * line / (k + line)
 
     def motion(self, times, lack):
-        """Measured weight beyond that of the start, and x' of the block, for a set point that is `lack` higher."""
+        """Measured weight beyond that of the start, and x' of the block, for a set point that is
+        `lack` higher."""
         b = np.array([0, 0, 0, 0, self.kp * lack, lack])
         step = expm((times[1] - times[0]) * np.block([[self.A, b[:, None]], [np.zeros((1, 7))]]))
         y = np.zeros((7, len(times)))

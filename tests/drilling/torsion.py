@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Torsion of a string between a drive and a bit whose friction depends on its speed: roots of the line without a mesh, and a motion of its own."""
+"""Torsion of a string between a drive and a bit whose friction depends on its speed: roots of the
+line without a mesh, and a motion of its own."""
 import math
 
 import numpy as np
@@ -11,7 +12,6 @@ from models import DENSITY, SHEAR
 
 class Drive:
     """J theta'' + k_p theta' + k_i theta, of the deviation from the set speed."""
-
     def __init__(self, kp, ki, inertia):
         self.kp, self.ki, self.inertia = kp, ki, inertia
 
@@ -20,11 +20,13 @@ class Drive:
 
 
 class Line:
-    """Uniform pieces from the top down; rho I_p (theta_tt + a theta_t) = G I_p (1 + b d/dt) theta_zz with the damping coefficients a of the mass and b of the stiffness."""
-
+    """Uniform pieces from the top down; rho I_p (theta_tt + a theta_t) = G I_p (1 + b d/dt)
+    theta_zz with the damping coefficients a of the mass and b of the stiffness."""
     def __init__(self, pieces, mass=0.0, stiffness=0.0):
         """`pieces`: length, outer and inner radius [m]."""
-        self.pieces = [(length, math.pi / 2 * (outer**4 - inner**4)) for length, outer, inner in pieces]
+        self.pieces = [
+            (length, math.pi / 2 * (outer**4 - inner**4)) for length, outer, inner in pieces
+        ]
         self.mass, self.stiffness = mass, stiffness
 
     def torque_over_angle(self, s, slope, drive):
@@ -49,7 +51,8 @@ class Line:
         return None
 
     def roots(self, slope, drive, highest):
-        """Those that vibrate up to `highest` [rad/s], the largest real part first; starts are the eigenvalues of lumped masses."""
+        """Those that vibrate up to `highest` [rad/s], the largest real part first; starts are the
+        eigenvalues of lumped masses."""
         lumped = LumpedString(self, min(50.0, 3200.0 / highest))
         starts = [s for s in lumped.eigenvalues(slope, drive) if 1e-3 < s.imag < highest]
         roots = [s for s in (self.root(slope, drive, start) for start in starts) if s is not None]
@@ -60,12 +63,13 @@ class Line:
 
     def critical_slope(self, drive, highest):
         """dT/domega [N m s/rad] below which steady drilling is unstable."""
-        return brentq(lambda slope: self.rightmost(slope, drive, highest).real, -400.0, 0.0, xtol=1e-6)
+        return brentq(lambda slope: self.rightmost(slope, drive, highest).real, -400.0, 0.0,
+                      xtol=1e-6)
 
 
 class LumpedString:
-    """A line as masses and springs, far shorter than the waves; from rest, in the frame of the set speed."""
-
+    """A line as masses and springs, far shorter than the waves; from rest, in the frame of the set
+    speed."""
     def __init__(self, line, longest):
         """Masses at most `longest` apart; shorter pieces in a row are one spring."""
         springs, masses, compliance, inertia, way = [], [0.0], 0.0, 0.0, 0.0
@@ -96,7 +100,8 @@ class LumpedString:
         C[-1, -1] += slope
         K[0, 0] += drive.ki
         inverse = np.linalg.inv(M)
-        return np.linalg.eigvals(np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ K, -inverse @ C]]))
+        return np.linalg.eigvals(
+            np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ K, -inverse @ C]]))
 
     def motion(self, times, omega, acceleration, bit, drive):
         """Speed of the bit."""
@@ -114,5 +119,7 @@ class LumpedString:
             both = np.empty(2 * n)
             both[::2], both[1::2] = speed, force / inertia
             return both
-        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="LSODA", lband=3, uband=3, rtol=1e-7, atol=1e-8, t_eval=times, max_step=0.05)
+
+        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="LSODA", lband=3,
+                          uband=3, rtol=1e-7, atol=1e-8, t_eval=times, max_step=0.05)
         return omega(times) + found.y[-1]

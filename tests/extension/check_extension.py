@@ -101,12 +101,15 @@ def displacement(folder):
 
 
 def reference(times):
-    """Displacements of nodes 2 and 3 by classical Runge-Kutta steps: masses 2 and 1 kg, springs of 10 N/m, the law at node 3."""
+    """Displacements of nodes 2 and 3 by classical Runge-Kutta steps: masses 2 and 1 kg, springs of
+    10 N/m, the law at node 3."""
     def rate(y):
         u2, u3, v2, v3, x = y
         p = max(0.0, -u3)
         f = max(0.0, STIFFNESS * p + FAST * (p - x)) if p > 0 else 0.0
-        return np.array([v2, v3, (-20 * u2 + 10 * u3) / 2, (10 * u2 - 10 * u3 + f) / 1, (p - x) / CREEP])
+        return np.array(
+            [v2, v3, (-20 * u2 + 10 * u3) / 2, (10 * u2 - 10 * u3 + f) / 1, (p - x) / CREEP])
+
     y, t, h, found = np.array([0.0, 0.0, 0.0, -1.0, 0.0]), 0.0, 1e-4, []
     for target in times:
         while t < target - h / 2:
@@ -124,40 +127,53 @@ def between_parts(source):
     size = np.abs(exact).max()
     for integrator, step, tolerance in [("RK4", 1e-4, 1e-6), ("Generalized-alpha", 5e-4, 1e-3)]:
         deck = pathlib.Path(f"{integrator}.xml")
-        deck.write_text(PARTS.format(part=source / "decks/parts/good", law=own_list(STIFFNESS, FAST, CREEP), integrator=integrator,
-                                     step=step, end=END), encoding="utf-8")
+        deck.write_text(
+            PARTS.format(part=source / "decks/parts/good", law=own_list(STIFFNESS, FAST, CREEP),
+                         integrator=integrator, step=step, end=END), encoding="utf-8")
         run(deck, f"parts_{integrator}")
         found = displacement(f"parts_{integrator}")
         error = np.abs(found[:, -2:] - exact).max() / size
-        expect(f"{integrator}: the chain bounces off the creeping wall as computed here, error {error:.1e}", error < tolerance)
+        expect(
+            f"{integrator}: the chain bounces off the creeping wall as computed here, error "
+            f"{error:.1e}", error < tolerance)
         run(deck, f"parts_{integrator}_np2", ranks=2)
-        expect(f"{integrator}: the same on two ranks", np.array_equal(found, displacement(f"parts_{integrator}_np2")))
+        expect(f"{integrator}: the same on two ranks",
+               np.array_equal(found, displacement(f"parts_{integrator}_np2")))
 
 
 def in_the_bore(source):
     scene = (source / "effects/scene.xml").read_text(encoding="utf-8")
     summaries = {}
-    for name, contact in [("elastic", contact_list("Hunt-Crossley", "")), ("creeping", contact_list("Creeping Wall", own_list(1e7, 3e7, 0.01)))]:
-        text, count = re.subn(r'<ParameterList name="Contact">.*?\n  </ParameterList>\n', contact, scene, flags=re.DOTALL)
+    for name, contact in [
+        ("elastic", contact_list("Hunt-Crossley", "")),
+        ("creeping", contact_list("Creeping Wall", own_list(1e7, 3e7, 0.01))),
+    ]:
+        text, count = re.subn(r'<ParameterList name="Contact">.*?\n  </ParameterList>\n', contact,
+                              scene, flags=re.DOTALL)
         expect("the scene has one list Contact", count == 1)
         deck = pathlib.Path(f"{name}.xml")
         deck.write_text(text, encoding="utf-8")
         summaries[name] = run(deck, f"bore_{name}")
     elastic, creeping = summaries["elastic"], summaries["creeping"]
     nodes = creeping["static"]["contact_nodes"]
-    expect(f"{nodes} nodes rest on the creeping wall", nodes == elastic["static"]["contact_nodes"] > 0)
+    expect(f"{nodes} nodes rest on the creeping wall",
+           nodes == elastic["static"]["contact_nodes"] > 0)
     for key in ("total_normal_force", "max_normal_force"):
         ratio = creeping["static"][key] / elastic["static"][key]
         expect(f"at rest it is an elastic wall: {key} {ratio - 1:+.1e}", abs(ratio - 1) < 1e-6)
     with h5py.File("bore_creeping/results.h5") as file:
         first, static = file["/transient/normal_force"][0], file["/static/normal_force"][...]
-        expect("the motion starts with the forces of the static state", np.abs(first - static).max() < 1e-6 * static.max())
+        expect("the motion starts with the forces of the static state",
+               np.abs(first - static).max() < 1e-6 * static.max())
     moved = np.abs(displacement("bore_creeping")[-1] - displacement("bore_elastic")[-1]).max()
     expect(f"and moves otherwise than on an elastic wall, by {moved:.1e} m", moved > 1e-9)
     residual = abs(creeping["transient"]["energy_residual"])
     expect(f"its ledger closes, residual {residual:.1e}", residual < 0.02)
     run("creeping.xml", "bore_creeping_np2", ranks=2)
-    expect("the same on two ranks", np.allclose(displacement("bore_creeping"), displacement("bore_creeping_np2"), rtol=0, atol=1e-9))
+    expect(
+        "the same on two ranks",
+        np.allclose(displacement("bore_creeping"), displacement("bore_creeping_np2"), rtol=0,
+                    atol=1e-9))
 
 
 def main():

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""An element, a load and a mud model outside of the library, each in a file of its own, against closed forms.
+"""An element, a load and a mud model outside of the library, each in a file of its own, against
+closed forms.
 
     check_string.py PROGRAM MPIEXEC FOLDER
 
-PROGRAM is tooljoint, FOLDER holds the shared objects libRod.so, libWallDrag.so and libCuttings.so. The string hangs in a vertical
-well: `pipe` above, `tool` below, each PIPE and TOOL metres long.
+PROGRAM is tooljoint, FOLDER holds the shared objects libRod.so, libWallDrag.so and libCuttings.so.
+The string hangs in a vertical well: `pipe` above, `tool` below, each PIPE and TOOL metres long.
 """
 import csv
 import json
@@ -94,7 +95,8 @@ PARTS = """<ParameterList name="Substructures">
     <Parameter name="Rule" type="string" value="By component"/>
   </ParameterList>
   <ParameterList name="Reduction">
-    <ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="40"/></ParameterList>
+    <ParameterList name="Mode Selection">
+    <Parameter name="Modes" type="int" value="40"/></ParameterList>
   </ParameterList>
   """
 MUD = """<ParameterList name="Mud">
@@ -124,15 +126,21 @@ def close(found, exact, tolerance, what):
 def call(*words, code=0):
     """What a command prints."""
     done = tooljoint(*words)
-    expect(f"tooljoint {' '.join(words)} ends with {code}", done.returncode == code, done.stdout + done.stderr)
+    expect(f"tooljoint {' '.join(words)} ends with {code}", done.returncode == code,
+           done.stdout + done.stderr)
     return done.stdout + done.stderr
 
 
 def written(name, weight_on_bit=0.0, rods=("tool",), supports=GUIDE, mud="", loads=""):
     """The file of a deck."""
-    parts = {part: component(part, length, ROD if part in rods else "") for part, length in (("pipe", PIPE), ("tool", TOOL))}
+    parts = {
+        part: component(part, length, ROD if part in rods else "")
+        for part, length in (("pipe", PIPE), ("tool", TOOL))
+    }
     path = pathlib.Path(f"{name}.xml")
-    path.write_text(DECK.format(**parts, weight_on_bit=weight_on_bit, supports=supports, mud=mud, loads=loads), encoding="utf-8")
+    path.write_text(
+        DECK.format(**parts, weight_on_bit=weight_on_bit, supports=supports, mud=mud, loads=loads),
+        encoding="utf-8")
     return str(path)
 
 
@@ -141,32 +149,43 @@ def rest(name, **choices):
     call("run", written(name, **choices), "--output", name)
     summary = json.loads((pathlib.Path(name) / "summary.json").read_text(encoding="utf-8"))
     with h5py.File(f"{name}/results.h5") as file:
-        return file["/static/displacement"][-1, 2], summary["static"]["top_axial_force"], summary["model"]["free_dofs"]
+        return file["/static/displacement"][
+            -1, 2], summary["static"]["top_axial_force"], summary["model"]["free_dofs"]
 
 
 def stretch_under_weight(length_above, length, stiffness, area):
-    """How much longer a piece becomes by gravity, with as much string as `length_above` below it."""
+    """How much longer a piece becomes by gravity, with as much string as `length_above` below
+    it."""
     return RHO * area * G * (length_above * length + length**2 / 2) / stiffness
 
 
 def an_element():
-    """Rods below pipes: their compliances add up; rods alone: frequencies of a rod fixed at its top."""
+    """Rods below pipes: their compliances add up; rods alone: frequencies of a rod fixed at its
+    top."""
     force = 2e4
     free, _, dofs = rest("rods")
     pressed, _, _ = rest("rods_pressed", weight_on_bit=force)
     compliance = (PIPE + TOOL / FACTOR) / (E * AREA)
-    close(free - pressed, force * compliance, 1e-9, "the weight on bit shortens pipe and rods by F (L1/ES + L2/(factor ES))")
-    hanging = stretch_under_weight(TOOL, PIPE, E * AREA, AREA) + stretch_under_weight(0, TOOL, FACTOR * E * AREA, AREA)
+    close(free - pressed, force * compliance, 1e-9,
+          "the weight on bit shortens pipe and rods by F (L1/ES + L2/(factor ES))")
+    hanging = stretch_under_weight(TOOL, PIPE, E * AREA, AREA) + stretch_under_weight(
+        0, TOOL, FACTOR * E * AREA, AREA)
     close(free, hanging, 1e-9, "their weight stretches them as it stretches rods")
     held = 4 + 2  # u v w theta_z of the top, u v of the guide
-    expect(f"{dofs} free dofs: nodes of rods alone have two", dofs == 6 * (ELEMENTS + 1) - held + 2 * ELEMENTS)
+    expect(f"{dofs} free dofs: nodes of rods alone have two",
+           dofs == 6 * (ELEMENTS + 1) - held + 2 * ELEMENTS)
 
-    call("modes", written("rods_alone", rods=("pipe", "tool"), supports=""), "--output", "modes", "--count", "4")
+    call("modes", written("rods_alone", rods=("pipe", "tool"), supports=""), "--output", "modes",
+         "--count", "4")
     with open("modes/modes.csv", encoding="utf-8") as file:
         lines = [line for line in file if not line.startswith("#")]
     found = [float(row[1]) for row in list(csv.reader(lines))[1:]]
-    speeds = {"axial": math.sqrt(FACTOR * E / RHO), "torsional": math.sqrt(E / (2 * (1 + NU)) / RHO)}
-    exact = sorted((2 * n - 1) * speed / (4 * (PIPE + TOOL)) for n in (1, 2, 3) for speed in speeds.values())[:4]
+    speeds = {
+        "axial": math.sqrt(FACTOR * E / RHO),
+        "torsional": math.sqrt(E / (2 * (1 + NU)) / RHO),
+    }
+    exact = sorted((2 * n - 1) * speed / (4 * (PIPE + TOOL)) for n in (1, 2, 3)
+                   for speed in speeds.values())[:4]
     # linear shape functions: (k h)^2/24 too high, k h = (2n - 1) pi/(4 ELEMENTS) on average
     for n, (frequency, closed) in enumerate(zip(found, exact), 1):
         close(frequency, closed, 2e-3, f"frequency {n} of the rods [Hz]")
@@ -174,14 +193,15 @@ def an_element():
 
 
 def a_wave():
-    """A force put on the free end of the rods makes it move at F/(A sqrt(factor E rho)) until the wave is back, in the full model
-    and in a reduced one."""
+    """A force put on the free end of the rods makes it move at F/(A sqrt(factor E rho)) until the
+    wave is back, in the full model and in a reduced one."""
     force, end = 1e4, 0.12
     speed = force / (AREA * math.sqrt(FACTOR * E * RHO))
     expect("the wave is not back yet", end < 2 * (PIPE + TOOL) / math.sqrt(FACTOR * E / RHO))
     loads = PUSH.format(node=2 * ELEMENTS + 1, force=force, end=end)
     for name, parts in (("full", ""), ("reduced", PARTS)):
-        deck = written(f"wave_{name}", rods=("pipe", "tool"), supports=parts + MOTION.format(end=end), loads=loads)
+        deck = written(f"wave_{name}", rods=("pipe", "tool"),
+                       supports=parts + MOTION.format(end=end), loads=loads)
         call("run", deck, "--output", f"wave_{name}")
         with h5py.File(f"wave_{name}/results.h5") as file:
             w = file["/transient/displacement"][:, -1, 2]
@@ -190,7 +210,8 @@ def a_wave():
 
 
 def a_load():
-    """Drag between two depths hangs below the top, whatever elements carry it; both ends lie inside elements."""
+    """Drag between two depths hangs below the top, whatever elements carry it; both ends lie inside
+    elements."""
     total = 50.0 * (154 - 31)
     _, dry, _ = rest("dry")
     _, dragged, _ = rest("dragged", loads=DRAG.format(drag=50.0))
@@ -199,9 +220,11 @@ def a_load():
     expect("check names the load and its size", "wall drag" in shown and "6150" in shown)
     soft = written("dragged_soft", rods=(), supports=WALL, loads=DRAG.format(drag=50.0))
     said = " ".join(call("torque-drag", soft, "--output", "dragged_soft").split())
-    expect("torque and drag says that it leaves the load out", 'The load "wall drag" has no part in torque and drag' in said)
+    expect("torque and drag says that it leaves the load out",
+           'The load "wall drag" has no part in torque and drag' in said)
     wrong = written("wrong", loads=DRAG.format(drag=50.0).replace('value="154"', 'value="3"'))
-    expect("a senseless load is refused", "ends (To) before it starts" in call("check", wrong, code=2))
+    expect("a senseless load is refused", "ends (To) before it starts"
+           in call("check", wrong, code=2))
 
 
 def a_load_that_fails_on_one_rank():
@@ -211,22 +234,26 @@ def a_load_that_fails_on_one_rank():
     done = tooljoint("run", deck, "--output", "fails", ranks=2, seconds=60)
     del os.environ["WALL_DRAG_FAILS_ON"]
     said = " ".join(done.stderr.split())
-    expect("a rank that fails alone says so and ends all", done.returncode == 3 and "rank 1 alone: Loads/Wall Drag fails, as the test wants." in said,
-           f"{done.returncode} {said[-400:]}")
+    expect(
+        "a rank that fails alone says so and ends all", done.returncode == 3
+        and "rank 1 alone: Loads/Wall Drag fails, as the test wants." in said,
+        f"{done.returncode} {said[-400:]}")
 
 
 def a_changed_library():
     """Rows that an earlier build of an extension computed are computed again."""
     deck = written("kept", rods=(), supports=WALL, loads=DRAG.format(drag=50.0))
     known = "are known from before"
-    command = ("torque-drag", deck, "--output", "kept", "--set", "Torque and Drag/Depths={100, 200}")
+    command = ("torque-drag", deck, "--output", "kept", "--set",
+               "Torque and Drag/Depths={100, 200}")
     call(*command)
     shown = call(*command)
     expect("rows of the same libraries are kept", known in " ".join(shown.split()), shown)
     library = pathlib.Path(sys.argv[3]) / "libRod.so"
     times = library.stat()
     os.utime(library, ns=(times.st_atime_ns, times.st_mtime_ns + 10**9))
-    expect("rows of a library that was built again are not", known not in " ".join(call(*command).split()))
+    expect("rows of a library that was built again are not", known
+           not in " ".join(call(*command).split()))
     os.utime(library, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
@@ -241,12 +268,14 @@ def a_mud_model():
 def the_manual():
     """Names, parameters and units of all three."""
     manual = json.dumps(json.loads(call("doc", "--format", "json")))
-    for word in ('"Rod"', '"Axial Factor"', '"Wall Drag"', '"Force Per Length"', '"Cuttings"', '"Cuttings Density"'):
+    for word in ('"Rod"', '"Axial Factor"', '"Wall Drag"', '"Force Per Length"', '"Cuttings"',
+                 '"Cuttings Density"'):
         expect(f"the manual has {word}", word in manual)
 
 
 def main():
-    os.environ["LD_PRELOAD"] = " ".join(f"{sys.argv[3]}/lib{name}.so" for name in ("Rod", "WallDrag", "Cuttings"))
+    os.environ["LD_PRELOAD"] = " ".join(
+        f"{sys.argv[3]}/lib{name}.so" for name in ("Rod", "WallDrag", "Cuttings"))
     an_element()
     a_wave()
     a_load()

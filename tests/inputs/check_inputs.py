@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that are none, sizes that cannot be, and choices that cannot stand together: check_inputs.py PROGRAM
+"""Files that are none, sizes that cannot be, and choices that cannot stand together:
+check_inputs.py PROGRAM
 
-Every file a deck or a command line can name is replaced by a FIFO, a device and a terabyte of zeros, and parts announce matrices they do not hold:
-each is refused with a sentence, in seconds and without memory. What `run` refuses without solving, `check` refuses with the same exit code.
+Every file a deck or a command line can name is replaced by a FIFO, a device and a terabyte of
+zeros, and parts announce matrices they do not hold: each is refused with a sentence, in seconds and
+without memory. What `run` refuses without solving, `check` refuses with the same exit code.
 """
 import json
 import os
@@ -31,7 +33,8 @@ MEGABYTES = 400
 def tooljoint(*arguments):
     """Exit code, standard error and peak memory [MB] of the program."""
     with open("said", "wb") as said:
-        process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=said)
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL,
+                                   stderr=said)
         end = time.monotonic() + SECONDS
         while time.monotonic() < end:
             done, status, usage = os.wait4(process.pid, os.WNOHANG)
@@ -43,7 +46,8 @@ def tooljoint(*arguments):
             process.kill()
             process.wait()
             return "timeout", "", 0.0
-    return process.returncode, pathlib.Path("said").read_text(encoding="utf-8", errors="replace"), usage.ru_maxrss / 1024
+    return process.returncode, pathlib.Path("said").read_text(
+        encoding="utf-8", errors="replace"), usage.ru_maxrss / 1024
 
 
 def refused(what, code, sentence, *arguments):
@@ -60,15 +64,19 @@ def part(folder, **changes):
     text = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 2 2\n2 1 -1\n"
     pathlib.Path(folder, "K.mtx").write_text(text, encoding="utf-8")
     pathlib.Path(folder, "M.mtx").write_text(text.replace("-1", "0.5"), encoding="utf-8")
-    content = {"format": "tooljoint part 1", "components": ["u"], "dofs": [[1, "u"], [2, "u"]], "mass": "M.mtx", "stiffness": "K.mtx", **changes}
+    content = {
+        "format": "tooljoint part 1", "components": ["u"], "dofs": [[1, "u"], [2, "u"]],
+        "mass": "M.mtx", "stiffness": "K.mtx", **changes
+    }
     pathlib.Path(folder, "part.json").write_text(json.dumps(content), encoding="utf-8")
     return pathlib.Path(folder)
 
 
 def deck_of(file, name="part.xml"):
     pathlib.Path(name).write_text(
-        '<ParameterList name="s"><ParameterList name="Parts"><ParameterList name="Imported"><ParameterList name="a">'
-        f'<Parameter name="File" type="string" value="{file}"/></ParameterList></ParameterList></ParameterList></ParameterList>', encoding="utf-8")
+        '<ParameterList name="s"><ParameterList name="Parts"><ParameterList name="Imported">'
+        f'<ParameterList name="a"><Parameter name="File" type="string" value="{file}"/>'
+        '</ParameterList></ParameterList></ParameterList></ParameterList>', encoding="utf-8")
     return name
 
 
@@ -80,17 +88,22 @@ def special_files():
         sentence = f"{file} cannot be read: it is no regular file, but {kind}."
         refused(f"deck {file}", 5, sentence, "check", file)
         refused(f"survey {file}", 2, sentence, "check", SURVEY, "--set", f"Well/Survey/File={file}")
-        refused(f"library {file}", 2, sentence, "check", STRING, "--set", f"Drillstring/Library={file}")
+        refused(f"library {file}", 2, sentence, "check", STRING, "--set",
+                f"Drillstring/Library={file}")
         refused(f"part {file}", 2, sentence, "check", deck_of(file))
         refused(f"matrix {file}", 2, sentence, "check", deck_of(part("matrix", stiffness=file)))
-        refused(f"positions {file}", 2, sentence, "check", deck_of(part("positions", positions=file)))
-        refused(f"user vectors {file}", 2, sentence, "check", STRING, "--set", "Reduction/Basis=User Vectors", "--set", f"Reduction/User Vectors/File={file}",
+        refused(f"positions {file}", 2, sentence, "check",
+                deck_of(part("positions", positions=file)))
+        refused(f"user vectors {file}", 2, sentence, "check", STRING, "--set",
+                "Reduction/Basis=User Vectors", "--set", f"Reduction/User Vectors/File={file}",
                 "--without", "Reduction/Load Vectors")
         pathlib.Path("results").mkdir(exist_ok=True)
         pathlib.Path("results/results.h5").unlink(missing_ok=True)
         pathlib.Path("results/results.h5").symlink_to(file)
-        refused(f"results {file}", 5, f"cannot be read: it is no regular file, but {kind}.", "compare", "results", "results")
-    refused("part pipe.json", 2, "it is no regular file, but a FIFO.", "check", deck_of("pipe.json"))
+        refused(f"results {file}", 5, f"cannot be read: it is no regular file, but {kind}.",
+                "compare", "results", "results")
+    refused("part pipe.json", 2, "it is no regular file, but a FIFO.", "check",
+            deck_of("pipe.json"))
 
 
 def without_end():
@@ -98,12 +111,16 @@ def without_end():
         with open(name, "wb") as file:
             file.truncate(1 << 40)
     path = pathlib.Path().resolve()
-    refused("deck of a terabyte", 2, "is larger than 64 MB, which cannot be a deck.", "check", "huge.xml")
-    refused("survey of a terabyte", 2, "is larger than", "check", SURVEY, "--set", f"Well/Survey/File={path}/huge.csv")
-    refused("library of a terabyte", 2, "is larger than 64 MB", "check", STRING, "--set", f"Drillstring/Library={path}/huge.xml")
+    refused("deck of a terabyte", 2, "is larger than 64 MB, which cannot be a deck.", "check",
+            "huge.xml")
+    refused("survey of a terabyte", 2, "is larger than", "check", SURVEY, "--set",
+            f"Well/Survey/File={path}/huge.csv")
+    refused("library of a terabyte", 2, "is larger than 64 MB", "check", STRING, "--set",
+            f"Drillstring/Library={path}/huge.xml")
     refused("part of a terabyte", 2, "is larger than", "check", deck_of("huge.json"))
     refused("HDF5 part of a terabyte", 2, "is not a part file", "check", deck_of("huge.h5"))
-    refused("matrix of a terabyte", 2, "has a line of more than 1024 characters", "check", deck_of(part("matrix", stiffness=str(path / "huge.mtx"))))
+    refused("matrix of a terabyte", 2, "has a line of more than 1024 characters", "check",
+            deck_of(part("matrix", stiffness=str(path / "huge.mtx"))))
 
 
 def hdf5_part(name, write):
@@ -129,7 +146,9 @@ def huge_matrix(file):
 
 def huge_shape(file):
     group = file.create_group("damping")
-    group["row"], group["column"], group["value"], group["shape"] = [0], [0], [1.0], [4 * 10**9, 4 * 10**9]
+    group["row"], group["column"], group["value"], group["shape"] = [0], [0], [1.0], [
+        4 * 10**9, 4 * 10**9
+    ]
 
 
 def huge_texts(file):
@@ -137,7 +156,8 @@ def huge_texts(file):
 
 
 def external(file):
-    file.create_dataset("damping", shape=(2, 2), dtype="f8", external=[("/dev/zero", 0, h5py.h5f.UNLIMITED)])
+    file.create_dataset("damping", shape=(2, 2), dtype="f8",
+                        external=[("/dev/zero", 0, h5py.h5f.UNLIMITED)])
 
 
 def foreign_filter(file):
@@ -149,17 +169,26 @@ def many_names(file):
 
 
 def announced_sizes():
-    for write, sentence in ((huge_dofs, "announces 2e+12 values in /dofs"), (huge_matrix, "announces 1e+18 values in /mass"),
-                            (huge_shape, "\"damping/shape\" holds 4e+09, expected rows and columns from 1 to 16777216"),
-                            (huge_texts, "announces 1e+10 values in /omitted"), (external, "has the values of /damping in other files"),
-                            (foreign_filter, "has /damping compressed by \"lzf\", which this program cannot undo"),
-                            (many_names, "text in the attribute name")):
-        refused(f"HDF5 part with {write.__name__}", 2, sentence, "check", hdf5_part(f"{write.__name__}.h5", write))
+    for write, sentence in (
+        (huge_dofs, "announces 2e+12 values in /dofs"),
+        (huge_matrix, "announces 1e+18 values in /mass"),
+        (huge_shape, "\"damping/shape\" holds 4e+09, expected rows and columns from 1 to 16777216"),
+        (huge_texts, "announces 1e+10 values in /omitted"),
+        (external, "has the values of /damping in other files"),
+        (foreign_filter, "has /damping compressed by \"lzf\", which this program cannot undo"),
+        (many_names, "text in the attribute name"),
+    ):
+        refused(f"HDF5 part with {write.__name__}", 2, sentence, "check",
+                hdf5_part(f"{write.__name__}.h5", write))
     head = "%%MatrixMarket matrix coordinate real general\n"
-    for what, text, sentence in (("entries", head + "2 2 1000000000000\n1 1 1\n", "announces 1000000000000 entries"),
-                                 ("rows", head + "1000000000 1000000000 1\n1 1 1\n", "with at most 16777216 rows and columns")):
+    for what, text, sentence in (
+        ("entries", head + "2 2 1000000000000\n1 1 1\n", "announces 1000000000000 entries"),
+        ("rows", head + "1000000000 1000000000 1\n1 1 1\n",
+         "with at most 16777216 rows and columns"),
+    ):
         pathlib.Path(f"{what}.mtx").write_text(text, encoding="utf-8")
-        refused(f"matrix that announces {what}", 2, sentence, "check", deck_of(part("matrix", stiffness=str(pathlib.Path(f"{what}.mtx").resolve()))))
+        refused(f"matrix that announces {what}", 2, sentence, "check",
+                deck_of(part("matrix", stiffness=str(pathlib.Path(f"{what}.mtx").resolve()))))
     pathlib.Path("wide.mtx").write_text(head + "10000000 1000000 1\n1 1 1\n", encoding="utf-8")
     refused("wide positions", 2, "too large for a dense matrix", "check",
             deck_of(part("positions", positions=str(pathlib.Path("wide.mtx").resolve()))))
@@ -167,43 +196,80 @@ def announced_sizes():
 
 def many_attributes():
     attributes = "".join(f' a{i}="1"' for i in range(100000))
-    pathlib.Path("attributes.xml").write_text(f'<ParameterList name="s">\n<Parameter{attributes}/>\n</ParameterList>', encoding="utf-8")
-    refused("100,000 attributes", 2, "attributes.xml:2: an element has more than 100 attributes", "check", "attributes.xml")
+    pathlib.Path("attributes.xml").write_text(
+        f'<ParameterList name="s">\n<Parameter{attributes}/>\n</ParameterList>', encoding="utf-8")
+    refused("100,000 attributes", 2, "attributes.xml:2: an element has more than 100 attributes",
+            "check", "attributes.xml")
 
 
 def check_refuses_what_run_refuses():
-    """One row: the deck, what is changed in it, and what both commands say. The exit codes are the same."""
+    """One row: the deck, what is changed in it, and what both commands say.
+    The exit codes are the same."""
     dual = ["--set", "Reduction/Basis=Dual Craig-Bampton"]
     macneal = ["--set", "Reduction/Basis=MacNeal"]
     calm = ["--without", "Parts/Starts"]
     explicit = ["--set", "Transient/Integrator=RK4", "--without", "Transient/Step"]
     short = ["--set", "Transient/End Time=0.01"]
-    mass = ["--without", "Reduction/Mode Selection", "--set", "Reduction/Mode Selection/Effective Interface Mass=0.5"]
+    mass = [
+        "--without", "Reduction/Mode Selection", "--set",
+        "Reduction/Mode Selection/Effective Interface Mass=0.5"
+    ]
     hooked = "hooked.xml"  # a spring in the place of a support
     text = STRING.read_text(encoding="utf-8").rstrip().removesuffix("</ParameterList>")
-    pathlib.Path(hooked).write_text(text + """<ParameterList name="Coupling"><ParameterList name="Springs"><ParameterList name="hook">
-        <Parameter name="First" type="string" value="pipe 1:1"/><Parameter name="Component" type="string" value="w"/>
-        <Parameter name="Stiffness" type="double" value="1e6"/></ParameterList></ParameterList></ParameterList></ParameterList>""", encoding="utf-8")
+    pathlib.Path(hooked).write_text(
+        text +
+        """<ParameterList name="Coupling"><ParameterList name="Springs"><ParameterList name="hook">
+        <Parameter name="First" type="string" value="pipe 1:1"/>
+        <Parameter name="Component" type="string" value="w"/>
+        <Parameter name="Stiffness" type="double" value="1e6"/></ParameterList></ParameterList>
+        </ParameterList></ParameterList>""", encoding="utf-8")
     rows = [
-        (STRING, ["--set", "Supports/Top=u v theta_z"], "The string floats: w is free at all of its"),
+        (STRING, ["--set",
+                  "Supports/Top=u v theta_z"], "The string floats: w is free at all of its"),
         (STRING, ["--set", "Supports/Top=w"], "The string floats: theta_z is free at all of its"),
-        (STRING, ["--set", "Supports/Top=none", "--set", "Well/Trajectory=Vertical", "--set", "Well/Vertical/Length=60"], "The string floats: it has no support."),
-        (hooked, ["--set", "Supports/Top=u v theta_z"], "Springs of the list Coupling count from the static state"),
-        (FRAME, [*macneal, *calm, *explicit], "is \"MacNeal\", which has a singular mass matrix, but the integrator \"RK4\" needs a nonsingular one"),
-        (FRAME, [*dual, *calm, *explicit], "is \"Dual Craig-Bampton\", which has a singular mass matrix"),
-        (FRAME, [*macneal, "--set", "Reduction/Error Estimate=Frequencies"], "Error Estimate needs an error estimate, but the basis \"MacNeal\""),
-        (FRAME, [*dual, "--set", "Reduction/Interface Reduction=System", "--set", "Reduction/System/Modes=3"], "joins parts by interface forces"),
-        (FRAME, [*macneal, "--set", "Reduction/Interface Reduction=System", "--set", "Reduction/System/Modes=3"], "leaves them none"),
-        (FRAME, [*dual, "--set", "Output/Export Parts=HDF5"], "cannot export parts of the basis \"Dual Craig-Bampton\""),
-        (FRAME, [*macneal, "--set", "Reduction/Load Vectors=Loads"], "cannot be added to the basis \"MacNeal\""),
-        (FRAME, ["--set", "Reduction/Basis=Rubin", *mass], "selects fixed-interface modes one by one, but the basis \"Rubin\" has none"),
-        (FRAME, ["--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set", "Coupling/Assembly=Dual"], "needs the inverse of the coupled mass"),
-        (FRAME, ["--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set", "Reduction/Error Estimate=Both"], "estimates the error of the motion, which is not available with"),
-        (FRAME, ["--set", "Coupling/Assembly=Dual", "--set", "Reduction/Error Estimate=Transient"], "which is not available with Coupling/Assembly \"Dual\""),
-        (FRAME, ["--set", "Reduction/Load Vectors=Points", "--set", "Reduction/Load Vector Nodes={9999}"], "names node 9999, but no substructure has a point law there"),
+        (STRING, [
+            "--set", "Supports/Top=none", "--set", "Well/Trajectory=Vertical", "--set",
+            "Well/Vertical/Length=60"
+        ], "The string floats: it has no support."),
+        (hooked, ["--set", "Supports/Top=u v theta_z"],
+         "Springs of the list Coupling count from the static state"),
+        (FRAME, [*macneal, *calm, *explicit], "is \"MacNeal\", which has a singular mass matrix, "
+         "but the integrator \"RK4\" needs a nonsingular one"),
+        (FRAME, [*dual, *calm,
+                 *explicit], "is \"Dual Craig-Bampton\", which has a singular mass matrix"),
+        (FRAME, [*macneal, "--set", "Reduction/Error Estimate=Frequencies"],
+         "Error Estimate needs an error estimate, but the basis \"MacNeal\""),
+        (FRAME, [
+            *dual, "--set", "Reduction/Interface Reduction=System", "--set",
+            "Reduction/System/Modes=3"
+        ], "joins parts by interface forces"),
+        (FRAME, [
+            *macneal, "--set", "Reduction/Interface Reduction=System", "--set",
+            "Reduction/System/Modes=3"
+        ], "leaves them none"),
+        (FRAME, [*dual, "--set", "Output/Export Parts=HDF5"],
+         "cannot export parts of the basis \"Dual Craig-Bampton\""),
+        (FRAME, [*macneal, "--set",
+                 "Reduction/Load Vectors=Loads"], "cannot be added to the basis \"MacNeal\""),
+        (FRAME, ["--set", "Reduction/Basis=Rubin", *mass],
+         "selects fixed-interface modes one by one, but the basis \"Rubin\" has none"),
+        (FRAME,
+         ["--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set",
+          "Coupling/Assembly=Dual"], "needs the inverse of the coupled mass"),
+        (FRAME, [
+            "--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set",
+            "Reduction/Error Estimate=Both"
+        ], "estimates the error of the motion, which is not available with"),
+        (FRAME, ["--set", "Coupling/Assembly=Dual", "--set", "Reduction/Error Estimate=Transient"],
+         "which is not available with Coupling/Assembly \"Dual\""),
+        (FRAME,
+         ["--set", "Reduction/Load Vectors=Points", "--set", "Reduction/Load Vector Nodes={9999}"
+          ], "names node 9999, but no substructure has a point law there"),
         (FRAME, ["--set", "Transient/Step=1e-300"], "which gives 2e+300 intervals"),
-        (FRAME, ["--set", "Transient/Sampling Interval=1e-300"], "which gives 2e+300 intervals in the 2 s"),
-        (deck_of(part("strange", positions=[[1, 0, 0, 0], [9, 0, 0, 0]]), "strange.xml"), [], "names node 9 in row 2, which the part does not have"),
+        (FRAME, ["--set",
+                 "Transient/Sampling Interval=1e-300"], "which gives 2e+300 intervals in the 2 s"),
+        (deck_of(part("strange", positions=[[1, 0, 0, 0], [9, 0, 0, 0]]),
+                 "strange.xml"), [], "names node 9 in row 2, which the part does not have"),
         (deck_of(part("number", name=7), "number.xml"), [], "\"name\" must be a text"),
     ]
     for deck, changes, sentence in rows:
@@ -211,30 +277,43 @@ def check_refuses_what_run_refuses():
         ran = tooljoint("run", deck, *changes, *motion, "--output", "refused")
         checked = tooljoint("check", deck, *changes, *motion)
         what = " ".join(changes) or str(deck)
-        expect(f"{what}: check ends as run does", ran[0] == checked[0] and checked[0] in (2, 3), f"(run {ran[0]}, check {checked[0]})")
-        expect(f"{what}: both say why", all(" ".join(sentence.split()) in " ".join(one[1].split()) for one in (ran, checked)),
-               f"run: {ran[1][-300:]} check: {checked[1][-300:]}")
+        expect(f"{what}: check ends as run does", ran[0] == checked[0] and checked[0] in (2, 3),
+               f"(run {ran[0]}, check {checked[0]})")
+        expect(
+            f"{what}: both say why",
+            all(" ".join(sentence.split()) in " ".join(one[1].split()) for one in (ran, checked)),
+            f"run: {ran[1][-300:]} check: {checked[1][-300:]}")
     # Interface dofs are left to the modes: whatever a run makes of this start, check knows it.
-    ran, checked = tooljoint("run", FRAME, *dual, *short, "--output", "refused"), tooljoint("check", FRAME, *dual, *short)
-    expect("a dual basis with a start: check ends as run does", ran[0] == checked[0], f"(run {ran[0]}, check {checked[0]}) {ran[1][-300:]}")
+    ran, checked = tooljoint("run", FRAME, *dual, *short, "--output",
+                             "refused"), tooljoint("check", FRAME, *dual, *short)
+    expect("a dual basis with a start: check ends as run does", ran[0] == checked[0],
+           f"(run {ran[0]}, check {checked[0]}) {ran[1][-300:]}")
 
 
 def absurd_counts_are_told():
     """The size of a long motion is one number of three digits."""
-    done = subprocess.run([PROGRAM, "check", str(STRING), "--set", "Transient/End Time=500000"], stdout=subprocess.PIPE, text=True, check=False)
+    done = subprocess.run(
+        [PROGRAM, "check", str(STRING), "--set", "Transient/End Time=500000"],
+        stdout=subprocess.PIPE, text=True, check=False)
     line = next((one for one in done.stdout.splitlines() if "samples, about" in one), "")
-    expect("the size of the results is told shortly", done.returncode == 0 and 0 < len(line) < 80, line)
+    expect("the size of the results is told shortly", done.returncode == 0 and 0 < len(line) < 80,
+           line)
 
 
 def a_mistyped_depth_is_told():
-    """A station 1 m below the one before instead of 60 m: the well would turn on a radius of 5 m."""
+    """A station 1 m below the one before instead of 60 m: the well would turn on a radius of 5
+    m."""
     text = (SURVEY.parent / "survey.csv").read_text(encoding="utf-8")
     sentence = "sharper than wells are drilled: check the depths and angles there"
     for name, depth, told in (("as it is", "180", False), ("mistyped", "121", True)):
-        pathlib.Path("survey.csv").write_text(text.replace("\n180,", f"\n{depth},"), encoding="utf-8")
-        said = subprocess.run([PROGRAM, "check", str(SURVEY), "--set", f"Well/Survey/File={pathlib.Path('survey.csv').resolve()}"], stdout=subprocess.PIPE,
-                              text=True, check=False).stdout
-        expect(f"a survey {name} has its largest dogleg judged", (sentence in " ".join(said.split())) == told, said[-500:])
+        pathlib.Path("survey.csv").write_text(text.replace("\n180,", f"\n{depth},"),
+                                              encoding="utf-8")
+        said = subprocess.run([
+            PROGRAM, "check",
+            str(SURVEY), "--set", f"Well/Survey/File={pathlib.Path('survey.csv').resolve()}"
+        ], stdout=subprocess.PIPE, text=True, check=False).stdout
+        expect(f"a survey {name} has its largest dogleg judged",
+               (sentence in " ".join(said.split())) == told, said[-500:])
 
 
 def main():

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds the rules of the source tree that a compiler does not: who may include whom, names that stay out, licence lines, sizes, code that stands twice.
+"""Holds the rules of the source tree that a compiler does not: who may include whom, names that
+stay out, licence lines, sizes, code that stands twice.
 
     lint.py PROJECT         prints file:line: what is wrong, exit code 1 if anything is
     lint.py --self-test     shows that each rule catches what it is for
     lint.py --rooms         prints the table of rooms for docs/architecture.md
-    lint.py --counts PROJECT  prints the lines of product code, room by room, and of tests, and the fullest folders
+    lint.py --counts PROJECT  prints the lines of product code, room by room, and of tests, and the
+                              fullest folders
 """
 import pathlib
 import re
@@ -14,21 +16,39 @@ import subprocess
 import sys
 import tempfile
 
+import planted
 import repeats
 import rooms
 import sizes
 
 LONGEST = 500  # lines of a source file; beyond, it is two ideas
-ROOMS = ["src", "substructures", "python", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
-TOP = ["CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "quickstart", ".ci/run"]
+WIDEST = 100  # columns of a line of Python; clang-format holds C++
+ROOMS = [
+    "src", "substructures", "python", "tests", "tools", "examples", "benchmarks", "cmake", "docs",
+    "xml"
+]
+TOP = [
+    "CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md",
+    "CITATION.cff", "quickstart", ".ci/run"
+]
 SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".in"}
 TEXTS = SOURCES | {".txt", ".md", ".xml", ".json", ".csv", ".cff", ".yml", ".yaml", ".supp", ""}
 # Spelt so that this file does not contain them.
-FORBIDDEN = [re.compile(word) for word in [r"\bTO" r"DO\b", r"\bFIX" r"ME\b", r"\bXX" r"X\b", r"(?i)\bnot " r"implemented\b", r"(?i)\bplace" r"holder\b",
-                                           r"(?<![\w.])/wo" r"rk/"]]
+FORBIDDEN = [
+    re.compile(word) for word in [
+        r"\bTO"
+        r"DO\b", r"\bFIX"
+        r"ME\b", r"\bXX"
+        r"X\b", r"(?i)\bnot "
+        r"implemented\b", r"(?i)\bplace"
+        r"holder\b", r"(?<![\w.])/wo"
+        r"rk/"
+    ]
+]
 FOREIGN = re.compile(r"(?i)drill[\s_-]?(string|pipe)")
 BY_NAME = re.compile(r'\b(?:name|law) [!=]= "1"')
-PERSONS = re.compile(r"(?i)\b(looked at|unasked|(?:is|are|was|were) (?:asked|told))\b")  # in product code and pages: what people do
+PERSONS = re.compile(r"(?i)\b(looked at|unasked|(?:is|are|was|were) (?:asked|told))\b"
+                     )  # in product code and pages: what people do
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
@@ -49,11 +69,17 @@ def lint_file(root, path):
         if not first or "SPDX-License-Identifier: BSD-3-Clause" not in first[0]:
             yield 1, "has no SPDX-License-Identifier: BSD-3-Clause on its first line"
         if len(lines) > LONGEST:
-            yield LONGEST + 1, f"has {len(lines)} lines, more than {LONGEST}: which two ideas are in it?"
+            yield LONGEST + 1, (f"has {len(lines)} lines, more than {LONGEST}: which two ideas are "
+                                "in it?")
+    if path.suffix == ".py":
+        for number, line in enumerate(lines, 1):
+            if len(line) > WIDEST:
+                yield number, f"has {len(line)} columns, more than {WIDEST}"
     yield from sizes.of_source(relative.as_posix(), "\n".join(lines))
     if relative.as_posix() == "docs/architecture.md":
         yield from sizes.of_recipes("\n".join(lines))
-    spoken = parts[0] in ("src", "substructures", "python", "docs", "examples") or relative.as_posix() in ("README.md", "CONTRIBUTING.md")
+    spoken = parts[0] in ("src", "substructures", "python", "docs",
+                          "examples") or relative.as_posix() in ("README.md", "CONTRIBUTING.md")
     toolkit = parts[0] == "src" and parts[1] != "app"
     bad_deck = parts[:2] == ("tests", "decks") and path.suffix == ".xml"
     for number, line in enumerate(lines, 1):
@@ -61,20 +87,26 @@ def lint_file(root, path):
             if match := word.search(line):
                 yield number, f"says \"{match.group(0)}\""
         if spoken and (match := PERSONS.search(line)):
-            yield number, f"says \"{match.group(0)}\" of a computation: name what it does (evaluated, compared, printed)"
+            yield number, (f"says \"{match.group(0)}\" of a computation: name what it does "
+                           "(evaluated, compared, printed)")
         if toolkit and (match := FOREIGN.search(line)):
             yield number, f"says \"{match.group(0)}\": the toolkit has never heard of it"
         if parts[0] in ("src", "substructures") and BY_NAME.search(line):
-            yield number, "compares the name of a law with \"1\": ScalarLaw::isOne() says whether it is constant"
+            yield number, ("compares the name of a law with \"1\": ScalarLaw::isOne() says whether "
+                           "it is constant")
         if path.suffix in (".cpp", ".hpp") and (match := INCLUDE.match(line)):
             if problem := rooms.include_problem(parts, match.group(1)):
                 yield number, f"includes {match.group(1)}: {problem}"
 
 
 def files_of(root, room):
-    """The files of a room. Decks in xml/ that git does not know are a user's own; without git (an unpacked archive) all are the project's."""
+    """The files of a room.
+    Decks in xml/ that git does not know are a user's own; without git (an unpacked archive) all are
+    the project's."""
     if room == "xml":
-        listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z", "--", room], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False).stdout
+        listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z", "--", room],
+                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                check=False).stdout
         if listed:
             return [root / name for name in listed.split("\0") if name]
     return (root / room).rglob("*")
@@ -105,49 +137,76 @@ def room_lines(root):
 
 
 def size_table(root):
-    """Complaints about numbers of lines in docs/architecture.md that the tree has left by more than a tenth."""
+    """Complaints about numbers of lines in docs/architecture.md that the tree has left by more than
+    a tenth."""
     page = root / "docs" / "architecture.md"
-    rows = re.findall(r"^\| ([a-z, ]+) \| ([\d,]+) \|", page.read_text(encoding="utf-8"), re.M) if page.is_file() else []
+    rows = re.findall(r"^\| ([a-z, ]+) \| ([\d,]+) \|", page.read_text(
+        encoding="utf-8"), re.M) if page.is_file() else []
     left = room_lines(root)
     for names, said in rows:
         if names.startswith("other rooms"):
             mine = sum(count for room, count in left.items() if room.startswith("substructures/"))
         else:
-            mine = sum(left.pop(f"{side}/{name}", 0) for name in names.split(", ") for side in ("src", "substructures"))
+            mine = sum(
+                left.pop(f"{side}/{name}", 0) for name in names.split(", ")
+                for side in ("src", "substructures"))
         if abs(int(said.replace(",", "")) - mine) > 0.1 * mine:
             yield f"docs/architecture.md:1: says that {names} have {said} lines; they have {mine}"
 
 
 def strangers(root):
-    """Complaints about what git keeps at the top level and no room holds: results of a run, most often."""
-    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False).stdout
-    known = set(ROOMS) | {"tools", ".ci"}
-    firsts = {name.partition("/")[0]: name for name in sorted(listed.split("\0"), reverse=True) if "/" in name}
+    """Complaints about what git keeps at the top level and no room holds: results of a run, most
+    often."""
+    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], stdout=subprocess.PIPE,
+                            stderr=subprocess.DEVNULL, text=True, check=False).stdout
+    known = set(ROOMS) | {".ci"}
+    firsts = {
+        name.partition("/")[0]: name for name in sorted(listed.split("\0"), reverse=True)
+        if "/" in name
+    }
     for room in sorted(set(firsts) - known):
-        yield f"{firsts[room]}:1: stands in no room of the project: results of runs stay out of git (git rm -r --cached {room})"
+        yield (f"{firsts[room]}:1: stands in no room of the project: results of runs stay out of "
+               f"git (git rm -r --cached {room})")
 
 
 def standing_twice(root, files):
     """Complaints about code that stands twice in product code, the Python package or tools."""
-    known = [path for path in [*files, *sorted((root / "tools").rglob("*.py"))] if path.suffix in (".cpp", ".hpp", ".py")]
-    return repeats.of_texts({path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace") for path in known})
+    known = [path for path in files if path.suffix in (".cpp", ".hpp", ".py")]
+    return repeats.of_texts({
+        path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace")
+        for path in known
+    })
 
 
 def lint(root):
     """All complaints about a tree as texts, and the number of files read."""
     files = [root / name for name in TOP if (root / name).is_file()]
     for room in ROOMS:
-        files += sorted(path for path in files_of(root, room) if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
-    complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)]
-    complaints += [*modes(root), *house(root), *size_table(root), *strangers(root), *standing_twice(root, files), *sizes.of_folders(path.relative_to(root).as_posix() for path in files)]
+        files += sorted(
+            path for path in files_of(root, room)
+            if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
+    complaints = [
+        f"{path.relative_to(root)}:{line}: {what}" for path in files
+        for line, what in lint_file(root, path)
+    ]
+    complaints += [
+        *modes(root), *house(root), *size_table(root), *strangers(root),
+        *standing_twice(root, files),
+        *sizes.of_folders(path.relative_to(root).as_posix() for path in files)
+    ]
     return complaints, len(files)
 
 
 def counts(root):
-    """Lines and files of each half and of the rooms of product code, and the folders with the most sources."""
+    """Lines and files of each half and of the rooms of product code, and the folders with the most
+    sources."""
     folders = {}
     for room in ["src", "substructures", "python", "tests", "tools"]:
-        paths = [path for path in (root / room).rglob("*") if path.is_file() and path.suffix in (".cpp", ".hpp", ".py") and "__pycache__" not in path.parts]
+        paths = [
+            path for path in (root / room).rglob("*")
+            if path.is_file() and path.suffix in (".cpp", ".hpp",
+                                                  ".py") and "__pycache__" not in path.parts
+        ]
         lines = sum(len(path.read_text(encoding="utf-8").splitlines()) for path in paths)
         yield f"{room:<15}{lines:>8} lines{len(paths):>6} files"
         if room in ("src", "substructures", "python"):
@@ -160,51 +219,7 @@ def counts(root):
 
 
 def self_test():
-    spdx = "// SPDX-License-Identifier: BSD-3-Clause\n"
-    cases = {  # file, text, part of the complaint (None: no complaint)
-        "src/io/A.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n', "src/io may not include substructures/beam"),
-        "src/io/B.cpp": (spdx + '#include "app/commands/Command.hpp"\n', "src/io may not include src/app"),
-        "src/io/N.cpp": (spdx + '#include "cases/Case.hpp"\n', "src/io may not include src/cases"),
-        "src/cases/O.cpp": (spdx + '#include "study/Row.hpp"\n', "src/cases may not include src/study"),
-        "src/study/P.cpp": (spdx + '#include "cases/Case.hpp"\n', None),
-        "src/io/C.cpp": (spdx + "// a drill" + "string\n", "never heard"),
-        "src/io/N2.cpp": (spdx + 'if (model.laws[i].name == "1") return;\n', "isOne()"),
-        "src/io/D.cpp": (spdx + "// a Drill" + " pipe\n", "never heard"),
-        "src/texts/Z.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n', "src/texts may not include substructures/beam"),
-        "python/core/Z.cpp": (spdx + '#include "texts/Templates.hpp"\n', "python/core binds the toolkit"),
-        "src/app/E.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n// drill' + "string\n", None),
-        "substructures/beam/F.cpp": (spdx + '#include "transient/Transient.hpp"\n', "substructures/beam may not include src/transient"),
-        "substructures/drillstring/Q.cpp": (spdx + '#include "cases/Case.hpp"\n', "substructures/drillstring may not include src/cases"),
-        "substructures/drillstring/case/R.cpp": (spdx + '#include "cases/Case.hpp"\n', None),
-        "substructures/drillstring/case/S.cpp": (spdx + '#include "study/Row.hpp"\n', "may not include src/study"),
-        "substructures/path/G.cpp": (spdx + '#include "model/PointLaw.hpp"\n#include "substructures/beam/Section.hpp"\n#include <vector>\n', None),
-        "substructures/beam/T.cpp": (spdx + '#include "substructures/path/PathState.hpp"\n', "substructures/beam may not include substructures/path"),
-        "python/core/V.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n', "python/core binds the toolkit"),
-        "python/core/W.cpp": (spdx + '#include "study/Row.hpp"\n// a drill' + 'string\n', None),
-        "src/attic/U.cpp": (spdx + '#include "common/Error.hpp"\n', "is not in tests/lint/rooms.py"),
-        "docs/architecture.md": ("| app | 9,000 | all |\n\n## Recipes\n\n**A long one.**\n" + "a line\n" * sizes.RECIPE + "\n**A short one.**\n", ("lint.py --rooms", "a recipe of 21 lines", "says that app have 9,000 lines; they have 3")),
-        "tests/unit/a/H.cpp": ("int x;\n", "no SPDX"),
-        "cmake/I.cmake": ("# SPDX-License-Identifier: BSD-3-Clause\n# TO" + "DO later\n", "says"),
-        "docs/I1.md": ("The residual is " + "looked" + " at in each step.\n", "of a computation"),
-        "src/io/I2.cpp": (spdx + "// nodes that are as" + "ked\n", "of a computation"),
-        "tests/unit/a/I3.cpp": (spdx + "// nodes that are as" + "ked\n", None),
-        "docs/J.md": ("see /wo" + "rk/main\n", "says"),
-        "docs/K.md": ("this is not " + "implemented\n", "says"),
-        "src/io/L.cpp": (spdx + "\n" * LONGEST, "more than"),
-        **{f"src/crowd/V{i}.cpp": (spdx, None) for i in range(sizes.FILES + 1)},
-        "src/crowd": (None, "more than"),
-        "src/io/W.hpp": (spdx + "class Full {\n" + "".join(f"  std::map<int, double> m{i}_{{1, 2}};\n  int f{i}(int a) const {{ return a; }}\n" for i in range(sizes.MEMBERS)) + "};\n", None),
-        "src/io/X.hpp": (spdx + "class Wide : public Base {\n int a_, b_ = 2;\n struct S {\n  int c;\n } s_;\n" + " std::function<void(int)> f_;\n" * (sizes.MEMBERS - 2) + "};\n", "Wide has 26 data members"),
-        "src/transient/compiled/Y.hpp": (spdx + "struct Kernel {\n" + "".join(f"  int a{i};\n" for i in range(30)) + "};\n", None),
-        "src/transient/Z1.cpp": (spdx + "int f() {\n" + "".join(f"  a += {i};  // one\n" for i in range(repeats.LEAST)) + "}\n", None),
-        "src/transient/Z2.cpp": (spdx + "\n".join(f"    a += {i};\n// other" for i in range(repeats.LEAST)) + "\n", "6 lines or more of code stand in src/transient/Z1.cpp:3, too"),
-        "src/transient/Z3.cpp": (spdx + "".join(f"  a += {i};\n" for i in range(repeats.LEAST - 1)), None),
-        "substructures/mud/Z4.cpp": (spdx + "".join(f"  int f{i}() override;\n" for i in range(9)), None),
-        "substructures/mud/Z5.cpp": (spdx + "".join(f"  int f{i}() override;\n" for i in range(9)), None),
-        "tools/M.py": ("#!/usr/bin/env python3\n# SPDX-License-Identifier: BSD-3-Clause\n", "is not executable"),
-        "run2/summary.json": ("{}\n", "stay out of git"),
-        "quickstart": ("#!/usr/bin/env bash\n# SPDX-License-Identifier: BSD-3-Clause\n", None),
-    }
+    cases = planted.all_cases(LONGEST)
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
@@ -219,7 +234,8 @@ def self_test():
         for name, (_, expected) in cases.items():
             mine = [one for one in complaints if one.startswith(name + ":")]
             wanted = (expected,) if isinstance(expected, str) else expected
-            good = not mine if wanted is None else all(any(one in complaint for complaint in mine) for one in wanted)
+            good = not mine if wanted is None else all(
+                any(one in complaint for complaint in mine) for one in wanted)
             failures += not good
             print(f"{'ok    ' if good else 'FAILED'} {name}: {mine}")
     return 1 if failures else 0

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares docs/parameters.md with what `tooljoint doc` prints; --update writes the file instead."""
+"""Compares docs/parameters.md with what `tooljoint doc` prints; --update writes the file
+instead."""
 import difflib
 import pathlib
 import subprocess
@@ -15,9 +16,12 @@ def main():
         manual.write_text(printed, encoding="utf-8")
         return 0
     written = manual.read_text(encoding="utf-8")
-    sys.stdout.writelines(difflib.unified_diff(written.splitlines(True), printed.splitlines(True), str(manual), "tooljoint doc"))
+    sys.stdout.writelines(
+        difflib.unified_diff(written.splitlines(True), printed.splitlines(True), str(manual),
+                             "tooljoint doc"))
     if written != printed or not printed.strip():
-        print(f"{manual.name} is not what the program prints; `cmake --build BUILD --target update-docs` writes it.")
+        print(f"{manual.name} is not what the program prints; `cmake --build BUILD --target "
+              "update-docs` writes it.")
         return 1
     return 0
 

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Paths of parameters that docs/parameters.md and other pages name exist in it: paths.py PARAMETERS [PAGE ...] | --self-test
+"""Paths of parameters that docs/parameters.md and other pages name exist in it.
 
-A path is a name of a list, a "/" and a word; what follows the list must be a list or parameter of it. In the descriptions of
-parameters paths stand in the text, in pages between backticks.
+    paths.py PARAMETERS [PAGE ...] | --self-test
+
+A path is a name of a list, a "/" and a word; what follows the list must be a list or parameter of
+it. In the descriptions of parameters paths stand in the text, in pages between backticks.
 """
 import collections
 import pathlib
@@ -15,11 +17,14 @@ PATH = re.compile(rf"{WORD}(?: [\w-]+)*(?:/{WORD}(?: [\w-]+)*)+")
 
 
 def declared(text):
-    """Names in each list, by the name of the list: {"Transient": {"Step", "Generalized-alpha", ...}}; None of names a user chooses."""
+    """Names in each list, by the name of the list: {"Transient": {"Step", "Generalized-alpha",
+    ...}}; None of names a user chooses."""
     inside = collections.defaultdict(set)
     for line in text.splitlines():
         if heading := re.match(r"#+ (\S.*)", line):
-            path = [None if name.startswith("\\<") else name for name in heading.group(1).split("/")]
+            path = [
+                None if name.startswith("\\<") else name for name in heading.group(1).split("/")
+            ]
             for outer, inner in zip(path, path[1:]):
                 inside[outer].add(inner)
         elif row := re.match(r"\| `([^`]+)` \|", line):
@@ -34,7 +39,8 @@ def ends(words, names):
 
 def begins(words, names):
     """The longest name that begins the words."""
-    return next((name for n in range(len(words), 0, -1) if (name := " ".join(words[:n])) in names), None)
+    return next((name for n in range(len(words), 0, -1) if (name := " ".join(words[:n])) in names),
+                None)
 
 
 def faults(text, inside):
@@ -44,7 +50,9 @@ def faults(text, inside):
         parts = [part.split() for part in match.group().split("/")]
         for before, behind in zip(parts, parts[1:]):
             outer = ends(before, inside)
-            if outer is not None and None not in inside[outer] and begins(behind, inside[outer]) is None:
+            if outer is None or None in inside[outer]:
+                continue
+            if begins(behind, inside[outer]) is None:
                 found.append(f'{outer}/{" ".join(behind)}: "{outer}" has no such list or parameter')
     return found
 
@@ -54,13 +62,18 @@ def complaints(parameters, pages):
     inside = declared(text)
     texts = [(parameters.name, line) for line in text.splitlines() if not line.startswith("#")]
     for page in pages:
-        texts += [(page.name, quoted) for quoted in re.findall(r"`([A-Z][^`\n]*)`", page.read_text(encoding="utf-8"))]
+        texts += [(page.name, quoted)
+                  for quoted in re.findall(r"`([A-Z][^`\n]*)`", page.read_text(encoding="utf-8"))]
     return [f"{name}: {fault}" for name, text in texts for fault in faults(text, inside)]
 
 
 def self_test():
-    inside = declared("## Scene\n### Scene/Reduction\n| `Basis` | string |\n#### Scene/Reduction/Mode Selection\n| `Cut-off Frequency` | double |\n### Scene/Loads/\\<Load>\n")
-    assert not faults("Reduce Reduction/Mode Selection/Cut-off Frequency below that, or COPPE/UFRJ, Loads/Mine", inside)
+    inside = declared("## Scene\n### Scene/Reduction\n| `Basis` | string |\n"
+                      "#### Scene/Reduction/Mode Selection\n| `Cut-off Frequency` | double |\n"
+                      "### Scene/Loads/\\<Load>\n")
+    assert not faults(
+        "Reduce Reduction/Mode Selection/Cut-off Frequency below that, or COPPE/UFRJ, Loads/Mine",
+        inside)
     assert len(faults("Path: Reduction/Cut-off Frequency, Basis", inside)) == 1
     assert len(faults("Reduction/Mode Selection/Basis", inside)) == 1
     assert not faults("Scene/Reduction and Reduction/Basis differ", inside)

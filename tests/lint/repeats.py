@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Code that stands twice: six lines or more that are the same in two places, of product code, of the Python package or of tools."""
+"""Code that stands twice: six lines or more that are the same in two places, of product code, of
+the Python package or of tools."""
 import re
 
 LEAST = 6  # lines of code that count as a repeat
 WHERE = ("src/", "substructures/", "python/", "tools/")
-# Lines that say nothing by themselves: comments, what is included, braces, and the functions that every implementation of an interface declares.
-NO_CODE = re.compile(r"(//|#|using |namespace |import |from \S+ import |return;|[{}();\])]*$|else \{|\} else \{|public:|private:)|.*\boverride\b")
+# Lines that say nothing by themselves: comments, what is included, braces, and the functions that
+# every implementation of an interface declares.
+NO_CODE = re.compile(r"(//|#|using |namespace |import |from \S+ import |return;|[{}();\])]*$|else "
+                     r"\{|\} else \{|public:|private:)|.*\boverride\b")
 
 
 def code(text):
@@ -17,19 +20,22 @@ def code(text):
 
 
 def of_texts(texts):
-    """Complaints about what stands twice in `texts`, {relative name: text}; one for each repeat, however long."""
+    """Complaints about what stands twice in `texts`, {relative name: text}; one for each repeat,
+    however long."""
     seen = {}
     for name, text in sorted(texts.items()):
         if not name.startswith(WHERE) or not name.endswith((".cpp", ".hpp", ".py")):
             continue
         lines, last = list(code(text)), None
         for i in range(len(lines) - LEAST + 1):
-            found = seen.setdefault(tuple(line for _, line in lines[i:i + LEAST]), (name, lines[i][0], i))
+            found = seen.setdefault(tuple(line for _, line in lines[i:i + LEAST]),
+                                    (name, lines[i][0], i))
             first, number, at = found
             if (first, at) == (name, i):
                 last = None
             elif last != (first, at - 1):
-                yield f"{name}:{lines[i][0]}: {LEAST} lines or more of code stand in {first}:{number}, too"
+                yield (f"{name}:{lines[i][0]}: {LEAST} lines or more of code stand in "
+                       f"{first}:{number}, too")
                 last = (first, at)
             else:
                 last = (first, at)

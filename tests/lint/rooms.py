@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The rooms of the house and what each may include. docs/architecture.md shows this table (`lint.py --rooms`)."""
+"""The rooms of the house and what each may include. docs/architecture.md shows this table
+(`lint.py --rooms`)."""
 
 GROUND = "common deck linalg model statics"
 MODELS = f"{GROUND} coupling io reduction"
 CASES = f"{MODELS} estimate parts stability transient"
 
-# Room: (rooms of its own side it may include, in words what it holds). src/ never includes substructures/, but for app.
+# Room: (rooms of its own side it may include, in words what it holds). src/ never includes
+# substructures/, but for app.
 TOOLKIT = {
     "common": ("", "errors, log, ranks, text, constants"),
     "deck": ("common", "from XML to checked values, the manual, registries"),
@@ -22,7 +24,8 @@ TOOLKIT = {
     "cases": (CASES, "a case; run, record, restart, check"),
     "study": (f"{CASES} cases", "speed against error over many runs, maps over parameters"),
     "response": (f"{CASES} cases", "Campbell diagrams and harmonic responses of any case"),
-    "texts": ("cases common deck io", "what the program prints: last screens, manual pages, completions, templates"),
+    "texts": ("cases common deck io",
+              "what the program prints: last screens, manual pages, completions, templates"),
     "app": (f"{CASES} cases response study texts", "the program: a file for each command"),
 }
 PROGRAM = ("app", "texts")  # rooms of src/ that the installed library leaves out
@@ -37,12 +40,23 @@ DRILLSTRING = {
     "path": ("beam well", GROUND, "bending of the string into the well"),
     "softstring": ("beam well", GROUND, "torque and drag of a string without bending stiffness"),
     "equilibrium": ("beam contact", GROUND, "the static state"),
-    "drillstring": ("beam contact drilling loads mud path well", GROUND, "components, mesh, supports, equations"),
-    "drillstring/figures": ("beam drillstring path", f"{GROUND} io cases", "figures of merit of a bit and of bending"),
-    "drillstring/scene": ("beam contact drilling drillstring equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to typed values and the static state"),
-    "drillstring/case": ("beam contact drilling drillstring drillstring/figures drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "a string as a case: records, results, figures"),
-    "drillstring/buckling": ("beam contact drilling drillstring drillstring/case drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "a string past buckling"),
-    "drillstring/analyses": ("beam contact drilling drillstring drillstring/case drillstring/figures drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
+    "drillstring": ("beam contact drilling loads mud path well", GROUND,
+                    "components, mesh, supports, equations"),
+    "drillstring/figures": ("beam drillstring path", f"{GROUND} io cases",
+                            "figures of merit of a bit and of bending"),
+    "drillstring/scene": (
+        "beam contact drilling drillstring equilibrium loads mud path softstring well",
+        f"{CASES} cases", "from a deck to typed values and the static state"),
+    "drillstring/case": ("beam contact drilling drillstring drillstring/figures drillstring/scene "
+                         "equilibrium loads mud path softstring well", f"{CASES} cases",
+                         "a string as a case: records, results, figures"),
+    "drillstring/buckling": ("beam contact drilling drillstring drillstring/case drillstring/scene "
+                             "equilibrium loads mud path softstring well", f"{CASES} cases",
+                             "a string past buckling"),
+    "drillstring/analyses": ("beam contact drilling drillstring drillstring/case "
+                             "drillstring/figures drillstring/scene equilibrium loads mud path "
+                             "softstring well", f"{CASES} cases",
+                             "what engineers ask of a string beside its motion"),
 }
 
 
@@ -69,7 +83,8 @@ def include_problem(path, included):
     """Why a file at `path` (in pieces) may not include `included`, or None."""
     room, target = room_of(path), included_room(included)
     if path[0] == "python" and target and (target[0] != "src" or target[1] in PROGRAM):
-        return f"python/core binds the toolkit, and may not include {'/'.join(target)} (tests/lint/rooms.py)"
+        return (f"python/core binds the toolkit, and may not include {'/'.join(target)} "
+                "(tests/lint/rooms.py)")
     if room is None or target is None or room == target:
         return None
     side, name = room
@@ -81,8 +96,10 @@ def include_problem(path, included):
             allowed |= {("substructures", other) for other in DRILLSTRING}
     else:
         own, toolkit, _ = DRILLSTRING[name]
-        allowed = {("substructures", other) for other in own.split()} | {("src", other) for other in toolkit.split()}
-    return None if target in allowed else f"{side}/{name} may not include {'/'.join(target)} (tests/lint/rooms.py)"
+        allowed = {("substructures", other)
+                   for other in own.split()} | {("src", other) for other in toolkit.split()}
+    return None if target in allowed else (f"{side}/{name} may not include {'/'.join(target)} "
+                                           "(tests/lint/rooms.py)")
 
 
 def table():
@@ -92,6 +109,8 @@ def table():
         extra = ", substructures/" if name == "app" else ""
         lines.append(f"| src/{name} | {holds} | {', '.join(sorted(rooms.split())) or '-'}{extra} |")
     for name, (own, toolkit, holds) in DRILLSTRING.items():
-        lines.append(f"| substructures/{name} | {holds} | {', '.join(sorted(own.split()) + ['src/{' + ','.join(sorted(toolkit.split())) + '}'])} |")
-    lines.append("| python/core | the library in Python: a file for each concept of it | src/ but app and texts |")
+        allowed = [*sorted(own.split()), "src/{" + ",".join(sorted(toolkit.split())) + "}"]
+        lines.append(f"| substructures/{name} | {holds} | {', '.join(allowed)} |")
+    lines.append("| python/core | the library in Python: a file for each concept of it | src/ but "
+                 "app and texts |")
     return "\n".join(lines) + "\n"

@@ -7,14 +7,17 @@ MEMBERS = 25  # data members of a class outside of the compiled kernels
 RECIPE = 20  # lines of a recipe for an extension
 PRODUCT = ("src", "substructures", "python/core")
 KERNELS = "src/transient/compiled/"
-NO_MEMBER = re.compile(r"^(using|typedef|friend|enum|class|struct|union|template|static|public|private|protected)\b")
-HEAD = re.compile(r"\b(class|struct)\s+(?:alignas\([^)]*\)\s*)?([A-Za-z_][\w:]*)(?:\s+final)?\s*(?::[^;{}]*)?\{")
+NO_MEMBER = re.compile(
+    r"^(using|typedef|friend|enum|class|struct|union|template|static|public|private|protected)\b")
+HEAD = re.compile(
+    r"\b(class|struct)\s+(?:alignas\([^)]*\)\s*)?([A-Za-z_][\w:]*)(?:\s+final)?\s*(?::[^;{}]*)?\{")
 
 
 def plain(text):
     """The code without comments, and with empty strings."""
     text = re.sub(r'R"(\w*)\((.*?)\)\1"', '""', text, flags=re.S)
-    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', lambda m: '""' if m.group(0)[0] in "\"'" else "", text, flags=re.S)
+    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', lambda m: '""'
+                  if m.group(0)[0] in "\"'" else "", text, flags=re.S)
 
 
 def statements(text, begin):
@@ -26,7 +29,8 @@ def statements(text, begin):
             depth += 1
         elif c == "}":
             depth -= 1
-            if depth == 1 and re.search(r"\)\s*(const|noexcept|override|final|\s)*(:.*)?$", statement, re.S):
+            if depth == 1 and re.search(r"\)\s*(const|noexcept|override|final|\s)*(:.*)?$",
+                                        statement, re.S):
                 statement = ""  # the body of a function
         elif depth == 1 and c == ";":
             yield " ".join(statement.split())
@@ -54,14 +58,17 @@ def classes(text):
     text = plain(text)
     for head in HEAD.finditer(text):
         if not re.search(r"\benum\s*$", text[:head.start()]):
-            yield text.count("\n", 0, head.start()) + 1, head.group(2), sum(map(members, statements(text, head.end())))
+            yield text.count("\n", 0, head.start()) + 1, head.group(2), sum(
+                map(members, statements(text, head.end())))
 
 
 def of_source(relative, text):
-    if relative.startswith(PRODUCT) and not relative.startswith(KERNELS) and relative.endswith((".hpp", ".cpp")):
+    if relative.startswith(PRODUCT) and not relative.startswith(KERNELS) and relative.endswith(
+        (".hpp", ".cpp")):
         for line, name, count in classes(text):
             if count > MEMBERS:
-                yield line, f"{name} has {count} data members, more than {MEMBERS}: which two ideas are in it?"
+                yield line, (f"{name} has {count} data members, more than {MEMBERS}: which two "
+                             "ideas are in it?")
 
 
 def of_folders(names):
@@ -72,15 +79,18 @@ def of_folders(names):
             folders.setdefault(name.rpartition("/")[0], []).append(name)
     for folder, files in sorted(folders.items()):
         if len(files) > FILES:
-            yield f"{folder}:1: has {len(files)} files, more than {FILES}: which two concepts are in it?"
+            yield (f"{folder}:1: has {len(files)} files, more than {FILES}: which two concepts are "
+                   "in it?")
 
 
 def of_recipes(text):
-    """(line, complaint) about the recipes of docs/architecture.md: from one bold word to the next."""
+    """(line, complaint) about the recipes of docs/architecture.md: from one bold word to the
+    next."""
     lines = text.splitlines()
     if "## Recipes" not in lines:
         return
-    begins = [i for i in range(lines.index("## Recipes"), len(lines)) if lines[i].startswith("**")] + [len(lines)]
+    begins = [i for i in range(lines.index("## Recipes"), len(lines)) if lines[i].startswith("**")
+              ] + [len(lines)]
     for begin, end in zip(begins, begins[1:]):
         count = len("\n".join(lines[begin:end]).strip().splitlines())
         if count > RECIPE:

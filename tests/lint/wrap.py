@@ -3,7 +3,8 @@
 """Holds the width of prose in pages of Markdown: 100 columns.
 
     wrap.py PAGE...            names the pages with wider paragraphs, exit code 1 if there are any
-    wrap.py --update PAGE...   fills those paragraphs anew; code, tables, headings, formulas and pictures stay as they are
+    wrap.py --update PAGE...   fills those paragraphs anew; code, tables, headings, formulas and
+                               pictures stay as they are
     wrap.py --self-test        shows that it catches what it is for
 """
 import pathlib
@@ -15,16 +16,20 @@ WIDTH = 100
 GLUE = "\0"  # stands for a blank at which no line may end
 UNBROKEN = re.compile(r"`+[^`]+`+|\$[^$\n]+\$|!?\[[^\]]*\]\([^)]*\)")
 ITEM = re.compile(r"(\s*(?:[-*+]|\d+[.)])\s+)(.*)$")
-STANDS = re.compile(r"\s*(#|\||<|>|!\[|\(.*\)=$|---|===|\[\^?[^\]]+\]:)")  # begins a line that stays as it is
+STANDS = re.compile(
+    r"\s*(#|\||<|>|!\[|\(.*\)=$|---|===|\[\^?[^\]]+\]:)")  # begins a line that stays as it is
 FENCE = re.compile(r"\s*(```+|~~~+|\$\$|<!--)")
-MARKUP = re.compile(r"([-+*#>|=:]|\d+[.)])(\s|$)|~|<")  # would mean something at the start of a line
+MARKUP = re.compile(
+    r"([-+*#>|=:]|\d+[.)])(\s|$)|~|<")  # would mean something at the start of a line
 
 
 def filled(first, rest, text):
-    """Lines of at most WIDTH columns behind `first` and `rest`, none of which begins with what would be markup there."""
+    """Lines of at most WIDTH columns behind `first` and `rest`, none of which begins with what
+    would be markup there."""
     text = UNBROKEN.sub(lambda found: found[0].replace(" ", GLUE), " ".join(text.split()))
     while True:
-        lines = textwrap.wrap(text, WIDTH, initial_indent=first, subsequent_indent=rest, break_long_words=False, break_on_hyphens=False)
+        lines = textwrap.wrap(text, WIDTH, initial_indent=first, subsequent_indent=rest,
+                              break_long_words=False, break_on_hyphens=False)
         bad = next((line[len(rest):] for line in lines[1:] if MARKUP.match(line[len(rest):])), None)
         if bad is None:
             return [line.replace(GLUE, " ") for line in lines]
@@ -44,14 +49,16 @@ def is_code(line, before):
     """An indented line behind an empty one, unless it goes on with an item of a list."""
     if not re.match(r" {4}|\t", line) or (before and before[-1].strip()):
         return False
-    left = next((each for each in reversed(before) if each.strip() and not each.startswith(" ")), "")
+    left = next((each for each in reversed(before) if each.strip() and not each.startswith(" ")),
+                "")
     return not ITEM.match(left)
 
 
 def paragraph(lines, at):
     """Position behind the paragraph or item that begins at `at`."""
     end = at + 1
-    while end < len(lines) and lines[end].strip() and not (ITEM.match(lines[end]) or FENCE.match(lines[end]) or STANDS.match(lines[end])):
+    while end < len(lines) and lines[end].strip() and not (ITEM.match(lines[end]) or FENCE.match(
+            lines[end]) or STANDS.match(lines[end])):
         end += 1
     return end
 
@@ -61,7 +68,8 @@ def wrapped(text):
     lines, out, at, fence = text.split("\n"), [], 0, ""
     while at < len(lines):
         line = lines[at]
-        if fence or FENCE.match(line) or not line.strip() or STANDS.match(line) or is_code(line, out):
+        if fence or FENCE.match(line) or not line.strip() or STANDS.match(line) or is_code(
+                line, out):
             fence = ("" if fence in line else fence) if fence else end_of(line)
             out.append(line)
             at += 1
@@ -84,9 +92,16 @@ def wrapped(text):
 def self_test():
     wide = "word " * 30
     cases = {  # a page and whether it changes
-        wide + "\n": True, "short\nlines\n": False, f"```sh\n{wide}\n```\n": False, f"| {wide}|\n": False, f"# {wide}\n": False,
-        f"text\n\n    {wide}\n    {wide}\n": False, f"- item {wide}\n  goes on\n": True, f"$$\n{wide}\n$$ (label)\n": False, f"<!--\n{wide}\n-->\n": False}
-    faults = [page for page, changes in cases.items() if (wrapped(page) != page) != changes or max(map(len, wrapped(page).split("\n"))) > (WIDTH if changes else 200)]
+        wide + "\n": True, "short\nlines\n": False, f"```sh\n{wide}\n```\n": False,
+        f"| {wide}|\n": False, f"# {wide}\n": False, f"text\n\n    {wide}\n    {wide}\n": False,
+        f"- item {wide}\n  goes on\n": True, f"$$\n{wide}\n$$ (label)\n": False,
+        f"<!--\n{wide}\n-->\n": False
+    }
+    faults = [
+        page for page, changes in cases.items() if (wrapped(page) != page) != changes
+        or max(map(len,
+                   wrapped(page).split("\n"))) > (WIDTH if changes else 200)
+    ]
     marked = wrapped("a " * 49 + "word - and more of it " * 3 + "`code of words` " * 9)
     faults += [line for line in marked.split("\n") if MARKUP.match(line) or line.count("`") % 2]
     print("\n".join(faults) or "all caught")
@@ -107,7 +122,8 @@ def main():
         if update:
             path.write_text(wrapped(text), encoding="utf-8")
     for path in wide:
-        print(f"{path}: {'wrapped' if update else f'has prose of more than {WIDTH} columns: tests/lint/wrap.py --update {path}'}")
+        advice = f"has prose of more than {WIDTH} columns: tests/lint/wrap.py --update {path}"
+        print(f"{path}: {'wrapped' if update else advice}")
     return 1 if wide and not update else 0
 
 

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The commands of docs/first-report.md, word for word: from the packages to a report of a well of one's own.
+"""The commands of docs/first-report.md, word for word: from the packages to a report of a well of
+one's own.
 
-    stranger.py PACKAGES      in an empty Debian 12 (target `clean-root`): made by mmdebstrap, the packages of the folder PACKAGES installed by apt. Needs root and the network.
+    stranger.py PACKAGES      in an empty Debian 12 (target `clean-root`): made by mmdebstrap, the
+                              packages of the folder PACKAGES installed by apt. Needs root and the
+                              network.
 
 check_debian.py runs the commands behind the installation on the unpacked packages.
 """
@@ -27,12 +30,14 @@ INSTALL, OPEN = "sudo apt install", "xdg-open"
 def page():
     """(commands, survey) of the page."""
     text = PAGE.read_text(encoding="utf-8")
-    block = lambda kind: re.search(rf"^```{kind}\n(.*?)^```", text, re.M | re.S).group(1)  # noqa: E731
+    block = lambda kind: re.search(rf"^```{kind}\n(.*?)^```", text, re.M | re.S).group(
+        1)  # noqa: E731
     return block("sh").splitlines(), block("text")
 
 
 def script(commands):
-    """A shell script that ends with the first command that fails; the page is opened by looking whether it is there."""
+    """A shell script that ends with the first command that fails; the page is opened by looking
+    whether it is there."""
     lines = [command.replace(OPEN, "test -s") for command in commands]
     return "set -eu\n" + "".join(f"echo '@@ {line}'\n{line}\n" for line in lines)
 
@@ -63,18 +68,22 @@ def installed(folder):
 
 def judge(done, home):
     """What a stranger sees at the end."""
-    expect("every command of the page succeeds", done.returncode == 0, done.stdout[-600:] + done.stderr[-600:])
+    expect("every command of the page succeeds", done.returncode == 0,
+           done.stdout[-600:] + done.stderr[-600:])
     if done.returncode:
         return
     folder = home / "my_well/results/my_well"
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     expect("the run is finished", summary["status"] == "finished")
     deepest = [line for line in page()[1].splitlines() if line][-1].split(",")[0]
-    expect("the string hangs in the well of the survey", abs(summary["model"]["length"] - float(deepest)) < 0.01, f"{summary['model']['length']} {deepest}")
+    expect("the string hangs in the well of the survey",
+           abs(summary["model"]["length"] - float(deepest)) < 0.01,
+           f"{summary['model']['length']} {deepest}")
     report = (folder / "report.html").read_text(encoding="utf-8")
     expect("the report shows it", "<svg" in report and "Hook load" in report)
     screen = done.stdout.split("@@ tooljoint run")[-1]
-    expect("the last screen says where the report is", "\nhook load" in screen and "open        results/my_well/report.html" in screen, screen[-800:])
+    expect("the last screen says where the report is", "\nhook load" in screen
+           and "open        results/my_well/report.html" in screen, screen[-800:])
 
 
 def on_files(environment, home):
@@ -83,24 +92,28 @@ def on_files(environment, home):
     shutil.rmtree(home, ignore_errors=True)
     home.mkdir()
     (home / "survey.csv").write_text(survey, encoding="utf-8")
-    done = subprocess.run(["bash", "-c", script(commands)], cwd=home, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=240,
+    done = subprocess.run(["bash", "-c", script(commands)], cwd=home, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, check=False, timeout=240,
                           env={**environment, "HOME": str(home)})
     judge(done, home)
 
 
 def in_clean_root(packages):
-    """The same in an empty Debian, the packages installed by its apt with all they depend on and recommend."""
+    """The same in an empty Debian, the packages installed by its apt with all they depend on and
+    recommend."""
     if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
         sys.exit("The clean root needs root and mmdebstrap (Debian: mmdebstrap).")
     names = ("tooljoint", "libtooljoint-dev", "python3-tooljoint")
     found = {name: sorted(pathlib.Path(packages).glob(f"{name}_*.deb")) for name in names}
     if not all(found.values()):
-        sys.exit(f"{packages} lacks one of {', '.join(names)}. Make them with: cpack --config build/release/CPackConfig.cmake -B {packages}")
+        sys.exit(f"{packages} lacks one of {', '.join(names)}. Make them with: cpack --config "
+                 f"build/release/CPackConfig.cmake -B {packages}")
     newest = [files[-1] for files in found.values()]
     root = pathlib.Path("clean_root").resolve()
     if not (root / "etc/debian_version").is_file():
         shutil.rmtree(root, ignore_errors=True)
-        done = subprocess.run(["mmdebstrap", "--variant=minbase", "--mode=root", SUITE, root], check=False)
+        done = subprocess.run(["mmdebstrap", "--variant=minbase", "--mode=root", SUITE, root],
+                              check=False)
         expect("an empty Debian 12", done.returncode == 0)
     for package in newest:
         shutil.copy(package, root / "tmp")
@@ -109,22 +122,32 @@ def in_clean_root(packages):
     shutil.copy(tests.parent / "python/check_installed.py", root / "tmp")
 
     def inside(text, **options):
-        within = f"mount --bind /proc {root}/proc && mount --bind /dev {root}/dev && exec chroot {root} /bin/bash -c \"$0\""
-        return subprocess.run(["unshare", "-m", "--propagation", "private", "bash", "-c", within, text], text=True, check=False, **options)
+        within = (f"mount --bind /proc {root}/proc && mount --bind /dev {root}/dev && exec chroot "
+                  f"{root} /bin/bash -c \"$0\"")
+        return subprocess.run(
+            ["unshare", "-m", "--propagation", "private", "bash", "-c", within, text], text=True,
+            check=False, **options)
 
-    done = inside(f"apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y cmake g++ {' '.join(f'/tmp/{package.name}' for package in newest)}")
+    done = inside("apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y cmake g++ "
+                  f"{' '.join(f'/tmp/{package.name}' for package in newest)}")
     expect("apt installs the packages", done.returncode == 0)
     ranks = "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; "
-    for what, text in (("a client is built with the headers and runs", "cmake -S /tmp/client -B /tmp/client_build && cmake --build /tmp/client_build && /tmp/client_build/client"),
-                       ("Python imports its package and computes", "python3 /tmp/check_installed.py /usr/lib/python3/dist-packages")):
+    for what, text in (
+        ("a client is built with the headers and runs", "cmake -S /tmp/client -B /tmp/client_build "
+         "&& cmake --build /tmp/client_build && /tmp/client_build/client"),
+        ("Python imports its package and computes",
+         "python3 /tmp/check_installed.py /usr/lib/python3/dist-packages"),
+    ):
         expect(what, inside(ranks + text).returncode == 0)
     commands, survey = behind_installation()
     home = root / "root/stranger"
     shutil.rmtree(home, ignore_errors=True)
     home.mkdir(parents=True)
     (home / "survey.csv").write_text(survey, encoding="utf-8")
-    environment = "export HOME=/root/stranger OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; cd; "
-    judge(inside(environment + script(commands), stdout=subprocess.PIPE, stderr=subprocess.PIPE), home)
+    environment = ("export HOME=/root/stranger OMPI_ALLOW_RUN_AS_ROOT=1 "
+                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; cd; ")
+    judge(inside(environment + script(commands), stdout=subprocess.PIPE, stderr=subprocess.PIPE),
+          home)
 
 
 if __name__ == "__main__":

@@ -16,12 +16,27 @@ def springs_in_a_row(count, stiffness):
 
 
 def bars(name, parts=None, **lists):
-    """Two bars of 10 springs of 1e6 N/m in a row, held on the left; the second one's free end is retained."""
+    """Two bars of 10 springs of 1e6 N/m in a row, held on the left; the second one's free end is
+    retained."""
     count = 11
     M, K = springs_in_a_row(count, 1e6)
-    pathlib.Path("bar10.json").write_text(json.dumps({"format": "tooljoint part 1", "components": ["u"], "dofs": [[i + 1, "u"] for i in range(count)], "mass": M.tolist(),
-                                                      "stiffness": K.tolist(), "interfaces": {"left": [[1, "u"]], "right": [[count, "u"]]}}), encoding="utf-8")
-    imported = {"a": {"File": "bar10.json", "Fixed": ["left"]}, "b": {"File": "bar10.json", "Retained": ["right"]}}
-    whole = {"Parts": {"Imported": imported, "Joints": ["a:right = b:left"], **(parts or {})}, "Transient": {"End Time": 0.02, "Step": 1e-4, "Sampling Interval": 1e-3}, **lists}
+    pathlib.Path("bar10.json").write_text(
+        json.dumps({
+            "format": "tooljoint part 1",
+            "components": ["u"],
+            "dofs": [[i + 1, "u"] for i in range(count)],
+            "mass": M.tolist(),
+            "stiffness": K.tolist(),
+            "interfaces": {"left": [[1, "u"]], "right": [[count, "u"]]},
+        }), encoding="utf-8")
+    imported = {
+        "a": {"File": "bar10.json", "Fixed": ["left"]},
+        "b": {"File": "bar10.json", "Retained": ["right"]},
+    }
+    whole = {
+        "Parts": {"Imported": imported, "Joints": ["a:right = b:left"], **(parts or {})},
+        "Transient": {"End Time": 0.02, "Step": 1e-4, "Sampling Interval": 1e-3},
+        **lists,
+    }
     pathlib.Path(f"{name}.xml").write_text(parameter_list(name, whole), encoding="utf-8")
     return f"{name}.xml"

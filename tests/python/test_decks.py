@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks in process: read, changed, written, run; results with units; the sentences of the program as exceptions."""
+"""Decks in process: read, changed, written, run; results with units; the sentences of the program
+as exceptions."""
 import os
 import pathlib
 import re
@@ -23,9 +24,12 @@ SHORT = {"Transient/End Time": "0.05 s", "Output/XDMF": False}
 
 
 def sentence_of_program(*arguments):
-    """What the program prints on standard error, without its name and its breaks of lines, and its exit code."""
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
-    return re.sub(r"\n {2,}", " ", done.stderr.removeprefix("tooljoint: ").rstrip("\n")), done.returncode
+    """What the program prints on standard error, without its name and its breaks of lines, and its
+    exit code."""
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          check=False)
+    return re.sub(r"\n {2,}", " ",
+                  done.stderr.removeprefix("tooljoint: ").rstrip("\n")), done.returncode
 
 
 class Decks(unittest.TestCase):
@@ -39,15 +43,20 @@ class Decks(unittest.TestCase):
         deck["Transient/End Time"] = "250 ms"
         deck["Reduction/Mode Selection/Cut-off Frequency"] = 500
         del deck["Output"]
-        self.assertEqual((deck["Transient/End Time"], deck["Reduction/Mode Selection/Cut-off Frequency"]), (0.25, 500.0))
+        self.assertEqual(
+            (deck["Transient/End Time"], deck["Reduction/Mode Selection/Cut-off Frequency"]),
+            (0.25, 500.0))
         self.assertNotIn("Mud", deck)
         self.assertIn("Parts/Laws/gust", deck)
         for path, sentence in {
-            "Mud": '/frame/Mud is not a parameter. Available: the lists "Parts"',
-            "Transient/Intgrator": '/frame/Transient/Intgrator is not a parameter. Did you mean "Integrator"?',
-            "Transent/Step": '/frame/Transent is not a list. Did you mean "Transient"?',
-            "Transient/End Time/x": "/frame/Transient/End Time is not a list. It is a parameter",
-            "Output": '/frame/Output is not a parameter. It is a list: write <ParameterList name="Output">.',
+                "Mud": '/frame/Mud is not a parameter. Available: the lists "Parts"',
+                "Transient/Intgrator": '/frame/Transient/Intgrator is not a parameter. Did you '
+                'mean "Integrator"?',
+                "Transent/Step": '/frame/Transent is not a list. Did you mean "Transient"?',
+                "Transient/End Time/x": "/frame/Transient/End Time is not a list. It is a "
+                "parameter",
+                "Output": '/frame/Output is not a parameter. It is a list: write <ParameterList '
+                'name="Output">.',
         }.items():
             with self.assertRaises(tj.DeckError) as caught:
                 deck[path]
@@ -73,7 +82,10 @@ class Decks(unittest.TestCase):
         deck["Transient/Step"] = 1e-3
         deck["Reduction/Basis"] = "Rubin"
         deck["Parts/Imported/arm/Retained"] = ["4", "5"]
-        guy = {"First": "top beam:5", "Component": "v", "Type": "Spring", "Spring": {"Stiffness": "3 kN/m"}}
+        guy = {
+            "First": "top beam:5", "Component": "v", "Type": "Spring",
+            "Spring": {"Stiffness": "3 kN/m"}
+        }
         deck.add("Coupling/Point Laws/guy", guy)
         with self.assertRaisesRegex(tj.DeckError, 'Did you mean "Stiffness"'):
             deck.add("Coupling/Point Laws/other", {**guy, "Spring": {"Stifness": 3}})
@@ -104,10 +116,14 @@ class Decks(unittest.TestCase):
             ("unknown parameter", FRAME, {"Transient/End Tim": 1}, (), tj.DeckError),
             ("unknown basis", FRAME, {"Reduction/Basis": "Craig-Bamton"}, (), tj.DeckError),
             ("wrong unit", FRAME, {"Transient/End Time": "3 kg"}, (), tj.DeckError),
-            ("two faults", FRAME, {"Transient/End Time": -1, "Transient/Step": "soon"}, (), tj.DeckError),
+            ("two faults", FRAME, {"Transient/End Time": -1,
+                                   "Transient/Step": "soon"}, (), tj.DeckError),
             ("no deck", SOURCE / "xml/nowhere.xml", {}, (), tj.FileError),
-            ("a mechanism", FRAME, {"Parts/Imported/left column/Fixed": ["nowhere"]}, (), tj.DeckError),
-            ("too coarse", FRAME, {"Transient/Integrator": "RK4", "Transient/Step": 0.05, "Transient/End Time": 1}, ("Reduction",), tj.ConvergenceError),
+            ("a mechanism", FRAME, {"Parts/Imported/left column/Fixed": ["nowhere"]}, (),
+             tj.DeckError),
+            ("too coarse", FRAME,
+             {"Transient/Integrator": "RK4", "Transient/Step": 0.05,
+              "Transient/End Time": 1}, ("Reduction",), tj.ConvergenceError),
         ]
         for name, file, changes, without, kind in cases:
             with self.subTest(name):
@@ -120,18 +136,23 @@ class Decks(unittest.TestCase):
                 with self.assertRaises(kind) as caught:
                     tj.run(file, changes, without, output="errors")
                 self.assertEqual(caught.exception.code, code)
-                self.assertEqual(str(caught.exception), want.splitlines()[-1] if kind is tj.ConvergenceError else want)
+                self.assertEqual(str(caught.exception),
+                                 want.splitlines()[-1] if kind is tj.ConvergenceError else want)
                 self.assertIsInstance(caught.exception, tj.Error)
 
     def test_lists_of_a_call_have_the_errors_of_a_deck(self):
         part = tj.part("two", np.eye(2), [[2, -1], [-1, 2]], interface=[0])
         for call, words in (
-            (lambda: tj.reduce(part), "Reduction does not select modes. Give the list \"Mode Selection\" exactly one of"),
+            (lambda: tj.reduce(part),
+             "Reduction does not select modes. Give the list \"Mode Selection\" exactly one of"),
             (lambda: tj.reduce(part, modes=1, cut_off_frequency=3), "together. Give exactly one."),
-            (lambda: tj.reduce(part, modes=-1), "/Reduction/Mode Selection/Modes: value=\"-1\" is out of range"),
+            (lambda: tj.reduce(part, modes=-1),
+             "/Reduction/Mode Selection/Modes: value=\"-1\" is out of range"),
             (lambda: tj.reduce(part, "Craig", modes=1), "/Reduction/Basis"),
-            (lambda: tj.reduce(part, cut_off_frequency="3 m"), "/Reduction/Mode Selection/Cut-off Frequency"),
-            (lambda: tj.integrate(part, 1.0, spectral_radus=0.5), "Did you mean \"Spectral Radius\"?"),
+            (lambda: tj.reduce(part, cut_off_frequency="3 m"),
+             "/Reduction/Mode Selection/Cut-off Frequency"),
+            (lambda: tj.integrate(part, 1.0, spectral_radus=0.5),
+             "Did you mean \"Spectral Radius\"?"),
             (lambda: tj.law("Spring", stiffness="3 kg"), "/Spring/Stiffness"),
             (lambda: tj.law("Sprin"), "Unknown name \"Sprin\". Available: "),
         ):
@@ -170,10 +191,12 @@ class Runs(unittest.TestCase):
         results = tj.run(FRAME, SHORT, ["Reduction"], output="by_hand")
         case = tj.Deck(FRAME, SHORT).at_rest()
         parts, connections = case.parts()
-        motion = tj.integrate(tj.synthesise(parts, coupling=connections, all_modes=True), 0.05, sampling_interval=0.005)
+        motion = tj.integrate(tj.synthesise(parts, coupling=connections, all_modes=True), 0.05,
+                              sampling_interval=0.005)
         want = np.asarray(results["transient/displacement"])
         model = motion.model
-        found = (np.asarray(motion.displacement) @ model.recovery.T.toarray() + model.recovery_offset).reshape(11, -1, 6)
+        found = (np.asarray(motion.displacement) @ model.recovery.T.toarray() +
+                 model.recovery_offset).reshape(11, -1, 6)
         self.assertLess(abs(found - want).max(), 1e-6 * abs(want).max())
 
     def test_h5py_may_be_there_too(self):
@@ -181,8 +204,10 @@ class Runs(unittest.TestCase):
 
         results = tj.run(FRAME, SHORT, output="both")
         with h5py.File("both/results.h5") as file:
-            self.assertTrue(np.array_equal(file["transient/displacement"], results["transient/displacement"]))
-            self.assertEqual(file["transient/displacement"].attrs["units"], results["transient/displacement"].unit)
+            self.assertTrue(
+                np.array_equal(file["transient/displacement"], results["transient/displacement"]))
+            self.assertEqual(file["transient/displacement"].attrs["units"],
+                             results["transient/displacement"].unit)
             for path in results.datasets():  # every dataset, of any kind
                 self.assertEqual(file[path].shape, results[path].shape, path)
 
@@ -195,14 +220,24 @@ class Runs(unittest.TestCase):
     def test_a_map_in_process_has_its_pictures(self):
         deck = tj.Deck(STRING, without=["Transient"])
         weights = ["5 kN", "10 kN"]
-        deck.add("Map", {
-            "Grid": {"weight": {"Parameter": "Loads/Weight On Bit", "Values": weights}, "torque": {"Parameter": "Loads/Torque On Bit", "Values": ["1 kN m", "2 kN m"]}},
-            "Values": {"top force": {"Key": "static.top_axial_force"}}})
+        deck.add(
+            "Map", {
+                "Grid": {
+                    "weight": {"Parameter": "Loads/Weight On Bit", "Values": weights},
+                    "torque": {
+                        "Parameter": "Loads/Torque On Bit",
+                        "Values": ["1 kN m", "2 kN m"],
+                    },
+                },
+                "Values": {"top force": {"Key": "static.top_axial_force"}},
+            })
         rows = deck.map("map", fresh=True)
         self.assertEqual([row["status"] for row in rows], ["done"] * 4)
         force = np.array([row["top force"] for row in rows]).reshape(2, 2)
-        self.assertTrue(np.allclose(force[0] - force[1], 5e3, rtol=0.05), f"{force}: 5 kN more on the bit are 5 kN less at the top")
-        self.assertTrue(pathlib.Path("map/map_top_force.png").is_file(), f"{sorted(os.listdir('map'))}")
+        self.assertTrue(np.allclose(force[0] - force[1], 5e3, rtol=0.05),
+                        f"{force}: 5 kN more on the bit are 5 kN less at the top")
+        self.assertTrue(
+            pathlib.Path("map/map_top_force.png").is_file(), f"{sorted(os.listdir('map'))}")
 
     def test_check_prints_and_refuses(self):
         tj.Deck(FRAME).check()
@@ -223,7 +258,8 @@ class Interrupts(unittest.TestCase):
         threading.Thread(target=interrupt, daemon=True).start()
         begin = time.perf_counter()
         with self.assertRaisesRegex(KeyboardInterrupt, "--restart"):
-            tj.run(FRAME, {"Transient/End Time": 1e3, "Transient/Step": 1e-5}, ["Reduction"], output="interrupted")
+            tj.run(FRAME, {"Transient/End Time": 1e3, "Transient/Step": 1e-5}, ["Reduction"],
+                   output="interrupted")
         self.assertLess(time.perf_counter() - begin, 20)
         self.assertEqual(tj.read("interrupted").summary["status"], "interrupted")
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)

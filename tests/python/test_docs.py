@@ -9,7 +9,8 @@ import sys
 import unittest
 
 SOURCE = pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"])
-BLOCKS = re.findall(r"```python\n(.*?)```", (SOURCE / "docs/python.md").read_text(encoding="utf-8"), re.DOTALL)
+BLOCKS = re.findall(r"```python\n(.*?)```", (SOURCE / "docs/python.md").read_text(encoding="utf-8"),
+                    re.DOTALL)
 CHECKS = """
 assert method == "Krylov" and len(rows) == 9
 lines = {line.get_label(): line.get_ydata() for line in plt.gca().get_lines()}
@@ -23,7 +24,8 @@ def run(code):
     """Output of a block in a process of its own, with the frame of xml/ beside it."""
     shutil.copy(SOURCE / "xml/frame.xml", "frame.xml")
     shutil.copytree(SOURCE / "xml/frame", "frame", dirs_exist_ok=True)
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env={**os.environ, "MPLBACKEND": "Agg"})
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False,
+                          env={**os.environ, "MPLBACKEND": "Agg"})
     if done.returncode:
         raise AssertionError(done.stderr)
     return done.stdout
@@ -32,7 +34,10 @@ def run(code):
 class Scripts(unittest.TestCase):
     def test_they_are_cells_and_have_their_figures(self):
         page = (SOURCE / "docs/python-figures.md").read_text(encoding="utf-8")
-        scripts = [path for path in sorted((SOURCE / "examples/python").glob("*.py")) if path.name != "common.py"]
+        scripts = [
+            path for path in sorted((SOURCE / "examples/python").glob("*.py"))
+            if path.name != "common.py"
+        ]
         self.assertGreaterEqual(len(scripts), 4)
         for script in scripts:
             _, *cells = re.split(r"^# %% ", script.read_text(encoding="utf-8"), flags=re.M)
@@ -56,7 +61,8 @@ class Blocks(unittest.TestCase):
         self.assertEqual(run(BLOCKS[1]), "Random Subspace\n")
 
     def test_a_law(self):
-        # A mass on a spring without damping swings from 0.1 m to -0.1 m; samples meet the turning point to 1e-4.
+        # A mass on a spring without damping swings from 0.1 m to -0.1 m; samples meet the turning
+        # point to 1e-4.
         self.assertAlmostEqual(float(run(BLOCKS[2])), -0.1, places=3)
 
     def test_a_law_with_states(self):

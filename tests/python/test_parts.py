@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts from scipy matrices: reduction, coupling and modes against scipy.linalg.eigh of the whole."""
+"""Parts from scipy matrices: reduction, coupling and modes against scipy.linalg.eigh of the
+whole."""
 import gc
 import pathlib
 import unittest
@@ -21,10 +22,12 @@ class Matrices(unittest.TestCase):
     def test_matrices_come_back_without_copies(self):
         left, _, K, M = beams.halves(tj)
         model = left.model
-        given = M[: len(left), : len(left)].toarray()[:-2, :-2]  # all but the interface, where the right half adds
+        given = M[:len(left), :len(left)].toarray(
+        )[:-2, :-2]  # all but the interface, where the right half adds
         self.assertTrue(np.allclose(model.mass.toarray()[:-2, :-2], given, rtol=1e-14))
         first, second = model.mass, model.mass
-        self.assertTrue(np.shares_memory(first.data, second.data), "two reads of one mass matrix have copies")
+        self.assertTrue(np.shares_memory(first.data, second.data),
+                        "two reads of one mass matrix have copies")
         with self.assertRaises(ValueError, msg="a shared matrix can be written to"):
             first.data[0] = 1.0
 
@@ -44,8 +47,12 @@ class Matrices(unittest.TestCase):
         K, M = K[2:, 2:], M[2:, 2:]
         want = tj.modes(tj.part("csr", M, K, component_names=("v", "theta")), 3).frequency
         # Every entry stands twice in its row, with half of its value.
-        twice = sparse.csr_matrix((np.repeat(K.data / 2, 2), np.repeat(K.indices, 2), 2 * K.indptr), K.shape)
-        for name, matrix in {"csc": K.tocsc(), "dense": K.toarray(), "lists": K.toarray().tolist(), "entries given twice": twice}.items():
+        twice = sparse.csr_matrix((np.repeat(K.data / 2, 2), np.repeat(K.indices, 2), 2 * K.indptr),
+                                  K.shape)
+        for name, matrix in {
+                "csc": K.tocsc(), "dense": K.toarray(), "lists": K.toarray().tolist(),
+                "entries given twice": twice
+        }.items():
             part = tj.part(name, M, matrix, component_names=("v", "theta"))
             self.assertTrue(np.array_equal(part.model.stiffness().toarray(), K.toarray()), name)
             self.assertTrue(np.allclose(tj.modes(part, 3).frequency, want, rtol=1e-10), name)
@@ -59,8 +66,11 @@ class Matrices(unittest.TestCase):
             tj.part("bad", np.eye(2), np.eye(2), nodes=[1, 2, 3], components=[0, 0, 0])
 
     def test_positions_that_are_none_are_refused(self):
-        for name, wrong in {"nodes": ["a", "b"], "components": [0.5, 0], "interface": [2], "retained": [-1]}.items():
-            with self.assertRaisesRegex(tj.ModelError, "whole numbers" if name in ("nodes", "components") else name):
+        for name, wrong in {
+                "nodes": ["a", "b"], "components": [0.5, 0], "interface": [2], "retained": [-1]
+        }.items():
+            with self.assertRaisesRegex(
+                    tj.ModelError, "whole numbers" if name in ("nodes", "components") else name):
                 tj.part("bad", np.eye(2), np.eye(2), **{name: wrong})
         with self.assertRaisesRegex(tj.ModelError, "retained"):
             tj.part("bad", np.eye(2), np.eye(2), interface=[1], retained=[1])
@@ -71,13 +81,20 @@ class Matrices(unittest.TestCase):
 
     def test_vectors_that_do_not_fit_are_refused(self):
         part = tj.part("chain", np.eye(3), np.eye(3))
-        for load, reason in ((np.ones((3, 2)), "3 x 2"), (np.ones(2), "array of 2; expected are 3 entries"), ("abc", "no vector"), (1j * np.ones(3), "no vector"),
-                             (None, "one number")):
+        for load, reason in (
+            (np.ones((3, 2)), "3 x 2"),
+            (np.ones(2), "array of 2; expected are 3 entries"),
+            ("abc", "no vector"),
+            (1j * np.ones(3), "no vector"),
+            (None, "one number"),
+        ):
             with self.assertRaisesRegex(tj.ModelError, reason):
                 part.model.add_load(load)
             with self.assertRaisesRegex(tj.ModelError, reason):
                 part.model.set_start(load, np.zeros(3))
-        for refused in (lambda: part.model.add_load([1, np.nan, 1]), lambda: part.model.add_damping(np.eye(2)), lambda: part.model.add_stiffness(np.eye(4), "k"),
+        for refused in (lambda: part.model.add_load([1, np.nan, 1]),
+                        lambda: part.model.add_damping(np.eye(2)),
+                        lambda: part.model.add_stiffness(np.eye(4), "k"),
                         lambda: part.model.set_start([np.inf, 0, 0], np.zeros(3))):
             with self.assertRaises(tj.ModelError):
                 refused()
@@ -90,26 +107,32 @@ class Matrices(unittest.TestCase):
         part = tj.part("chain", np.eye(3), 2 * np.eye(3) - np.eye(3, k=1) - np.eye(3, k=-1))
         both = tj.synthesise([part], modes=2)
         for call, sentence in {
-            lambda: tj.modes(part, 2.5): "modes(): count is 2.5; expected is a whole number.",
-            lambda: tj.modes(3, 2): "modes(): of is 3; expected is a Part or a ReducedPart or a Synthesis or a Model.",
-            lambda: tj.damped_modes(part, 2, "1 s"): "damped_modes(): t is '1 s'; expected is a number.",
-            lambda: tj.compare_modes(part, 2): "compare_modes(): synthesis is <Part",
-            lambda: tj.compare_modes(both, 2.5): "compare_modes(): count is 2.5",
-            lambda: tj.estimate_frequencies(both, "2"): "estimate_frequencies(): count is '2'",
-            lambda: tj.mac(1, 2, 3): "mac(): expected are two arrays of shapes",
-            lambda: tj.couple([1]): "couple(): parts[0] is 1; expected is a Part or a ReducedPart.",
-            lambda: tj.couple([part], 3): "coupling is 3; expected is the deck list Coupling",
-            lambda: tj.reduce(3): "reduce(): parts is 3; expected is a list",
-            lambda: tj.reduce(part, modes=object()): "is no value of a deck",
-            lambda: tj.synthesise(part): "synthesise(): parts is <Part",
-            lambda: tj.integrate("part", 1): "integrate(): of is 'part'",
-            lambda: tj.law("Spring", points=1.5, stiffness=1.0): "law(): points is 1.5",
-            lambda: tj.read_part("part.json", laws={"Omega": "fast"}): "read_part(): Omega is 'fast'; expected is a number.",
+                lambda: tj.modes(part, 2.5): "modes(): count is 2.5; expected is a whole number.",
+                lambda: tj.modes(3, 2): "modes(): of is 3; expected is a Part or a ReducedPart or "
+                "a Synthesis or a Model.",
+                lambda: tj.damped_modes(part, 2, "1 s"): "damped_modes(): t is '1 s'; expected is "
+                "a number.",
+                lambda: tj.compare_modes(part, 2): "compare_modes(): synthesis is <Part",
+                lambda: tj.compare_modes(both, 2.5): "compare_modes(): count is 2.5",
+                lambda: tj.estimate_frequencies(both, "2"): "estimate_frequencies(): count is '2'",
+                lambda: tj.mac(1, 2, 3): "mac(): expected are two arrays of shapes",
+                lambda: tj.couple([1]): "couple(): parts[0] is 1; expected is a Part or a "
+                "ReducedPart.",
+                lambda: tj.couple([part], 3): "coupling is 3; expected is the deck list Coupling",
+                lambda: tj.reduce(3): "reduce(): parts is 3; expected is a list",
+                lambda: tj.reduce(part, modes=object()): "is no value of a deck",
+                lambda: tj.synthesise(part): "synthesise(): parts is <Part",
+                lambda: tj.integrate("part", 1): "integrate(): of is 'part'",
+                lambda: tj.law("Spring", points=1.5, stiffness=1.0): "law(): points is 1.5",
+                lambda: tj.read_part("part.json", laws={
+                    "Omega": "fast"
+                }): "read_part(): Omega is 'fast'; expected is a number.",
         }.items():
             with self.assertRaises(tj.UsageError) as caught:
                 call()
             self.assertIn(sentence, str(caught.exception))
-        with self.assertRaisesRegex(tj.ModelError, 'the interface "end" has 1.5; expected are whole numbers'):
+        with self.assertRaisesRegex(tj.ModelError,
+                                    'the interface "end" has 1.5; expected are whole numbers'):
             tj.write_part(part, "part.h5", interfaces={"end": [1.5]})
         self.assertEqual(len(tj.modes(part, np.int64(2))), 2)
 
@@ -130,11 +153,18 @@ class Reduction(unittest.TestCase):
         self.assertEqual(len(full), self.K.shape[0])
         found = tj.modes(full, 6)
         self.assertEqual(found.frequency.unit, "Hz")
-        self.assertTrue(np.allclose(found.frequency, self.frequency, rtol=1e-9), f"{found.frequency} against {self.frequency}")
+        self.assertTrue(np.allclose(found.frequency, self.frequency, rtol=1e-9),
+                        f"{found.frequency} against {self.frequency}")
 
     def test_four_methods_against_the_whole(self):
-        # The sixth frequency of the cantilever needs a third bending mode of each half: eight modes bring all six within 0.1 %.
-        for method, tolerance, above in (("Craig-Bampton", 1e-3, True), ("Rubin", 1e-3, True), ("Krylov", 1e-3, True), ("Dual Craig-Bampton", 1e-3, False)):
+        # The sixth frequency of the cantilever needs a third bending mode of each half: eight modes
+        # bring all six within 0.1 %.
+        for method, tolerance, above in (
+            ("Craig-Bampton", 1e-3, True),
+            ("Rubin", 1e-3, True),
+            ("Krylov", 1e-3, True),
+            ("Dual Craig-Bampton", 1e-3, False),
+        ):
             with self.subTest(method):
                 synthesis = tj.synthesise([self.left, self.right], method, modes=8)
                 error = np.asarray(tj.modes(synthesis, 6).frequency) / self.frequency - 1
@@ -157,8 +187,11 @@ class Reduction(unittest.TestCase):
             basis = part.basis
             self.assertEqual(basis.shape, (len(like), len(part)))
             projected = basis.T @ like.model.stiffness() @ basis
-            self.assertTrue(np.allclose(projected.toarray(), part.model.stiffness().toarray(), atol=1e-9 * abs(projected).max()))
-            self.assertTrue((part.frequencies_hz <= 2000).all() and len(part.frequencies_hz) == part.modes > 0)
+            self.assertTrue(
+                np.allclose(projected.toarray(),
+                            part.model.stiffness().toarray(), atol=1e-9 * abs(projected).max()))
+            self.assertTrue((part.frequencies_hz <= 2000).all()
+                            and len(part.frequencies_hz) == part.modes > 0)
         step = tj.modes(tj.couple(reduced), 6).frequency
         once = tj.modes(tj.synthesise([self.left, self.right], cut_off_frequency=2000), 6).frequency
         self.assertTrue(np.allclose(step, once, rtol=1e-10))
@@ -169,17 +202,23 @@ class Reduction(unittest.TestCase):
         for row, frequency in zip(tj.compare_modes(synthesis, 4), self.frequency):
             self.assertAlmostEqual(row["full_hz"] / frequency, 1.0, places=8)
             self.assertAlmostEqual(row["mac"], 1.0, places=4)
-            self.assertTrue(row["estimate"] / 2 < row["error"] < 2 * row["estimate"] + 1e-10, f"estimate {row['estimate']}, error {row['error']}")
+            self.assertTrue(row["estimate"] / 2 < row["error"] < 2 * row["estimate"] + 1e-10,
+                            f"estimate {row['estimate']}, error {row['error']}")
         row = tj.compare_modes(synthesis, synthesis.model.mass.shape[0] + 2)[-1]
-        self.assertTrue(all(row[key] is None for key in ("coupled_mode", "coupled_hz", "mac", "error", "estimate")), "more modes than the reduced model has")
+        self.assertTrue(
+            all(row[key] is None
+                for key in ("coupled_mode", "coupled_hz", "mac", "error", "estimate")),
+            "more modes than the reduced model has")
         # The definition, with the shapes of the whole: M-orthogonal, so that MAC is the identity.
         found = tj.mac(self.shapes, -3 * self.shapes, self.M)
         self.assertTrue(np.allclose(found, np.eye(6), atol=1e-9))
         turned = self.shapes[:, :1] + self.shapes[:, 1:2]
-        self.assertTrue(np.allclose(tj.mac(turned, self.shapes[:, :3], self.M), [[0.5, 0.5, 0.0]], atol=1e-9))
+        self.assertTrue(
+            np.allclose(tj.mac(turned, self.shapes[:, :3], self.M), [[0.5, 0.5, 0.0]], atol=1e-9))
 
     def test_a_tolerance_chooses_the_modes(self):
-        synthesis = tj.synthesise([self.left, self.right], frequency_tolerance=1e-5, estimated_frequencies=4)
+        synthesis = tj.synthesise([self.left, self.right], frequency_tolerance=1e-5,
+                                  estimated_frequencies=4)
         error = np.asarray(tj.modes(synthesis, 4).frequency) / self.frequency[:4] - 1
         self.assertTrue(0 <= error.max() < 1e-5, f"{error}")
         self.assertTrue(synthesis.rounds)
@@ -188,7 +227,14 @@ class Reduction(unittest.TestCase):
     def test_springs_between_parts_of_the_list_coupling(self):
         # A spring to the ground at the tip is a term on the diagonal of K.
         stiffness = 5e4
-        springs = {"Point Laws": {"tip": {"First": "right:25", "Component": "v", "Type": "Spring", "Spring": {"Stiffness": stiffness}}}}
+        springs = {
+            "Point Laws": {
+                "tip": {
+                    "First": "right:25", "Component": "v", "Type": "Spring",
+                    "Spring": {"Stiffness": stiffness}
+                }
+            }
+        }
         K = self.K.tolil()
         K[-2, -2] += stiffness
         want, _ = exact(K.tocsr(), self.M, 4)
@@ -202,33 +248,45 @@ class Reduction(unittest.TestCase):
             part.model.add_damping(beta * part.model.stiffness())
         found = tj.damped_modes(tj.couple([left, right]), 3)
         want = beta * 2 * np.pi * self.frequency[:3] / 2  # zeta = beta omega / 2
-        self.assertTrue(np.allclose(found.damping, want, rtol=1e-6), f"{found.damping} against {want}")
+        self.assertTrue(np.allclose(found.damping, want, rtol=1e-6),
+                        f"{found.damping} against {want}")
 
     def test_parts_as_files_take_part_in_a_deck(self):
-        parts = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" value="{file}"/></ParameterList>'
+        parts = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" '
+                        f'value="{file}"/></ParameterList>'
                         for name, file in (("left", "left.h5"), ("right", "right")))
-        pathlib.Path("beam.xml").write_text(f"""<ParameterList name="beam">
+        pathlib.Path("beam.xml").write_text(
+            f"""<ParameterList name="beam">
   <ParameterList name="Parts"><ParameterList name="Imported">{parts}</ParameterList>
-    <Parameter name="Joints" type="Array(string)" value="{{left:middle = right:middle}}"/></ParameterList></ParameterList>""", encoding="utf-8")
+    <Parameter name="Joints" type="Array(string)" value="{{left:middle = right:middle}}"/>
+    </ParameterList></ParameterList>""", encoding="utf-8")
         if tj.rank() == 0:
             pathlib.Path("right").mkdir(exist_ok=True)
         tj.write_part(self.left, "left.h5", {"middle": self.left.interface})
         tj.write_part(self.right, "right", {"middle": self.right.interface})
-        for part, again in ((self.left, tj.read_part("left.h5", "left")), (self.right, tj.read_part("right", "right"))):
+        for part, again in (
+            (self.left, tj.read_part("left.h5", "left")),
+            (self.right, tj.read_part("right", "right")),
+        ):
             self.assertEqual(again.name, part.name)
             self.assertEqual(again.interface.tolist(), part.interface.tolist())
             self.assertTrue(np.array_equal(again.model.mass.toarray(), part.model.mass.toarray()))
             self.assertEqual(again.model.dof_names, part.model.dof_names)
         found = tj.modes(tj.Deck("beam.xml").at_rest().full(), 6).frequency
-        self.assertTrue(np.allclose(found, self.frequency, rtol=1e-8), f"{found} against {self.frequency}")
+        self.assertTrue(np.allclose(found, self.frequency, rtol=1e-8),
+                        f"{found} against {self.frequency}")
         with self.assertRaises(tj.DeckError):
             tj.read_part("nowhere.h5")
         reduced = tj.reduce(self.left, modes=2)
         with self.assertRaisesRegex(tj.UsageError, "takes a Part, not <ReducedPart"):
             tj.write_part(reduced, "reduced.h5")
-        part = tj.part("reduced", reduced.model.mass, reduced.model.stiffness(), interface=range(reduced.interface))
+        part = tj.part("reduced", reduced.model.mass, reduced.model.stiffness(),
+                       interface=range(reduced.interface))
         tj.write_part(part, "reduced.h5")
-        self.assertTrue(np.allclose(tj.modes(tj.read_part("reduced.h5"), 2).frequency, tj.modes(reduced.model, 2).frequency, rtol=1e-10))
+        self.assertTrue(
+            np.allclose(
+                tj.modes(tj.read_part("reduced.h5"), 2).frequency,
+                tj.modes(reduced.model, 2).frequency, rtol=1e-10))
 
     def test_laws_of_a_file_are_given_and_point_laws_told(self):
         stiff, k = np.diag([5e3, 0, 0]), 1e3 * np.array([[2.0, -1, 0], [-1, 2, -1], [0, -1, 2]])
@@ -243,7 +301,8 @@ class Reduction(unittest.TestCase):
             tj.read_part("bearing.h5", laws={"bearing": 2, "Omega": 1})
         for law in (2, lambda t: 2.0):
             again = tj.read_part("bearing.h5", laws={"bearing": law})
-            self.assertTrue(any("point law \"spring\"" in warning for warning in tj.warnings()), tj.warnings())
+            self.assertTrue(any("point law \"spring\"" in warning for warning in tj.warnings()),
+                            tj.warnings())
             self.assertTrue(np.allclose(tj.modes(again, 3).frequency, exact, rtol=1e-9))
         with self.assertRaisesRegex(tj.ModelError, "cannot be called"):
             part.model.add_load([1.0, 0, 0], "load", {"Form": "Ramp"})

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python/tooljoint/_core.pyi is what the module says of itself. `test_stub.py --update` writes it."""
+"""python/tooljoint/_core.pyi is what the module says of itself.
+`test_stub.py --update` writes it."""
 import inspect
 import os
 import pathlib
@@ -27,24 +28,30 @@ from numpy.typing import ArrayLike
 
 
 def typed(signature):
-    """Types of pybind11 as those of Python: classes of this module, arrays; arguments may be anything that becomes one."""
+    """Types of pybind11 as those of Python: classes of this module, arrays; arguments may be
+    anything that becomes one."""
     signature = re.sub(r"numpy\.ndarray\[(?:[^\[\]]|\[[^\[\]]*\])*\]", "numpy.ndarray", signature)
     signature = signature.replace("tooljoint._core.", "").replace("tooljoint::python::", "")
-    signature = re.sub(r"\bUnion\[None, (.*?)\] = None", lambda found: found[1].replace(", ", " | ") + " | None = None", signature)
+    signature = re.sub(r"\bUnion\[None, (.*?)\] = None",
+                       lambda found: found[1].replace(", ", " | ") + " | None = None", signature)
     signature = re.sub(r"\bOptional\[([^\[\]]*)\]", r"\1 | None", signature)
     signature = re.sub(r": (Model) = None", r": \1 | None = None", signature)
-    for old, new in (("List[", "list["), ("Tuple[", "tuple["), ("Dict[", "dict["), ("array([], dtype=float64)", "..."), (": object", ": Any"), ("-> object", "-> Any"), ("numpy.dtype", "Any")):
+    for old, new in (("List[", "list["), ("Tuple[", "tuple["), ("Dict[", "dict["),
+                     ("array([], dtype=float64)", "..."), (": object", ": Any"),
+                     ("-> object", "-> Any"), ("numpy.dtype", "Any")):
         signature = signature.replace(old, new)
     arguments, result = signature.rsplit("->", 1)
-    return arguments.replace("numpy.ndarray", "ArrayLike").replace("list[", "Iterable[") + "->" + result
+    arguments = arguments.replace("numpy.ndarray", "ArrayLike").replace("list[", "Iterable[")
+    return arguments + "->" + result
 
 
 def function(name, doc, indent=""):
     """Stub of a function from its docstring, whose first line is its signature."""
     lines = doc.strip().splitlines()
     text = " ".join(line.strip() for line in lines[1:] if line.strip())
-    signature = typed(lines[0][lines[0].index("(") :])
-    return f'{indent}def {name}{signature}:\n{indent}    """{text}"""\n' if text else f"{indent}def {name}{signature}: ...\n"
+    signature = typed(lines[0][lines[0].index("("):])
+    return (f'{indent}def {name}{signature}:\n{indent}    """{text}"""\n'
+            ) if text else f"{indent}def {name}{signature}: ...\n"
 
 
 def members(cls):
@@ -52,23 +59,33 @@ def members(cls):
     for name, one in sorted(vars(cls).items()):
         if isinstance(one, property):
             result = typed(one.fget.__doc__.strip().splitlines()[0]).split("->")[-1].strip()
-            text += f'    @property\n    def {name}(self) -> {result}:\n        """{one.__doc__}"""\n'
-        elif (not name.startswith("_") or name in ("__init__", "__len__", "__repr__")) and "(self: " in (one.__doc__ or ""):
-            text += function(name, re.sub(r"self: [\w.]+(?:\[[\w.]*\])?", "self", one.__doc__), "    ")
+            text += (f'    @property\n    def {name}(self) -> {result}:\n'
+                     f'        """{one.__doc__}"""\n')
+        elif (not name.startswith("_")
+              or name in ("__init__", "__len__", "__repr__")) and "(self: " in (one.__doc__ or ""):
+            text += function(name, re.sub(r"self: [\w.]+(?:\[[\w.]*\])?", "self", one.__doc__),
+                             "    ")
     return text + "\n"
 
 
 def stub():
     names = {name: one for name, one in vars(_core).items() if not name.startswith("_")}
     classes = [members(one) for _, one in sorted(names.items()) if inspect.isclass(one)]
-    functions = [function(name, one.__doc__) for name, one in sorted(names.items()) if not inspect.isclass(one)]
+    functions = [
+        function(name, one.__doc__) for name, one in sorted(names.items())
+        if not inspect.isclass(one)
+    ]
     return HEAD + "\n".join(classes) + "\n" + "\n".join(functions)
 
 
 class Types(unittest.TestCase):
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_the_package_fits_its_stub(self):
-        command = ["mypy", "--ignore-missing-imports", "--python-executable", sys.executable, "--cache-dir", "mypy", str(STUB.parent)]
+        command = [
+            "mypy", "--ignore-missing-imports", "--python-executable", sys.executable,
+            "--cache-dir", "mypy",
+            str(STUB.parent)
+        ]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout)
 
@@ -76,14 +93,17 @@ class Types(unittest.TestCase):
 class Stub(unittest.TestCase):
     def test_it_is_that_of_the_module(self):
         written, now = STUB.read_text(encoding="utf-8"), stub()
-        self.assertEqual(written, now, "python/tooljoint/_core.pyi is old: run tests/python/test_stub.py --update")
+        self.assertEqual(
+            written, now,
+            "python/tooljoint/_core.pyi is old: run tests/python/test_stub.py --update")
 
     def test_it_is_python(self):
         compile(stub(), str(STUB), "exec")
 
     def test_everything_has_a_docstring(self):
         for line in stub().splitlines():
-            self.assertFalse(line.endswith(": ...") and "__" not in line, f"{line} has no docstring")
+            self.assertFalse(
+                line.endswith(": ...") and "__" not in line, f"{line} has no docstring")
 
 
 if __name__ == "__main__":

@@ -13,8 +13,10 @@ FRAME = SOURCE / "xml/frame.xml"
 
 
 @tj.basis("Inverse Steps")
-def inverse_steps(part, count, steps=3, extra=tj.Parameter(4, doc="Vectors beside those asked for.")):
-    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko et al. 2011)."""
+def inverse_steps(part, count, steps=3, extra=tj.Parameter(4,
+                                                           doc="Vectors beside those asked for.")):
+    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko et al.
+    2011)."""
     random = np.random.default_rng(1)
     vectors = random.standard_normal((len(part.interior), count + extra))
     for step in range(steps):
@@ -27,17 +29,21 @@ class Bases(unittest.TestCase):
         self.assertIn("Inverse Steps", tj.bases())
         left, right, _, _ = beams.halves(tj)
         want = tj.modes(tj.synthesise([left, right], "Craig-Bampton", modes=5), 5).frequency
-        found = tj.modes(tj.synthesise([left, right], "Inverse Steps", modes=5, steps=6), 5).frequency
+        found = tj.modes(tj.synthesise([left, right], "Inverse Steps", modes=5, steps=6),
+                         5).frequency
         self.assertTrue(np.allclose(found, want, rtol=1e-4), f"{found} against {want}")
-        worse = tj.modes(tj.synthesise([left, right], "Inverse Steps", modes=5, steps=1, extra=0), 5).frequency
-        self.assertGreater(max(worse - want), 10 * max(abs(found - want)), "steps and extra change nothing")
+        worse = tj.modes(tj.synthesise([left, right], "Inverse Steps", modes=5, steps=1, extra=0),
+                         5).frequency
+        self.assertGreater(max(worse - want), 10 * max(abs(found - want)),
+                           "steps and extra change nothing")
 
     def test_cut_off_frequency_and_all_modes(self):
         left, right, K, M = beams.halves(tj)
         full = tj.modes(tj.couple([left, right]), 5).frequency
         found = tj.modes(tj.synthesise([left, right], "Inverse Steps", all_modes=True), 5).frequency
         self.assertTrue(np.allclose(found, full, rtol=1e-8))
-        one, other = (tj.reduce(left, method, cut_off_frequency="2 kHz") for method in ("Craig-Bampton", "Inverse Steps"))
+        one, other = (tj.reduce(left, method, cut_off_frequency="2 kHz")
+                      for method in ("Craig-Bampton", "Inverse Steps"))
         self.assertEqual(one.modes, other.modes)
         self.assertTrue((other.frequencies_hz <= 2000).all())
 
@@ -53,9 +59,11 @@ class Bases(unittest.TestCase):
         kept = []
         for name, build, words in (
             ("Raises", lambda part, count: 1 / 0, 'The basis "Raises" raised ZeroDivisionError'),
-            ("Short", lambda part, count: np.zeros((3, 2)), 'The basis "Short" returned 3 rows for part "left"; expected are its 22'),
+            ("Short", lambda part, count: np.zeros(
+                (3, 2)), 'The basis "Short" returned 3 rows for part "left"; expected are its 22'),
             ("Flat", lambda part, count: np.zeros(22), "not two dimensions"),
-            ("Complex", lambda part, count: 1j * np.eye(22), 'The basis "Complex" returned complex numbers'),
+            ("Complex", lambda part, count: 1j * np.eye(22),
+             'The basis "Complex" returned complex numbers'),
             ("Infinite", lambda part, count: np.full((22, 2), np.nan), "not finite"),
             ("Keeps", lambda part, count: kept.append(part) or np.eye(22), None),
         ):
@@ -69,7 +77,8 @@ class Bases(unittest.TestCase):
         tj.basis("One Shape")(lambda part, count: np.ones((22, 5)))
         reduced = tj.reduce(left, "One Shape", modes=2)
         self.assertEqual(reduced.modes, 1)
-        self.assertIn("requested 2 modes, but the 5 vectors given span 1", " ".join(reduced.remarks))
+        self.assertIn("requested 2 modes, but the 5 vectors given span 1",
+                      " ".join(reduced.remarks))
         with self.assertRaisesRegex(tj.UsageError, "for the time of its call"):
             kept[0].interior_mass
         with self.assertRaisesRegex(tj.UsageError, "already"):
@@ -78,14 +87,21 @@ class Bases(unittest.TestCase):
         tj.reduce(left, "Short", modes=2)
 
     def test_it_takes_part_in_a_deck_and_in_a_study(self):
-        changes = {"Reduction/Basis": "Inverse Steps", "Reduction/Inverse Steps/Steps": 5, "Reduction/Error Estimate": "Frequencies"}
+        changes = {
+            "Reduction/Basis": "Inverse Steps", "Reduction/Inverse Steps/Steps": 5,
+            "Reduction/Error Estimate": "Frequencies"
+        }
         results = tj.run(FRAME, {**changes, "Transient/End Time": 0.05}, output="deck")
         self.assertEqual(results.summary["reduction"]["basis"], "Inverse Steps")
         # of the frequencies below the cut-off of 400 Hz
         self.assertLess(results.summary["reduction"]["estimate"]["frequency_error"], 0.05)
 
-        deck = tj.Deck(SOURCE / "tests/study/frame.xml", without=[f"Study/Methods/{name}" for name in (
-            "full", "reduced interfaces", "own vectors", "other start", "explicit", "dual", "too coarse")])
+        deck = tj.Deck(
+            SOURCE / "tests/study/frame.xml", without=[
+                f"Study/Methods/{name}"
+                for name in ("full", "reduced interfaces", "own vectors", "other start", "explicit",
+                             "dual", "too coarse")
+            ])
         deck["Study/Methods/CMS/Sweep/basis/Values"] = ["Craig-Bampton", "Inverse Steps"]
         del deck["Study/Baseline"]
         deck["Transient/End Time"] = 0.2
@@ -94,10 +110,12 @@ class Bases(unittest.TestCase):
         deck["Study/Reference/Set"] = ["Transient/Step=5e-4"]
         deck["Study/Check/Set"] = ["Transient/Step=2.5e-4"]
         rows = deck.study("study")
-        errors = {(row["basis"], row["modes"]): row["vibration_error"] for row in rows if row["method"] == "CMS"}
+        errors = {(row["basis"], row["modes"]): row["vibration_error"] for row in rows
+                  if row["method"] == "CMS"}
         self.assertEqual(len(errors), 4, f"{rows}")
         for (name, modes), error in errors.items():
-            self.assertTrue(0.5 < error / errors["Craig-Bampton", modes] < 2 and error < 0.01, f"{name} with {modes} modes: error {error}")
+            self.assertTrue(0.5 < error / errors["Craig-Bampton", modes] < 2 and error < 0.01,
+                            f"{name} with {modes} modes: error {error}")
 
 
 class Laws(unittest.TestCase):
@@ -108,21 +126,29 @@ class Laws(unittest.TestCase):
             return -stiffness * d
 
         def motion(law, **parameters):
-            deck = tj.Deck(FRAME, {"Transient/End Time": 0.2, "Transient/Step": 1e-3, "Parts/Loads/shaker/Value": 0.0}, ["Parts/Starts"])
+            deck = tj.Deck(FRAME, {
+                "Transient/End Time": 0.2, "Transient/Step": 1e-3, "Parts/Loads/shaker/Value": 0.0
+            }, ["Parts/Starts"])
             if law:
-                deck.add("Coupling/Point Laws/guy", {"First": "top beam:5", "Component": "v", "Type": law, law: parameters})
+                deck.add("Coupling/Point Laws/guy",
+                         {"First": "top beam:5", "Component": "v", "Type": law, law: parameters})
             return deck.run(law or "free")["transient/displacement"]
 
         @tj.point_law("Yielding Rope", states=1, start=lambda t, d, v, stiffness, damping: d)
-        def yielding(t, d, v, x, stiffness=tj.Parameter(unit="N/m"), damping=tj.Parameter(unit="N s/m")):
+        def yielding(t, d, v, x, stiffness=tj.Parameter(unit="N/m"),
+                     damping=tj.Parameter(unit="N s/m")):
             """A spring and a dashpot in series."""
             return -stiffness * (d - x), stiffness / damping * (d - x)
 
         free = motion("")
         size = abs(free).max()
-        for python, cpp, parameters in (("Rope", "Spring", {}), ("Yielding Rope", "Maxwell", {"damping": "10 kN s/m"})):
+        for python, cpp, parameters in (
+            ("Rope", "Spring", {}),
+            ("Yielding Rope", "Maxwell", {"damping": "10 kN s/m"}),
+        ):
             with self.subTest(cpp):
-                moved, truth = (motion(law, stiffness="200 kN/m", **parameters) for law in (python, cpp))
+                moved, truth = (motion(law, stiffness="200 kN/m", **parameters)
+                                for law in (python, cpp))
                 self.assertGreater(abs(truth - free).max(), 0.01 * size, "the law does not show")
                 self.assertLess(abs(moved - truth).max(), 1e-7 * size)
 
@@ -134,11 +160,15 @@ class Laws(unittest.TestCase):
 
         at_rest = ["Transient", "Reduction", "Substructures"]
         stiff = {"Contact/Law": "Frictionless Wall", "Contact/Frictionless Wall/Stiffness": 1e7}
-        own = tj.run(SOURCE / "tests/effects/scene.xml", stiff, [*at_rest, "Contact/Friction", "Contact/Intervals"], output="bore").summary["static"]
-        clamped = tj.run(SOURCE / "tests/effects/scene.xml", {}, at_rest, output="clamped").summary["static"]
+        own = tj.run(SOURCE / "tests/effects/scene.xml", stiff,
+                     [*at_rest, "Contact/Friction", "Contact/Intervals"],
+                     output="bore").summary["static"]
+        clamped = tj.run(SOURCE / "tests/effects/scene.xml", {}, at_rest,
+                         output="clamped").summary["static"]
         self.assertEqual(own["contact_nodes"], clamped["contact_nodes"])
         # The same walls carry the same weight; friction carries some of it in one of the two.
-        self.assertAlmostEqual(own["total_normal_force"] / clamped["total_normal_force"], 1.0, delta=0.1)
+        self.assertAlmostEqual(own["total_normal_force"] / clamped["total_normal_force"], 1.0,
+                               delta=0.1)
 
 
 if __name__ == "__main__":

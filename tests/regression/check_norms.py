@@ -16,17 +16,21 @@ A gold is a JSON file:
       "norms": {
         "static.residual":        {"value": 1e-9, "at_most": true},
         "path.converged":         {"value": true},
-        "static.top_axial_force": {"value": 81234.5, "relative": 1e-10, "absolute": 0.0, "why": "np equality of the static state"},
+        "static.top_axial_force": {"value": 81234.5, "relative": 1e-10, "absolute": 0.0,
+                                   "why": "np equality of the static state"},
         "reduction.substructures.0.modes": {"value": 60}
       }
     }
 
-`rests_on` begins with one of "closed form", "balance", "published", "independent computation", "pinned", a colon, and the argument. "pinned" is a value that
-is right only because it was so before: the argument says why there is nothing better.
+`rests_on` begins with one of "closed form", "balance", "published", "independent computation",
+"pinned", a colon, and the argument. "pinned" is a value that is right only because it was so
+before: the argument says why there is nothing better.
 
-Keys are dotted paths into summary.json, numbers step into lists. A real number needs `relative` and/or `absolute` (the sum of both
-allowances holds), or `at_most`, which bounds its size, or `at_least`, which bounds the number; whole numbers, texts and booleans without tolerance must be equal. `--update` runs the deck once
-on the first of `ranks` and rewrites the values (not those with `at_most` or `at_least`), never the tolerances.
+Keys are dotted paths into summary.json, numbers step into lists. A real number needs `relative`
+and/or `absolute` (the sum of both allowances holds), or `at_most`, which bounds its size, or
+`at_least`, which bounds the number; whole numbers, texts and booleans without tolerance must be
+equal. `--update` runs the deck once on the first of `ranks` and rewrites the values (not those with
+`at_most` or `at_least`), never the tolerances.
 """
 import argparse
 import copy
@@ -56,13 +60,20 @@ def look_up(summary, key):
 
 
 def run(options, gold, ranks, output):
-    """Runs the deck and returns its summary; ends the process with the program's output when the run fails."""
-    command = [options.mpiexec, "-np", str(ranks), options.program, "run", str(options.project / gold["deck"]), "--output", str(output)]
+    """Runs the deck and returns its summary; ends the process with the program's output when the
+    run fails."""
+    command = [
+        options.mpiexec, "-np",
+        str(ranks), options.program, "run",
+        str(options.project / gold["deck"]), "--output",
+        str(output)
+    ]
     for override in gold.get("set", []):
         command += ["--set", override]
     print(" ".join(command), flush=True)
     (output / "summary.json").unlink(missing_ok=True)
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          errors="replace", check=False)
     if done.returncode != 0:
         sys.exit(f"{done.stdout}\nThe run failed with exit code {done.returncode}.")
     with open(output / "summary.json", encoding="utf-8") as file:
@@ -89,18 +100,22 @@ def compare(norm, found):
 
 
 def faults_of(gold):
-    """What is wrong with a gold: what cannot fail, cannot be read, or does not say why it is right."""
+    """What is wrong with a gold: what cannot fail, cannot be read, or does not say why it is
+    right."""
     norms, arguments = gold.get("norms", {}), gold.get("rests_on", {})
     if not norms:
         yield "no norms, so nothing would be compared."
     for key, norm in norms.items():
         if "value" not in norm:
             yield f"{key} has no value yet: run with --update and look at what it wrote."
-        elif isinstance(norm["value"], float) and not ({"relative", "absolute", "at_most", "at_least"} & norm.keys()):
+        elif isinstance(
+                norm["value"],
+                float) and not ({"relative", "absolute", "at_most", "at_least"} & norm.keys()):
             yield f"{key} is a real number and states no tolerance."
         source, _, argument = arguments.get(key, "").partition(": ")
         if source not in SOURCES or not argument.strip():
-            yield f"{key} does not say in \"rests_on\" what its value rests on: one of {', '.join(SOURCES)}, a colon, and why."
+            yield (f"{key} does not say in \"rests_on\" what its value rests on: one of "
+                   f"{', '.join(SOURCES)}, a colon, and why.")
     for key in arguments.keys() - norms.keys():
         yield f"\"rests_on\" argues for {key}, which is no norm."
 
@@ -113,13 +128,29 @@ def check_gold(gold, path):
 
 
 def self_test():
-    """Shows that every fault of a gold is found, and that values outside of their tolerance fail."""
-    good = {"norms": {"a.b": {"value": 1.5, "relative": 0.1}, "c": {"value": 3}, "d": {"value": 1.0, "at_most": True}},
-            "rests_on": {"a.b": "closed form: 3/2", "c": "pinned: no closed form", "d": "balance: what goes in comes out"}}
-    cases = {"": lambda gold: None, "no norms": lambda gold: gold.update(norms={}, rests_on={}), "no value yet": lambda gold: gold["norms"]["c"].pop("value"),
-             "states no tolerance": lambda gold: gold["norms"]["a.b"].pop("relative"), "c does not say": lambda gold: gold["rests_on"].pop("c"),
-             "d does not say": lambda gold: gold.pop("rests_on"), "a.b does not say": lambda gold: gold["rests_on"].update({"a.b": "guess: it looks right"}),
-             "one of closed form": lambda gold: gold["rests_on"].update({"a.b": "closed form: "}), "argues for e": lambda gold: gold["rests_on"].update(e="pinned: x")}
+    """Shows that every fault of a gold is found, and that values outside of their tolerance
+    fail."""
+    good = {
+        "norms": {
+            "a.b": {"value": 1.5, "relative": 0.1},
+            "c": {"value": 3},
+            "d": {"value": 1.0, "at_most": True},
+        },
+        "rests_on": {
+            "a.b": "closed form: 3/2", "c": "pinned: no closed form",
+            "d": "balance: what goes in comes out"
+        },
+    }
+    cases = {
+        "": lambda gold: None, "no norms": lambda gold: gold.update(norms={}, rests_on={}),
+        "no value yet": lambda gold: gold["norms"]["c"].pop("value"),
+        "states no tolerance": lambda gold: gold["norms"]["a.b"].pop("relative"),
+        "c does not say": lambda gold: gold["rests_on"].pop("c"),
+        "d does not say": lambda gold: gold.pop("rests_on"),
+        "a.b does not say": lambda gold: gold["rests_on"].update({"a.b": "guess: it looks right"}),
+        "one of closed form": lambda gold: gold["rests_on"].update({"a.b": "closed form: "}),
+        "argues for e": lambda gold: gold["rests_on"].update(e="pinned: x")
+    }
     failures = 0
     for sentence, spoil in cases.items():
         gold = copy.deepcopy(good)
@@ -128,11 +159,20 @@ def self_test():
         fine = any(sentence in fault for fault in faults) if sentence else not faults
         failures += not fine
         print(f"{'ok    ' if fine else 'FAILED'} {sentence or 'a good gold'}: {faults}")
-    for norm, found, expected in (({"value": 2.0, "relative": 0.1}, 2.19, True), ({"value": 2.0, "relative": 0.1}, 2.21, False), ({"value": 2.0, "absolute": 0.1}, 1.89, False),
-                                  ({"value": 2.0, "relative": 0.05, "absolute": 0.1}, 2.19, True), ({"value": 1.0, "at_most": True}, -1.1, False),
-                                  ({"value": 1.0, "at_most": True}, -0.9, True), ({"value": 1.0, "at_most": True}, math.nan, False),
-                                  ({"value": -0.1, "at_least": True}, 0.5, True), ({"value": -0.1, "at_least": True}, -0.2, False), ({"value": 3}, 4, False),
-                                  ({"value": True}, 1, False), ({"value": 3}, None, False)):
+    for norm, found, expected in (
+        ({"value": 2.0, "relative": 0.1}, 2.19, True),
+        ({"value": 2.0, "relative": 0.1}, 2.21, False),
+        ({"value": 2.0, "absolute": 0.1}, 1.89, False),
+        ({"value": 2.0, "relative": 0.05, "absolute": 0.1}, 2.19, True),
+        ({"value": 1.0, "at_most": True}, -1.1, False),
+        ({"value": 1.0, "at_most": True}, -0.9, True),
+        ({"value": 1.0, "at_most": True}, math.nan, False),
+        ({"value": -0.1, "at_least": True}, 0.5, True),
+        ({"value": -0.1, "at_least": True}, -0.2, False),
+        ({"value": 3}, 4, False),
+        ({"value": True}, 1, False),
+        ({"value": 3}, None, False),
+    ):
         fine = compare(norm, found)[2] is expected
         failures += not fine
         print(f"{'ok    ' if fine else 'FAILED'} {norm} against {found}")
@@ -147,8 +187,10 @@ def update(options, gold):
             if found != norm.get("value"):
                 print(f"{key}: {norm.get('value')} -> {found}")
             norm["value"] = found
-    norms = ",\n    ".join(f"{json.dumps(key)}: {json.dumps(norm)}" for key, norm in gold["norms"].items())
-    text = json.dumps({**gold, "norms": {}}, indent=2).replace('"norms": {}', f'"norms": {{\n    {norms}\n  }}')
+    norms = ",\n    ".join(
+        f"{json.dumps(key)}: {json.dumps(norm)}" for key, norm in gold["norms"].items())
+    text = json.dumps({**gold, "norms": {}}, indent=2)
+    text = text.replace('"norms": {}', f'"norms": {{\n    {norms}\n  }}')
     options.gold.write_text(text + "\n", encoding="utf-8")
     return 0
 
@@ -166,8 +208,10 @@ def verify(options, gold):
         except KeyError as step:
             found, difference, allowed, ok = f"no {step}", "", "", False
         failed += not ok
-        print(f"{key:<{width}}  {norm['value']!s:>24}  {found!s:>24}  {difference:>10}  {allowed:>10}{'' if ok else '  FAILED'}")
-    print(f"\n{len(gold['norms'])} norms on {options.ranks} ranks, {failed} outside their tolerance.")
+        print(f"{key:<{width}}  {norm['value']!s:>24}  {found!s:>24}  {difference:>10}  "
+              f"{allowed:>10}{'' if ok else '  FAILED'}")
+    print(
+        f"\n{len(gold['norms'])} norms on {options.ranks} ranks, {failed} outside their tolerance.")
     return 1 if failed else 0
 
 
@@ -179,7 +223,8 @@ def main():
     parser.add_argument("--program", default=os.environ.get("TOOLJOINT_PROGRAM", "tooljoint"))
     parser.add_argument("--mpiexec", default="mpirun")
     parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--output", type=pathlib.Path, required=True, help="folder for the results of the run")
+    parser.add_argument("--output", type=pathlib.Path, required=True,
+                        help="folder for the results of the run")
     parser.add_argument("--update", action="store_true", help="rewrite the values of the gold")
     options = parser.parse_args()
     options.project = pathlib.Path(__file__).resolve().parents[2]

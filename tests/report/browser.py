@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A headless Chromium that is driven through its pipe: pages at a given width, what they say on the console, pixels, values."""
+"""A headless Chromium that is driven through its pipe: pages at a given width, what they say on the
+console, pixels, values."""
 import base64
 import json
 import os
@@ -8,9 +9,12 @@ import subprocess
 import tempfile
 import time
 
+WRONG = ("error", "warning", "assert")  # kinds of console messages
 NAMES = ("chromium", "chromium-browser", "google-chrome")
-OPTIONS = ("--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
-           "--disable-background-networking", "--disable-extensions", "--hide-scrollbars", "--remote-debugging-pipe")
+OPTIONS = ("--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle",
+           "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
+           "--disable-background-networking", "--disable-extensions", "--hide-scrollbars",
+           "--remote-debugging-pipe")
 
 
 def program():
@@ -20,7 +24,6 @@ def program():
 
 class Browser:
     """with Browser() as browser: page = browser.open(path, width)"""
-
     def __init__(self, seconds=120):
         self.seconds, self.number, self.events = seconds, 0, []
 
@@ -28,7 +31,8 @@ class Browser:
         self.profile = tempfile.mkdtemp(prefix="report_browser_")
         to_read, self.write = os.pipe()
         self.read, to_write = os.pipe()
-        # Chromium reads commands from descriptor 3 and writes answers to 4; moved out of the way first, since they may be these numbers.
+        # Chromium reads commands from descriptor 3 and writes answers to 4; moved out of the way
+        # first, since they may be these numbers.
         moved = [os.dup(descriptor) for descriptor in (to_read, to_write)]
         while min(moved) <= 4:
             moved = [os.dup(descriptor) for descriptor in moved]
@@ -37,13 +41,16 @@ class Browser:
             os.dup2(moved[0], 3)
             os.dup2(moved[1], 4)
 
-        self.process = subprocess.Popen([program(), *OPTIONS, f"--user-data-dir={self.profile}", "about:blank"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                        stderr=subprocess.DEVNULL, preexec_fn=descriptors, close_fds=False)
+        self.process = subprocess.Popen(
+            [program(), *OPTIONS, f"--user-data-dir={self.profile}", "about:blank"],
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            preexec_fn=descriptors, close_fds=False)
         for descriptor in (to_read, to_write, *moved):
             os.close(descriptor)
         self.left = b""
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
-        self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self.session = self.call("Target.attachToTarget", targetId=target,
+                                 flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
         return self
@@ -83,7 +90,8 @@ class Browser:
     def open(self, path, width, height=900):
         """Loads a file; what the page says on the console from then on is in faults()."""
         self.events = []
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                  deviceScaleFactor=1, mobile=False)
         self.call("Page.navigate", url=path.resolve().as_uri())
         until = time.monotonic() + self.seconds
         while not any(event.get("method") == "Page.loadEventFired" for event in self.events):
@@ -92,23 +100,30 @@ class Browser:
 
     def value(self, expression):
         """Value of a JavaScript expression in the page, promises awaited."""
-        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
+                           awaitPromise=True)
         if "exceptionDetails" in result:
-            raise RuntimeError(result["exceptionDetails"]["exception"].get("description", expression))
+            raise RuntimeError(result["exceptionDetails"]["exception"].get(
+                "description", expression))
         return result["result"].get("value")
 
     def faults(self):
-        """Errors and warnings of the console, exceptions, and requests to anything but the file itself."""
+        """Errors and warnings of the console, exceptions, and requests to anything but the file
+        itself."""
         found = []
         for event in self.events:
             method, what = event.get("method"), event.get("params", {})
             if method == "Runtime.exceptionThrown":
-                found.append(what["exceptionDetails"].get("exception", {}).get("description", "exception"))
-            elif method == "Runtime.consoleAPICalled" and what["type"] in ("error", "warning", "assert"):
-                found.append(" ".join(str(argument.get("value", argument.get("description", ""))) for argument in what["args"]))
+                thrown = what["exceptionDetails"].get("exception", {})
+                found.append(thrown.get("description", "exception"))
+            elif method == "Runtime.consoleAPICalled" and what["type"] in WRONG:
+                found.append(" ".join(
+                    str(argument.get("value", argument.get("description", "")))
+                    for argument in what["args"]))
             elif method == "Log.entryAdded" and what["entry"]["level"] == "error":
                 found.append(what["entry"]["text"])
-            elif method == "Network.requestWillBeSent" and not what["request"]["url"].startswith(("file:", "data:", "blob:")):
+            elif method == "Network.requestWillBeSent" and not what["request"]["url"].startswith(
+                ("file:", "data:", "blob:")):
                 found.append("request of " + what["request"]["url"])
         return found
 
@@ -119,10 +134,15 @@ class Browser:
         clip = {}
         if element:
             box = self.value(f"""(() => {{
-                const boxes = [...document.querySelectorAll({json.dumps(element)})].map((one) => one.getBoundingClientRect());
-                const left = Math.min(...boxes.map((b) => b.left)), top = Math.min(...boxes.map((b) => b.top));
-                return {{x: left + scrollX, y: top + scrollY, width: Math.max(...boxes.map((b) => b.right)) - left, height: Math.max(...boxes.map((b) => b.bottom)) - top}};
+                const found = [...document.querySelectorAll({json.dumps(element)})];
+                const boxes = found.map((one) => one.getBoundingClientRect());
+                const left = Math.min(...boxes.map((b) => b.left));
+                const top = Math.min(...boxes.map((b) => b.top));
+                return {{x: left + scrollX, y: top + scrollY,
+                         width: Math.max(...boxes.map((b) => b.right)) - left,
+                         height: Math.max(...boxes.map((b) => b.bottom)) - top}};
             }})()""")
             clip = {"clip": {**box, "scale": 1}}
-        shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole or bool(element), **clip)
+        shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole
+                         or bool(element), **clip)
         path.write_bytes(base64.b64decode(shot["data"]))

@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a report computes itself, against closed forms: check_quantities.py
 
-Stresses, curvatures, precession, spectra, envelopes, units, the deck with its overrides, best and worst points of maps, and the numbers of the
-3-D view.
+Stresses, curvatures, precession, spectra, envelopes, units, the deck with its overrides, best and
+worst points of maps, and the numbers of the 3-D view.
 """
 import base64
 import pathlib
 import re
 import sys
-from unittest import mock
 
 import numpy as np
 
@@ -18,41 +17,20 @@ sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "support")]
 from checks import expect, finish  # noqa: E402
 import plot_map  # noqa: E402
 import plots  # noqa: E402
-from report import checks, deck, figures, of_map, of_run, quantities, results, scene3d, tables  # noqa: E402
-
-
-class Bar:
-    """A straight vertical pipe of `elements` elements in the place of a run."""
-
-    def __init__(self, elements=10, length=20.0, outer=0.06, inner=0.05, tension=1e5, torque=-2e3):
-        nodes = elements + 1
-        self.s = np.linspace(0, length, nodes)
-        self.outer = outer
-        self.S, self.J = np.pi * (outer ** 2 - inner ** 2), np.pi / 2 * (outer ** 4 - inner ** 4)
-        self.E, self.G = 2.06e11, 8e10
-        flat = {"young_modulus": self.E, "shear_modulus": self.G, "area": self.S, "torsion_constant": self.J, "outer_radius": outer}
-        self.data = {f"/model/{name}": np.full(elements, value) for name, value in flat.items()}
-        self.data["/model/path_curvature"] = np.zeros((elements, 2))
-        turn = elements / length * np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # theta x z of a node over the length
-        self.data["/model/curvature_of_rotations"] = np.broadcast_to(np.hstack((-turn, turn)), (elements, 2, 6))
-        self.data["/static/axial_force"], self.data["/static/torque"] = np.full(elements, tension), np.full(elements, torque)
-        self.data["/static/displacement"] = np.zeros((nodes, 6))
-
-    def get(self, path):
-        return self.data.get(path)
-
-
-def near(what, found, expected, tolerance=1e-12):
-    error = np.max(np.abs(np.asarray(found) - expected)) / max(np.max(np.abs(expected)), 1e-300)
-    expect(what, error <= tolerance, f"({error:.1e})")
+from report import (checks, deck, figures, of_map, of_run, quantities, results, scene3d,
+                    tables)  # noqa: E402
+from stand_ins import Bar, near  # noqa: E402
+from rotation import rounding, sides, torques, torques_at_rest, whirls  # noqa: E402
 
 
 def stresses():
     rest = np.zeros((11, 6))
     bar = Bar(torque=0.0)
-    near("tension alone: sigma = T/S", results.von_mises(bar, rest), bar.data["/static/axial_force"] / bar.S)
+    near("tension alone: sigma = T/S", results.von_mises(bar, rest),
+         bar.data["/static/axial_force"] / bar.S)
     bar = Bar(tension=0.0)
-    near("torsion alone: sigma = sqrt(3) M R/J", results.von_mises(bar, rest), np.sqrt(3) * 2e3 * bar.outer / bar.J)
+    near("torsion alone: sigma = sqrt(3) M R/J", results.von_mises(bar, rest),
+         np.sqrt(3) * 2e3 * bar.outer / bar.J)
     # theta_x = -kappa s turns the tangent into y: a bend of curvature kappa
     bar, bent = Bar(tension=0.0, torque=0.0), rest.copy()
     bent[:, 3] = -1e-3 * bar.s
@@ -65,165 +43,75 @@ def stresses():
     near("stretching: sigma = E w'", results.von_mises(bar, stretched), bar.E * 2e-4)
     twisted = rest.copy()
     twisted[:, 5] = 1e-3 * bar.s
-    near("twisting: sigma = sqrt(3) G theta' R", results.von_mises(bar, twisted), np.sqrt(3) * bar.G * 1e-3 * bar.outer)
-    near("many samples at once", results.von_mises(bar, np.stack([stretched, rest])), np.stack([np.full(10, bar.E * 2e-4), np.zeros(10)]))
+    near("twisting: sigma = sqrt(3) G theta' R", results.von_mises(bar, twisted),
+         np.sqrt(3) * bar.G * 1e-3 * bar.outer)
+    near("many samples at once", results.von_mises(bar, np.stack([stretched, rest])),
+         np.stack([np.full(10, bar.E * 2e-4), np.zeros(10)]))
 
 
 def motions():
     time = np.arange(4000) * 5e-3
     for rate in (12.0, -3.0):
         u, v = 1.0 + 0.3 * np.cos(rate * time), 0.3 * np.sin(rate * time)
-        near(f"an orbit that turns with {rate} rad/s", results.precession(u, v, -rate * v, rate * (u - 1.0)), rate, 1e-3)  # its centre is that of 38 and 9.5 turns
+        # its centre is that of 38 and 9.5 turns
+        near(f"an orbit that turns with {rate} rad/s",
+             results.precession(u, v, -rate * v, rate * (u - 1.0)), rate, 1e-3)
         found = results.precession(u, v, results.differences(u, time), results.differences(v, time))
-        near("central differences find less of it", found, rate * np.sinc(rate * time[1] / np.pi), 1e-3)
+        near("central differences find less of it", found, rate * np.sinc(rate * time[1] / np.pi),
+             1e-3)
     to_and_fro = results.precession(np.cos(7 * time), 0 * time, -7 * np.sin(7 * time), 0 * time)
     expect("a motion to and fro does not turn", abs(to_and_fro) < 1e-12, to_and_fro)
     for frequency, amplitude in ((6.0, 2.0), (31.5, 0.1)):
         f, power = plots.spectrum(5.0 + amplitude * np.sin(2 * np.pi * frequency * time), time[1])
         near(f"the spectrum of {frequency} Hz peaks there", f[power.argmax()], frequency, 0.02)
-        near("its integral is the variance", np.trapz(power, f), amplitude ** 2 / 2, 1e-2)
+        near("its integral is the variance", np.trapz(power, f), amplitude**2 / 2, 1e-2)
     noise = np.random.default_rng(3).normal(0, 1.5, 200_000)
     f, power = plots.spectrum(noise, 0.01)
-    near("white noise has the density 2 dt sigma^2", power[1:-1].mean(), 2 * 0.01 * 1.5 ** 2, 0.02)  # 200,000 numbers: 0.5 %
+    # 200,000 numbers: 0.5 %
+    near("white noise has the density 2 dt sigma^2", power[1:-1].mean(), 2 * 0.01 * 1.5**2, 0.02)
     spikes = np.zeros(100_000)
     spikes[[777, 50_123]] = 9.0, -7.0
     shown = plots.envelope(np.arange(100_000.0), spikes)[1]
-    expect("thinned curves keep their extremes", len(shown) <= 1200 and shown.max() == 9 and shown.min() == -7, f"({len(shown)})")
-
-
-class Still:
-    """A string of three nodes in the place of a run: vertical, inclined by 30 degrees to the east, by 1 degree to the south; `amplitude` [m] of a circle at all of them."""
-
-    is_string, moves, value, sense = True, True, results.Run.value, results.Run.sense
-
-    def __init__(self, amplitude, figures=None, speed=10.0, orbit=10.0):
-        """Turns at `speed` [rad/s]; the circle at `orbit` [rad/s], clockwise looking down the hole."""
-        self.speed = np.full(200, speed)
-        self.s, self.time, self.recorded = np.array([0.0, 500.0, 1000.0]), np.linspace(0, 2, 200), np.arange(3)
-        self.summary = {"transient": {"figures": figures or {}}}
-        tilt = np.radians([0.0, 30.0, 1.0])
-        tangents = np.stack([[0, 0, -np.sin(tilt[2])], np.sin([0, tilt[1], 0]), np.cos(tilt)], axis=1)  # north, east, down
-        x = np.array([1.0, 2.0, 0.0]) - np.outer(tangents @ [1.0, 2.0, 0.0], [1, 1, 1]) * tangents
-        x /= np.linalg.norm(x, axis=1)[:, None]
-        self.data = {"/model/frame": np.stack([x, np.cross(tangents, x), tangents], axis=2), "/model/clearance": np.full(3, 0.05)}
-        circle = amplitude * np.stack([np.cos(orbit * self.time), np.sin(orbit * self.time)], axis=1)
-        self.file = {"/transient/displacement": np.concatenate([np.repeat(circle[:, None], 3, axis=1), np.zeros((200, 3, 4))], axis=2)}
-
-    def get(self, path):
-        return self.data.get(path)
-
-    def rotary(self):
-        return self.speed
-
-    def blocks(self, path):
-        yield 0, self.file[path]
-
-    def record_velocities(self, orbit):
-        motion = self.file["/transient/displacement"]
-        self.file["/transient/velocity"] = np.zeros_like(motion)
-        self.file["/transient/velocity"][..., 0], self.file["/transient/velocity"][..., 1] = -orbit * motion[..., 1], orbit * motion[..., 0]
-
-    second_half, column, component_at, bit_speed = results.Run.second_half, results.Run.column, lambda self, node: "pipe", lambda self: np.full(200, 10.0)
-
-
-def sides():
-    run = Still(1e-3)
-    for node, names, first, second in ((0, ("north", "east"), [1, 0, 0], [0, 1, 0]), (1, ("high side", "right side"), [0, np.sqrt(0.75), -0.5], [-1, 0, 0]), (2, ("north", "east"), None, None)):
-        found, turned = results.sides(run, node)
-        frame = run.data["/model/frame"][node]
-        expect(f"node {node} has the sides {names}", found == names and np.allclose(turned @ turned.T, np.eye(2)) and np.linalg.det(turned) > 0, (found, turned))
-        if first is not None:
-            near("they point there, looking down the hole", turned @ frame[:, :2].T, np.array([first, second], float), 1e-12)
-
-
-def rounding():
-    """What does not vibrate has no orbits, spectra and whirl; no number is minus zero."""
-    figures_ = {"begin": 1.0, "end": 2.0, "stick_slip_index": 0.0, "stuck_share": 0.25, "stuck_speed_rpm": 4.77, "weight_on_bit": {"mean": 444822.16152605, "min": 4e5, "max": 5e5}, "torque_on_bit": {"mean": None},
-                "rate_of_penetration": 0.3048 / 360, "specific_energy": 6894757.293, "lateral_acceleration": {"rms": 1.0, "worst_rms": 2.0, "worst_rms_depth": 3.0, "peak": 4.0},
-                "whirl": {"worst_backward_share": 0.5, "worst_backward_share_depth": 6.0, "worst_precession_rpm": -0.2, "worst_backward_contact_share": 0.0}, "bending": {"range": None, "damage_per_hour": None}}
-    for amplitude, moves in ((1e-10, False), (1e-3, True)):
-        run = Still(amplitude, figures_)
-        motion = results.Motion(run, (0, 1))
-        rows = {name: " ".join((value, remark)) for name, value, remark in results.merits(run, motion)}
-        drawn = [figure.name for part in (figures.orbits, figures.spectra) for figure in part(run, motion, {0: "top", 1: "middle"})] + [figure.name for figure in figures.vibration(run, motion)]
-        expect(f"an amplitude of {amplitude} m {'is' if moves else 'is no'} vibration", drawn == (["orbit-1", "orbit-2", "lateral-spectrum", "rms"] if moves else []), drawn)
-        expect("and has figures of merit so", ("Backward whirl" in rows) == ("Lateral acceleration" in rows) == moves == (not rows["Largest lateral vibration"].startswith("none")), rows)
-        expect("numbers are not minus zero", not any(re.search(r"-0(?![.\d])|-0\.0+(?!\d)", text) for text in rows.values()), rows)
-        expect("the bit is stuck as the program says", rows["Time the bit is stuck"] == "25.0 % below 4.77 rpm", rows)
-        expect("weight, penetration and energy in both units", [rows[key] for key in ("Mean weight on bit", "Rate of penetration", "Mechanical specific energy")]
-               == ["444.8 kN 100.0 klbf; 400.0 kN to 500.0 kN", "3.05 m/h 10.0 ft/h", "6.9 MPa 1.0 ksi"] and "Mean torque on bit" not in rows, rows)
-    without = [name for name, _, _ in results.merits(run)]
-    expect("without displacements figures of the summary stay", "Lateral acceleration" in without and "Backward whirl" in without and not any("vibration" in name for name in without), without)
-    run.summary["transient"]["figures"]["lateral_acceleration"]["worst_rms"] = 1e-9
-    expect("those of rounding do not", not {"Lateral acceleration", "Backward whirl"} & {name for name, _, _ in results.merits(run)})
-    expect("a table says of which time it is", results.times_of_merits(run, motion).startswith("Figures of 1 to 2 s (") and "second half of the motion, 1.00503 to 2 s" in results.times_of_merits(run, motion),
-           results.times_of_merits(run, motion))
-    expect("numbers that round to zero have no sign", [quantities.fixed(-0.04, 1), quantities.fixed(-1.26, 1), quantities.plain(-0.0), quantities.percent(-0.0)] == ["0.0", "-1.3", "0", "0 %"])
-
-
-def whirls():
-    """Captions of orbits that turn with the string and against it, to the right and to the left, from recorded velocities and without."""
-    for speed, orbit, said in ((10.0, 10.0, "mean precession 95.5 rpm, 1.00 of the surface speed; clockwise is forward, positive"),
-                               (-10.0, -10.0, "mean precession 95.5 rpm, 1.00 of the surface speed; anticlockwise is forward, positive"),
-                               (-10.0, 70.0, "mean precession -668.5 rpm, -7.00 of the surface speed; anticlockwise is forward, positive"),
-                               (0.0, -10.0, "mean precession -95.5 rpm; clockwise is positive")):
-        run = Still(1e-3, speed=speed, orbit=orbit)
-        run.record_velocities(orbit)
-        captions = [figure.caption for figure in figures.orbits(run, results.Motion(run, (0, 1)), {0: "top", 1: "middle"})]
-        expect(f"an orbit of {orbit} rad/s at {speed} rad/s says how it is seen and how it turns", len(captions) == 2 and all(f"looking down the hole; {said};" in text for text in captions), captions)
-    run = Still(1e-3, orbit=70.0)
-    caption = figures.orbits(run, results.Motion(run, (0,)), {0: "top"})[0].caption
-    expect("without velocities it says what the samples resolve", "from displacements alone" in caption and "; 62.5 samples a turn of the surface" in caption, caption)
-    run.speed = np.linspace(-5.0, 10.0, 200)
-    expect("a rotation that changes its sense has none, in its second half it has one", (run.sense(), run.sense(slice(100, None)), Still(1e-3, speed=0.0).sense()) == (0, 1, 0))
-
-
-def torques():
-    """One sign, against the rotation, though the program records torque on bit against a rotation to the right."""
-    for sense in (1, -1):
-        run = Still(1e-3, {"begin": 1.0, "end": 2.0, "torque_on_bit": {"mean": sense * 2000.0, "min": min(sense * 1500.0, sense * 2500.0), "max": max(sense * 1500.0, sense * 2500.0)}}, sense * 10.0)
-        run.speed[0] = 0.0  # there the surface torque is against a rotation to the right
-        run.data["/transient/torque_on_bit"] = np.full(200, sense * 2000.0)
-        run.data["/transient/surface_torque"] = np.where(np.arange(200) > 0, 5000.0, sense * 5000.0)
-        drawn = []
-        with mock.patch.object(plots, "envelope", lambda time, values, drawn=drawn: drawn.append(values) or (time, values)):
-            caption = figures.surface(run)[0].caption
-        near("torques at the surface and on the bit have one sign", drawn, np.array([np.full(200, 5.0), np.full(200, 2.0)]))
-        expect("and the caption says so", caption.endswith("of the rock on the bit, positive against the rotation."), caption)
-        row = results.figures_of_bit(run)
-        expect("so has the mean torque on bit", [(one[1], one[2].partition("; ")[2]) for one in row] == [("2.00 kN m", "1.50 kN m to 2.50 kN m; positive against the rotation")], row)
-
-
-def torques_at_rest():
-    """The static torque has the sign of the surface torque, whichever way the string turns."""
-    for sense in (1, -1):
-        bar = Bar(torque=-sense * 2e3)  # resists a rotation of this sense
-        bar.summary = {"static": {"surface_torque": 2e3, "top_torque": -sense * 2e3}}
-        bar.value = lambda path, bar=bar: results.Run.value(bar, path)
-        near("the static torque is against the rotation", results.static_torque(bar, results.static_sense(bar)), np.full(10, 2e3))
+    expect("thinned curves keep their extremes",
+           len(shown) <= 1200 and shown.max() == 9 and shown.min() == -7, f"({len(shown)})")
 
 
 def touching():
-    """Tool joints on the wall all along, but for a stretch without contact: the picture is white there and nowhere else."""
+    """Tool joints on the wall all along, but for a stretch without contact: the picture is white
+    there and nowhere else."""
     s = np.arange(241) * 4.7244  # two elements a joint of pipe
     middles, joints = 0.5 * (s[1:] + s[:-1]), np.arange(241) % 2 == 1
     radius = np.where(joints, 0.0841, 0.0635)
     lifted = (s > 500) & (s < 560)
-    picture = figures.contact_picture(s, middles, radius, np.where(joints & ~lifted, 1e3, 0.0)[None, :])
+    picture = figures.contact_picture(s, middles, radius,
+                                      np.where(joints & ~lifted, 1e3, 0.0)[None, :])
     white = (np.flatnonzero(picture[:, 0] == 0) + 0.5) * s[-1] / len(picture)
-    expect("tool joints that touch leave no white rows between them", len(white) > 2 and white.min() > 495 and white.max() < 565, white)
-    picture = figures.contact_picture(s, middles, np.full(241, 0.0841), np.where(np.arange(241) % 4 == 0, 1e3, 0.0)[None, :])
-    expect("without tool joints each node counts", len(picture) == figures.PICTURE_ROWS and (picture == 0).any())
+    expect("tool joints that touch leave no white rows between them",
+           len(white) > 2 and white.min() > 495 and white.max() < 565, white)
+    picture = figures.contact_picture(s, middles, np.full(241, 0.0841),
+                                      np.where(np.arange(241) % 4 == 0, 1e3, 0.0)[None, :])
+    expect("without tool joints each node counts",
+           len(picture) == figures.PICTURE_ROWS and (picture == 0).any())
     few = slice(0, 12)
-    picture = figures.contact_picture(s[few], middles[:11], radius[few], np.where(joints[few], 1e3, 0.0)[None, :])
-    expect("a short string shows its pipe bodies", len(picture) == figures.PICTURE_ROWS and 0.3 < (picture == 0).mean() < 0.7, (picture == 0).mean())
+    picture = figures.contact_picture(s[few], middles[:11], radius[few],
+                                      np.where(joints[few], 1e3, 0.0)[None, :])
+    expect("a short string shows its pipe bodies",
+           len(picture) == figures.PICTURE_ROWS and 0.3 < (picture == 0).mean() < 0.7,
+           (picture == 0).mean())
 
 
 def recorded():
-    """The table of docs/report.md keeps what reports promise: at most 10 s and 5 MB for 20 s of motion."""
-    rows = re.findall(r"^\| (?:`tooljoint new`|(xml/\S+)) \| (\d+) \| (\d+) \| \d+ MB \| (\S+) s \| (\S+) s \| (\S+) MB \|$", (ROOT / "docs/report.md").read_text(encoding="utf-8"), re.M)
-    expect("docs/report.md has times and sizes of reports of decks that are there", len(rows) >= 5 and all((ROOT / row[0]).exists() for row in rows), rows)
-    expect("none is longer or larger than it may be", all(0 < float(cpu) <= float(wall) <= 10 and 0 < float(size) < 5 for *_, cpu, wall, size in rows), rows)
+    """The table of docs/report.md keeps what reports promise: at most 10 s and 5 MB for 20 s of
+    motion."""
+    rows = re.findall(
+        r"^\| (?:`tooljoint new`|(xml/\S+)) \| (\d+) \| (\d+) \| \d+ MB \| (\S+) s \| (\S+) s \| "
+        r"(\S+) MB \|$", (ROOT / "docs/report.md").read_text(encoding="utf-8"), re.M)
+    expect("docs/report.md has times and sizes of reports of decks that are there",
+           len(rows) >= 5 and all((ROOT / row[0]).exists() for row in rows), rows)
+    expect(
+        "none is longer or larger than it may be",
+        all(0 < float(cpu) <= float(wall) <= 10 and 0 < float(size) < 5
+            for *_, cpu, wall, size in rows), rows)
 
 
 def many_nodes():
@@ -233,7 +121,10 @@ def many_nodes():
     made, axes = plots.figure()
     figures.bars(axes, s, values, "black")
     lines = axes.collections[0].get_segments()
-    expect("bars keep the largest values of many nodes", len(lines) <= figures.MOST_BARS and sorted(line[1][0] for line in lines)[-2:] == [7.0, 9.0], len(lines))
+    expect(
+        "bars keep the largest values of many nodes",
+        len(lines) <= figures.MOST_BARS and sorted(line[1][0] for line in lines)[-2:] == [7.0, 9.0],
+        len(lines))
     plots.plt.close(made)
 
 
@@ -243,44 +134,86 @@ def pictures():
     axes.plot([0, 1], [0.00125, 0.00375])
     axes.set_yticks([0.00125, 0.00375]), axes.set_ylabel("a [m]"), axes.set_title("1.23456")
     text = plots.inline_svg(made, "one")
-    expect("numbers of a plot keep their digits", all(f">{word}<" in text for word in ("0.00125", "0.00375", "1.23456", "a [m]")))
+    expect("numbers of a plot keep their digits",
+           all(f">{word}<" in text for word in ("0.00125", "0.00375", "1.23456", "a [m]")))
     expect("coordinates are shortened", not re.search(r'd="[^"]*\d\.\d{3}', text))
-    expect("ids of a plot are its own", set(re.findall(r'id="(.*?)-', text)) == {"one"} and len(re.findall(r'url\(#(?!one-)', text)) == 0)
-    expect("a plot takes the width that there is", re.match(r"<svg(?![^>]* (width|height)=)[^>]*viewBox", text) is not None, text[:200])
+    expect(
+        "ids of a plot are its own",
+        set(re.findall(r'id="(.*?)-', text)) == {"one"}
+        and len(re.findall(r'url\(#(?!one-)', text)) == 0)
+    expect("a plot takes the width that there is",
+           re.match(r"<svg(?![^>]* (width|height)=)[^>]*viewBox", text) is not None, text[:200])
 
 
 def units():
-    expect("forces in klbf", quantities.both(444822.16152605, "hook load") == ("444.8 kN", "100.0 klbf"), quantities.both(444822.16152605, "hook load"))
-    expect("side forces in lbf", quantities.both(4448.2216152605, "side force") == ("4.45 kN", "1000 lbf"), quantities.both(4448.2216152605, "side force"))
-    expect("torques in kft lbf", quantities.both(1355.8179483314, "torque") == ("1.36 kN m", "1.00 kft lbf"), quantities.both(1355.8179483314, "torque"))
+    expect("forces in klbf",
+           quantities.both(444822.16152605, "hook load") == ("444.8 kN", "100.0 klbf"),
+           quantities.both(444822.16152605, "hook load"))
+    expect("side forces in lbf",
+           quantities.both(4448.2216152605, "side force") == ("4.45 kN", "1000 lbf"),
+           quantities.both(4448.2216152605, "side force"))
+    expect("torques in kft lbf",
+           quantities.both(1355.8179483314, "torque") == ("1.36 kN m", "1.00 kft lbf"),
+           quantities.both(1355.8179483314, "torque"))
     expect("lengths in feet", quantities.both(304.8, "length") == ("304.8 m", "1000 ft"))
-    expect("shares in percent", [quantities.percent(x) for x in (-0.0123, 1e-9, 0.0, 0.996, 1.87)] == ["-1.2 %", "< 0.0001 %", "0 %", "100 %", "187 %"], quantities.percent(1e-9))
-    expect("no value is a dash", quantities.both(None, "length")[0] == quantities.both(float("nan"), "length")[0] == quantities.plain(None) == quantities.percent(None) == "-")
+    expect("shares in percent", [quantities.percent(x) for x in (-0.0123, 1e-9, 0.0, 0.996, 1.87)
+                                 ] == ["-1.2 %", "< 0.0001 %", "0 %", "100 %", "187 %"],
+           quantities.percent(1e-9))
+    expect(
+        "no value is a dash",
+        quantities.both(None, "length")[0] == quantities.both(float("nan"), "length")[0] ==
+        quantities.plain(None) == quantities.percent(None) == "-")
 
 
 def scenes():
-    text = """<ParameterList name="a"><Parameter name="x" type="double" value="1"/><ParameterList name="Loads">
-      <Parameter name="Weight On Bit" type="double" value="40000"/></ParameterList><ParameterList name="Mud"><Parameter name="Density" type="string" value="1.2 g/cm3"/>
+    text = """<ParameterList name="a"><Parameter name="x" type="double" value="1"/>
+    <ParameterList name="Loads">
+      <Parameter name="Weight On Bit" type="double" value="40000"/></ParameterList>
+      <ParameterList name="Mud"><Parameter name="Density" type="string" value="1.2 g/cm3"/>
       </ParameterList></ParameterList>"""
     whole = deck.read(text, "Loads/Torque On Bit=3 kN m\nx=2\n")
-    expect("overrides are in the deck", whole["x"] == "2" and whole["Loads"]["Torque On Bit"] == "3 kN m", whole)
-    expect("a title names the conditions", deck.conditions(whole) == "WOB 40 kN, TOB 3 kN m, mud 1.2 g/cm3", deck.conditions(whole))
-    for law, parameter, words in (("Exponential", "Final Speed", "up to 60 rpm"), ("Ramp", "Final Speed", "ramp to 60 rpm"), ("Harmonic", "Mean Speed", "60 rpm on average"), ("Constant", "Speed", "60 rpm")):
-        turns = {"Rotary Speed": {"Law": law, law: {parameter: str(2 * np.pi)}}, "Loads": {"Weight On Bit": "25 klbf"}}
-        expect(f"a title names the speed of the law {law}", deck.conditions(turns) == f"{words}, WOB 25 klbf", deck.conditions(turns))
-        expect("and leaves it out where it varies", deck.conditions(turns, {f"Rotary Speed/{law}/{parameter}"}) == "WOB 25 klbf")
+    expect("overrides are in the deck", whole["x"] == "2"
+           and whole["Loads"]["Torque On Bit"] == "3 kN m", whole)
+    expect("a title names the conditions",
+           deck.conditions(whole) == "WOB 40 kN, TOB 3 kN m, mud 1.2 g/cm3", deck.conditions(whole))
+    for law, parameter, words in (
+        ("Exponential", "Final Speed", "up to 60 rpm"),
+        ("Ramp", "Final Speed", "ramp to 60 rpm"),
+        ("Harmonic", "Mean Speed", "60 rpm on average"),
+        ("Constant", "Speed", "60 rpm"),
+    ):
+        turns = {
+            "Rotary Speed": {"Law": law, law: {parameter: str(2 * np.pi)}},
+            "Loads": {"Weight On Bit": "25 klbf"},
+        }
+        expect(f"a title names the speed of the law {law}",
+               deck.conditions(turns) == f"{words}, WOB 25 klbf", deck.conditions(turns))
+        expect("and leaves it out where it varies",
+               deck.conditions(turns, {f"Rotary Speed/{law}/{parameter}"}) == "WOB 25 klbf")
     expect("lists that are taken out are gone", "Mud" not in deck.read(text, "!Mud\n"))
-    expect("parameters stand before lists", [row[1] for row in deck.rows(whole)] == ["x", "Loads", "Weight On Bit", "Torque On Bit", "Mud", "Density"])
+    expect("parameters stand before lists",
+           [row[1] for row in deck.rows(whole)
+            ] == ["x", "Loads", "Weight On Bit", "Torque On Bit", "Mud", "Density"])
     expect("no deck is an empty one", deck.read("<no", "") == {})
-    expect("texts are escaped", "<b>" not in tables.of_deck([(0, "<b>", "<b>")]) and "<b>" not in tables.table(("<b>",), [("<b>",)]))
+    expect(
+        "texts are escaped", "<b>" not in tables.of_deck([(0, "<b>", "<b>")])
+        and "<b>" not in tables.table(("<b>",), [("<b>",)]))
 
 
 def judged():
-    summary = {"static": {"residual": 1e-9, "torque_balance_defect": -3.0, "torque_scale": 1000.0}, "transient": {"energy_residual": None, "step_error": 0.1, "unconverged_steps": 0,
-                                                                                                               "steps": 0}}
+    summary = {
+        "static": {"residual": 1e-9, "torque_balance_defect": -3.0, "torque_scale": 1000.0},
+        "transient": {
+            "energy_residual": None, "step_error": 0.1, "unconverged_steps": 0, "steps": 0
+        },
+    }
     measured = {name: value for name, value, _ in checks.measured(summary)}
-    expect("checks of stages that did not run are left out", measured == {"balance of torque": 0.003, "residual of the static state": 1e-9, "step error": 0.1}, measured)
-    expect("the worst check is the one closest to its bound", checks.worst(summary)[0] == "step error" and checks.worst({}) is None)
+    expect(
+        "checks of stages that did not run are left out", measured == {
+            "balance of torque": 0.003, "residual of the static state": 1e-9, "step error": 0.1
+        }, measured)
+    expect("the worst check is the one closest to its bound",
+           checks.worst(summary)[0] == "step error" and checks.worst({}) is None)
 
     class Parts:
         is_string, value, time = False, results.Run.value, None
@@ -289,7 +222,8 @@ def judged():
             self.summary = {"transient": {"energy_residual": residual}}
 
     for residual, bad in ((0.02, 2), (-0.02, 2), (0.005, 0)):
-        expect(f"the card of the energy has the bound of its check: {residual}", of_run.headline(Parts(residual)).count("card bad") == bad)
+        expect(f"the card of the energy has the bound of its check: {residual}",
+               of_run.headline(Parts(residual)).count("card bad") == bad)
 
 
 def mapped():
@@ -303,41 +237,58 @@ def mapped():
             self.values = [{"name": "x", "unsafe_above": above, "unsafe_below": below}]
             self.grid = {"x": grid}
 
-    for limits, wanted, safe in (((5.0, None), [("best", 1), ("worst", 4)], 3), ((None, 3.0), [("best", 4), ("worst", 1)], 3), ((7.0, 1.5), [("least", 1), ("largest", 4)], 3),
-                                 ((None, None), [("least", 1), ("largest", 4)], None)):
+    for limits, wanted, safe in (
+        ((5.0, None), [("best", 1), ("worst", 4)], 3),
+        ((None, 3.0), [("best", 4), ("worst", 1)], 3),
+        ((7.0, 1.5), [("least", 1), ("largest", 4)], 3),
+        ((None, None), [("least", 1), ("largest", 4)], None),
+    ):
         made = Grid(*limits)
         found = of_map.safe(made)
-        expect(f"best and worst points of the limits {limits}", of_map.extremes(made.values[0], grid) == wanted, of_map.extremes(made.values[0], grid))
-        expect(f"safe points of the limits {limits}", (found if safe is None else int(found.sum())) == safe, found)
-    expect("a value no point has is without extremes", of_map.extremes(Grid().values[0], np.full((2, 2), np.nan)) == [])
+        expect(f"best and worst points of the limits {limits}",
+               of_map.extremes(made.values[0], grid) == wanted,
+               of_map.extremes(made.values[0], grid))
+        expect(f"safe points of the limits {limits}",
+               (found if safe is None else int(found.sum())) == safe, found)
+    expect("a value no point has is without extremes",
+           of_map.extremes(Grid().values[0], np.full((2, 2), np.nan)) == [])
     made, axes = plots.figure()
-    plot_map.hatch(axes, np.array([0.0, 1, 2, 3]), np.array([0.0, 10]), np.array([[1, 0], [1, 0], [0, 0], [1, 1]], bool))
+    plot_map.hatch(axes, np.array([0.0, 1, 2, 3]), np.array([0.0, 10]),
+                   np.array([[1, 0], [1, 0], [0, 0], [1, 1]], bool))
     box = axes.patches[0].get_path().get_extents()
-    expect("the hatched region ends with the unsafe cells", np.allclose(box.get_points(), [[-0.5, -5], [3.5, 15]]) and len(axes.patches[0].get_path().to_polygons()) == 3)
+    expect(
+        "the hatched region ends with the unsafe cells",
+        np.allclose(box.get_points(), [[-0.5, -5], [3.5, 15]])
+        and len(axes.patches[0].get_path().to_polygons()) == 3)
     plots.plt.close(made)
 
 
 def view():
     axes = scene3d.to_view(np.eye(3))  # of north, east, down
-    expect("the view is right-handed: east, up, south", np.array_equal(axes, [[0, 0, -1], [1, 0, 0], [0, -1, 0]]) and np.linalg.det(axes) == 1)
+    expect("the view is right-handed: east, up, south",
+           np.array_equal(axes, [[0, 0, -1], [1, 0, 0], [0, -1, 0]]) and np.linalg.det(axes) == 1)
     values = np.array([[1.5, -0.25], [0.0, -3.0]])
     entry = scene3d.packed(values, "i2")
-    back = np.frombuffer(base64.b64decode(entry["data"]), "<i2").reshape(entry["shape"]) * entry["scale"]
+    back = np.frombuffer(base64.b64decode(entry["data"]), "<i2").reshape(
+        entry["shape"]) * entry["scale"]
     near("numbers of 16 bits are right to half a step", back, values, 0.51 / scene3d.LARGEST)
     expect("zeros stay zeros", scene3d.packed(np.zeros(3), "i2")["scale"] == 1.0)
-    near("a node has the larger value of its elements", scene3d.at_nodes(np.array([1.0, 3.0, 2.0])), [1, 3, 3, 2])
+    near("a node has the larger value of its elements", scene3d.at_nodes(np.array([1.0, 3.0, 2.0])),
+         [1, 3, 3, 2])
     bar = np.column_stack([np.arange(5.0), np.zeros((5, 2))])
     found = scene3d.held_edges(bar, np.array([0, 0, 0, 1, 1]), [(1, 2)])
     expect("a held node is joined to the nearest node of its part", found == [(0, 1)], found)
 
 
 def released():
-    """Below a released joint results have the motion of the part above: the element there is shown as the next one."""
+    """Below a released joint results have the motion of the part above: the element there is shown
+    as the next one."""
     bar, bent = Bar(), np.zeros((11, 6))
     bent[:, 2], bent[:, 3], bent[:, 5] = 1e-5 * bar.s, -1e-3 * bar.s, 1e-4 * bar.s
     smooth = results.von_mises(bar, bent)
     bent[5:, 2:] += 0.05  # the part below node 6 is apart from what is shown of it
-    expect("a joint that opens is seen as a stress", results.von_mises(bar, bent)[5 - 1] > 2 * smooth[5 - 1])
+    expect("a joint that opens is seen as a stress",
+           results.von_mises(bar, bent)[5 - 1] > 2 * smooth[5 - 1])
     bar.data["/model/elements_below_releases"] = np.array([5])
     near("but not where it is released", results.von_mises(bar, bent), smooth)
     motion = np.stack([bent, 2 * bent])
@@ -345,7 +296,8 @@ def released():
 
 
 def main():
-    for part in (stresses, released, motions, sides, rounding, whirls, torques, torques_at_rest, touching, recorded, many_nodes, pictures, units, scenes, judged, mapped, view):
+    for part in (stresses, released, motions, sides, rounding, whirls, torques, torques_at_rest,
+                 touching, recorded, many_nodes, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 

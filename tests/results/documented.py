@@ -9,7 +9,8 @@ MANUAL = pathlib.Path(__file__).resolve().parents[2] / "docs" / "file-formats.md
 
 
 def rows(heading):
-    """First table of datasets below a heading: path -> {"shape": ..., "units": ...}. NAME and NNN in a path stand for any name."""
+    """First table of datasets below a heading: path -> {"shape": ..., "units": ...}.
+    NAME and NNN in a path stand for any name."""
     text = MANUAL.read_text(encoding="utf-8")
     lines = text[text.index(heading):].split("\n| dataset |", 1)[1].splitlines()
     titles = [title.strip() for title in lines[0].strip("|").split("|")]
@@ -25,7 +26,8 @@ def rows(heading):
             entries = [entry.strip() for entry in cell.split(";")]
             if title not in ("shape", "units"):
                 continue
-            assert len(entries) in (1, len(paths)), f"{MANUAL.name}: {len(entries)} {title} for {paths}"
+            assert len(entries) in (
+                1, len(paths)), f"{MANUAL.name}: {len(entries)} {title} for {paths}"
             for path, entry in zip(paths, entries if len(entries) > 1 else entries * len(paths)):
                 found[path][title] = entry
     return found
@@ -37,13 +39,16 @@ def matches(pattern, path):
 
 
 def fits(shape, found, sizes):
-    """`sizes` gives the numbers that the letters of a documented shape stand for; other words stand for any number."""
+    """`sizes` gives the numbers that the letters of a documented shape stand for; other words stand
+    for any number."""
     wanted = [sizes.get(word, int(word) if word.isdigit() else None) for word in shape.split(" x ")]
-    return len(wanted) == len(found) and all(size in (None, extent) for size, extent in zip(wanted, found))
+    return len(wanted) == len(found) and all(size in (None, extent)
+                                             for size, extent in zip(wanted, found))
 
 
 def faults(file, table, sizes=None):
-    """Sentences on datasets without a row or with another unit or shape than it says; and the rows that were met."""
+    """Sentences on datasets without a row or with another unit or shape than it says; and the rows
+    that were met."""
     wrong, met = [], set()
 
     def look(name, dataset):

@@ -6,13 +6,16 @@ import subprocess
 import sys
 
 FAULTS = []
-TIME_FACTOR = float(os.environ.get("TOOLJOINT_TIME_FACTOR", "1"))  # programs with sanitizers take longer
+TIME_FACTOR = float(os.environ.get("TOOLJOINT_TIME_FACTOR",
+                                   "1"))  # programs with sanitizers take longer
 
 
 def of_ranks(ranks):
-    """Environment of a run: Open MPI needs no daemon and no folders for one rank that mpiexec does not start, and starts faster without."""
+    """Environment of a run: Open MPI needs no daemon and no folders for one rank that mpiexec does
+    not start, and starts faster without. Ranks that fail have met in MPI_Finalize: mpiexec need
+    not wait a second for them."""
     single = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_orte_create_session_dirs": "0"}
-    return {**os.environ, **(single if ranks == 1 else {})}
+    return {**os.environ, **(single if ranks == 1 else {"OMPI_MCA_odls_base_sigkill_timeout": "0"})}
 
 
 COLUMNS = 100  # of a line that is printed
@@ -29,14 +32,20 @@ def unwrapped(text):
 
 
 def tooljoint(*arguments, ranks=1, seconds=240):
-    """Runs the program of the first argument of the script, on more ranks with the mpiexec of the second; its `stderr` is unwrapped()."""
+    """Runs the program of the first argument of the script, on more ranks with the mpiexec of the
+    second; its `stderr` is unwrapped()."""
     command = ([sys.argv[2], "-np", str(ranks)] if ranks > 1 else []) + [sys.argv[1], *arguments]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=seconds * TIME_FACTOR,
-                          env=of_ranks(ranks))
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          check=False, timeout=seconds * TIME_FACTOR, env=of_ranks(ranks))
     # mpiexec joins what ranks write at the same time
-    own = [line for line in wide(done.stderr if ranks == 1 else "") if line.startswith(("warning:", "tooljoint:", "  "))]
+    own = [
+        line for line in wide(done.stderr if ranks == 1 else "")
+        if line.startswith(("warning:", "tooljoint:", "  "))
+    ]
     if own:
-        expect(f"tooljoint {' '.join(map(str, arguments))}: warnings and errors have at most {COLUMNS} columns", False, "\n".join(own))
+        expect(
+            f"tooljoint {' '.join(map(str, arguments))}: warnings and errors have at most "
+            f"{COLUMNS} columns", False, "\n".join(own))
     done.stderr = unwrapped(done.stderr)
     return done
 

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Key figures of reports that are photographed for the documents, and whether they are still those of a report.
+"""Key figures of reports that are photographed for the documents, and whether they are still those
+of a report.
 
-docs/figures/reports.json holds for each picture the command and the deck, the notes on top of the page and its cards. The target `docs-pictures`
-writes it beside the pictures; the tests that run the same decks compare.
+docs/figures/reports.json holds for each picture the command and the deck, the notes on top of the
+page and its cards. The target `docs-pictures` writes it beside the pictures; the tests that run the
+same decks compare.
 """
 import html
 import json
@@ -21,8 +23,16 @@ def figures_of(text):
     """Notes and cards of a report."""
     notes = re.search(r'<ul class="notes">(.*?)</ul>', text, re.S)
     cards = dict(re.findall(r'<div class="name">(.*?)</div><div class="value">(.*?)</div>', text))
-    return {"notes": [html.unescape(note) for note in re.findall(r"<li[^>]*>(.*?)</li>", notes.group(1) if notes else "", re.S)],
-            "figures": {html.unescape(name): html.unescape(value) for name, value in cards.items() if html.unescape(name) not in ROUNDING}}
+    return {
+        "notes": [
+            html.unescape(note) for note in re.findall(r"<li[^>]*>(.*?)</li>",
+                                                       notes.group(1) if notes else "", re.S)
+        ],
+        "figures": {
+            html.unescape(name): html.unescape(value) for name, value in cards.items()
+            if html.unescape(name) not in ROUNDING
+        },
+    }
 
 
 def parted(value):
@@ -37,11 +47,17 @@ def same(one, other):
 
 
 def compare(picture, text, motion=True):
-    """The figures in a picture are those of the report `text`; without `motion` those of the state at rest."""
+    """The figures in a picture are those of the report `text`; without `motion` those of the state
+    at rest."""
     kept = json.loads(RECORD.read_text(encoding="utf-8"))[picture]
     now = figures_of(text)
     names = [name for name in kept["figures"] if motion or name in now["figures"]]
-    wrong = [f"{name}: {kept['figures'][name]}, now {now['figures'].get(name)}" for name in names if not same(kept["figures"][name], now["figures"].get(name, ""))]
-    expect(f"docs/figures/{picture} shows today's figures (else run the target docs-pictures)", names and not wrong, "; ".join(wrong) or str(names))
+    wrong = [
+        f"{name}: {kept['figures'][name]}, now {now['figures'].get(name)}" for name in names
+        if not same(kept["figures"][name], now["figures"].get(name, ""))
+    ]
+    expect(f"docs/figures/{picture} shows today's figures (else run the target docs-pictures)",
+           names and not wrong, "; ".join(wrong) or str(names))
     if motion:
-        expect(f"docs/figures/{picture} has today's notes", len(kept["notes"]) == len(now["notes"]), f"{kept['notes']}, now {now['notes']}")
+        expect(f"docs/figures/{picture} has today's notes",
+               len(kept["notes"]) == len(now["notes"]), f"{kept['notes']}, now {now['notes']}")

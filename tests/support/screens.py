@@ -8,8 +8,10 @@ import shlex
 
 from checks import expect
 
-
-UNREAD = {"torque_drag": "Torque and Drag", "bha": "Bottom-Hole Assembly", "buckling": "Buckling", "campbell": "Campbell", "response": "Response", "map": "Map"}  # lists that the next command does not read
+UNREAD = {
+    "torque_drag": "Torque and Drag", "bha": "Bottom-Hole Assembly", "buckling": "Buckling",
+    "campbell": "Campbell", "response": "Response", "map": "Map"
+}  # lists that the next command does not read
 
 
 def _extreme(rows, key, choose, factor=1.0):
@@ -26,22 +28,45 @@ def _numbers(analysis, summary):
     group = summary[analysis]
     if analysis == "torque_drag":
         rows = group["rows"]
-        return {"largest hook load": _extreme(rows, "hook_load", max, 1e-3), "least hook load": _extreme(rows, "hook_load", min, 1e-3),
-                "surface torque": _extreme(rows, "surface_torque", _largest, 1e-3), "helical margin": _extreme(rows, "helical_margin", min)}
+        return {
+            "largest hook load": _extreme(rows, "hook_load", max, 1e-3),
+            "least hook load": _extreme(rows, "hook_load", min, 1e-3),
+            "surface torque": _extreme(rows, "surface_torque", _largest, 1e-3),
+            "helical margin": _extreme(rows, "helical_margin", min),
+        }
     if analysis == "bha":
         rows = group["rows"]
-        return {"side force at the bit": _extreme(rows, "side_force_high", _largest, 1e-3), "bending moment": _extreme(rows, "largest_moment", max, 1e-3),
-                "von Mises stress": _extreme(rows, "largest_von_mises", max, 1e-6)}
+        return {
+            "side force at the bit": _extreme(rows, "side_force_high", _largest, 1e-3),
+            "bending moment": _extreme(rows, "largest_moment", max, 1e-3),
+            "von Mises stress": _extreme(rows, "largest_von_mises", max, 1e-6),
+        }
     if analysis == "buckling":
-        scaled = {"first buckling": group["limit"], "helical limit": group["theory"]["helical"], "last weight on bit": group["last_weight_on_bit"]}
-        return {**{name: value and value / 1e3 for name, value in scaled.items()}, "jumps": len(group["jumps"] or [])}
+        scaled = {
+            "first buckling": group["limit"], "helical limit": group["theory"]["helical"],
+            "last weight on bit": group["last_weight_on_bit"]
+        }
+        return {
+            **{name: value and value / 1e3 for name, value in scaled.items()}, "jumps": len(
+                group["jumps"] or [])
+        }
     if analysis == "campbell":
-        return {"speeds": group["points"], "critical speeds": len(group["crossings"] or []), "least damping ratio": group["least_damping"] and 100 * group["least_damping"],
-                "growing from": _extreme(group["stability_limits"], "speed_rpm", min)}
+        return {
+            "speeds": group["points"],
+            "critical speeds": len(group["crossings"] or []),
+            "least damping ratio": group["least_damping"] and 100 * group["least_damping"],
+            "growing from": _extreme(group["stability_limits"], "speed_rpm", min),
+        }
     if analysis == "response":
-        return {"points": group["points"], "largest peak": _extreme(group["peaks"], "amplitude", max), "wall reached from": group["contact_speed_rpm"]}
+        return {
+            "points": group["points"], "largest peak": _extreme(group["peaks"], "amplitude", max),
+            "wall reached from": group["contact_speed_rpm"]
+        }
     if analysis == "modes":
-        return {"modes": group["count"], "lowest frequency": group["lowest_hz"], "error by reduction": group["largest_error"] and 100 * group["largest_error"]}
+        return {
+            "modes": group["count"], "lowest frequency": group["lowest_hz"],
+            "error by reduction": group["largest_error"] and 100 * group["largest_error"]
+        }
     if analysis == "map":
         return {"points": group["points"], group["values"][0]["name"]: group["values"][0]["min"]}
     methods = [row for row in group if row["kind"] == "method" and row["status"] == "done"]
@@ -55,7 +80,8 @@ def _rounds(value, text):
 
 
 def expect_screen(done, folder, analysis):
-    """Every number of the screen is that of the summary as it is rounded there, it says where the report is, and what to try next."""
+    """Every number of the screen is that of the summary as it is rounded there, it says where the
+    report is, and what to try next."""
     summary = json.loads((pathlib.Path(folder) / "summary.json").read_text(encoding="utf-8"))
     said = re.sub(r"\x1b\[\d+m", "", done.stdout)
     screen = said[said.rfind("\n\n", 0, max(said.rfind("\nopen "), said.rfind("\nreport ")) - 1):]
@@ -63,12 +89,17 @@ def expect_screen(done, folder, analysis):
         found = re.search(rf"^{re.escape(name)} +(-?\d[\d.e+-]*)", screen, re.M)
         same = found is None if wanted is None else found is not None and _rounds(wanted, found[1])
         if not same:
-            expect(f"{folder}: the last screen of {analysis}: {name} is {wanted}", False, screen[-900:])
+            expect(f"{folder}: the last screen of {analysis}: {name} is {wanted}", False,
+                   screen[-900:])
     following = re.search(r"^next +tooljoint ((?:.*\\\n)*.*)", screen, re.M)
     words = shlex.split(following[1].replace("\\\n", " ")) if following else []
     if not (words and pathlib.Path(words[1]).exists()):
-        expect(f"{folder}: the last screen of {analysis} says what to try next", False, screen[-900:])
+        expect(f"{folder}: the last screen of {analysis} says what to try next", False,
+               screen[-900:])
     unread = [word for word in words if word.startswith(UNREAD.get(analysis, "none") + "/")]
     if unread:
-        expect(f"{folder}: what to try next has no settings of {analysis}, which it does not read", False, unread)
-    expect(f"{folder}: the last screen of {analysis} has the numbers of the summary, in 100 columns", all(len(line) <= 100 for line in screen.strip().partition("\n\n")[0].splitlines()), screen)
+        expect(f"{folder}: what to try next has no settings of {analysis}, which it does not read",
+               False, unread)
+    expect(
+        f"{folder}: the last screen of {analysis} has the numbers of the summary, in 100 columns",
+        all(len(line) <= 100 for line in screen.strip().partition("\n\n")[0].splitlines()), screen)

@@ -1,19 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mutation check: puts one small fault at a time into the product code and runs the test that has to notice it.
+"""Mutation check: puts one small fault at a time into the product code and runs the test that has
+to notice it.
 
-    run.py                      all entries of mutants.json, in a copy of the sources with a build tree of its own
-    run.py --only beam --only 'contact*'   entries whose name or file matches one of the patterns (shell style; a part of it is enough)
+    run.py                      all entries of mutants.json, in a copy of the sources with a build
+                                tree of its own
+    run.py --only beam --only 'contact*'   entries whose name or file matches one of the patterns
+                                           (shell style; a part of it is enough)
     run.py --list               names of the entries, their files and tests
-    run.py --check              every entry still applies exactly once and names a test that exists (seconds, builds nothing)
+    run.py --check              every entry still applies exactly once and names a test that exists
+                                (seconds, builds nothing)
     run.py --self-test          shows that --check finds what it is for
 
-An entry of mutants.json has `name`, `file`, `old`, `new`, `test` (of CTest) and, for a GoogleTest program, `filter`
-(Suite.Test, several joined by a colon). `old` is found in the file without regard to white space.
+An entry of mutants.json has `name`, `file`, `old`, `new`, `test` (of CTest) and, for a GoogleTest
+program, `filter` (Suite.Test, several joined by a colon). `old` is found in the file without regard
+to white space.
 
-A mutant is killed when its test fails, survives when the test passes. A mutant that does not compile or runs into the time
-limit of the test says nothing and counts as not killed. Exit code 0: at least --least percent are killed; 1: fewer;
-2: wrong use, an entry that does not apply, or a test that fails without any fault.
+A mutant is killed when its test fails, survives when the test passes. A mutant that does not
+compile or runs into the time limit of the test says nothing and counts as not killed. Exit code 0:
+at least --least percent are killed; 1: fewer; 2: wrong use, an entry that does not apply, or a test
+that fails without any fault.
 """
 import argparse
 import fnmatch
@@ -30,7 +36,8 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 KEYS = {"name", "file", "old", "new", "test"}
-# Kinds of tests that are one program per room: tests/KIND/ROOM is the CTest test KIND.ROOM (mpi: KIND.ROOM.npN), target KIND_ROOM.
+# Kinds of tests that are one program per room: tests/KIND/ROOM is the CTest test KIND.ROOM (mpi:
+# KIND.ROOM.npN), target KIND_ROOM.
 PROGRAM = re.compile(r"(unit|verification|stability|mpi)\.(\w+?)(\.np\d+)?$")
 
 
@@ -40,11 +47,13 @@ def pattern(text):
 
 
 def apply(text, entry):
-    """The text of a file with the fault in it. ValueError unless the old text stands there exactly once."""
+    """The text of a file with the fault in it.
+    ValueError unless the old text stands there exactly once."""
     found = list(pattern(entry["old"]).finditer(text))
     if len(found) != 1:
-        raise ValueError(f"the old text is found {len(found)} times in {entry['file']}, expected once: {entry['old']}")
-    return text[: found[0].start()] + entry["new"] + text[found[0].end():]
+        raise ValueError(f"the old text is found {len(found)} times in {entry['file']}, expected "
+                         f"once: {entry['old']}")
+    return text[:found[0].start()] + entry["new"] + text[found[0].end():]
 
 
 def program_of(test):
@@ -58,7 +67,8 @@ def tests_of_room(project, test):
     kind, room = PROGRAM.match(test).group(1, 2)
     names = set()
     for source in sorted((project / "tests" / kind / room).rglob("*.cpp")):
-        for suite, name in re.findall(r"\bTEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)", source.read_text(encoding="utf-8")):
+        for suite, name in re.findall(r"\bTEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)",
+                                      source.read_text(encoding="utf-8")):
             names.add(f"{suite}.{name}")
     return names
 
@@ -90,13 +100,17 @@ def complaints(project, entries):
             continue
         known = tests_of_room(project, entry["test"])
         for wanted in entry.get("filter", "*").split(":"):
-            plain = re.sub(r"^\w+/|/\w+$", "", wanted)  # of a parameterised test: Prefix/Suite.Test/number
+            plain = re.sub(r"^\w+/|/\w+$", "",
+                           wanted)  # of a parameterised test: Prefix/Suite.Test/number
             if not any(fnmatch.fnmatchcase(one, re.sub(r"/\*$", "", plain)) for one in known):
                 yield f"{name}: {entry['test']} has no test {wanted}"
 
 
 def self_test():
-    good = {"name": "a", "file": "src/A.cpp", "old": "x = 1 + y;", "new": "x = 1 - y;", "test": "unit.a", "filter": "A.adds"}
+    good = {
+        "name": "a", "file": "src/A.cpp", "old": "x = 1 + y;", "new": "x = 1 - y;",
+        "test": "unit.a", "filter": "A.adds"
+    }
     cases = {
         "": good,
         "found 0 times": good | {"old": "x = 2 + y;"},
@@ -110,8 +124,10 @@ def self_test():
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        for path, text in {"src/A.cpp": "int f(int y) {\n  int x =\n      1 + y;\n  if (y) return x;\n  return y;\n}\n",
-                           "tests/unit/a/Test.cpp": "TEST(A, adds) {}\n"}.items():
+        for path, text in {
+                "src/A.cpp": "int f(int y) {\n  int x =\n      1 + y;\n  if (y) return x;\n"
+                "  return y;\n}\n", "tests/unit/a/Test.cpp": "TEST(A, adds) {}\n"
+        }.items():
             (root / path).parent.mkdir(parents=True, exist_ok=True)
             (root / path).write_text(text, encoding="utf-8")
         for expected, entry in cases.items():
@@ -125,7 +141,6 @@ def self_test():
 
 class Tree:
     """A copy of the sources with a build tree of its own."""
-
     def __init__(self, folder, preset, jobs):
         self.folder = folder
         self.preset = preset
@@ -134,8 +149,13 @@ class Tree:
 
     def update(self):
         """Copy what differs, remove what is gone, configure once."""
-        listed = subprocess.run(["git", "-C", PROJECT, "ls-files", "-z", "-co", "--exclude-standard"], check=True, capture_output=True).stdout
-        wanted = {name for name in os.fsdecode(listed).split("\0") if name and ((PROJECT / name).is_file() or (PROJECT / name).is_symlink())}
+        listed = subprocess.run(
+            ["git", "-C", PROJECT, "ls-files", "-z", "-co", "--exclude-standard"], check=True,
+            capture_output=True).stdout
+        wanted = {
+            name for name in os.fsdecode(listed).split("\0")
+            if name and ((PROJECT / name).is_file() or (PROJECT / name).is_symlink())
+        }
         for name in sorted(wanted):
             source, target = PROJECT / name, self.folder / name
             if source.is_symlink():  # tools/plots
@@ -156,18 +176,22 @@ class Tree:
 
     def build(self, targets):
         """The output of a build that failed, None when it succeeded."""
-        done = subprocess.run(["cmake", "--build", self.build_folder, "-j", str(self.jobs), "--target", *targets],
-                              capture_output=True, text=True, errors="replace")
+        done = subprocess.run(
+            ["cmake", "--build", self.build_folder, "-j",
+             str(self.jobs), "--target", *targets], capture_output=True, text=True,
+            errors="replace")
         return done.stdout + done.stderr if done.returncode else None
 
     def run(self, test, filters):
-        """Outcome of a test: passed, failed, timed out, not run (none of that name); and its output."""
+        """Outcome of a test: passed, failed, timed out, not run (none of that name); and its
+        output."""
         environment = dict(os.environ)
         environment.pop("GTEST_FILTER", None)
         if filters:
             environment["GTEST_FILTER"] = filters
-        done = subprocess.run(["ctest", "--test-dir", self.build_folder, "-R", f"^{re.escape(test)}$", "--verbose"], env=environment,
-                              capture_output=True, text=True, errors="replace")
+        done = subprocess.run(
+            ["ctest", "--test-dir", self.build_folder, "-R", f"^{re.escape(test)}$", "--verbose"],
+            env=environment, capture_output=True, text=True, errors="replace")
         output = done.stdout + done.stderr
         if "No tests were found" in output or re.search(r"Running 0 tests", output):
             return "not run", output
@@ -177,12 +201,14 @@ class Tree:
 
 
 def target_of(entry):
-    return program_of(entry["test"]) or ("tooljoint_python" if entry["test"].startswith("python.") else "tooljoint")
+    return program_of(entry["test"]) or ("tooljoint_python"
+                                         if entry["test"].startswith("python.") else "tooljoint")
 
 
 def baseline(tree, entries):
     """Whether everything builds and every named test passes without a fault."""
-    print(f"Building {len({target_of(entry) for entry in entries})} targets in {tree.folder} ...", flush=True)
+    print(f"Building {len({target_of(entry) for entry in entries})} targets in {tree.folder} ...",
+          flush=True)
     if failure := tree.build(sorted({target_of(entry) for entry in entries})):
         print(failure[-4000:])
         return False
@@ -191,7 +217,8 @@ def baseline(tree, entries):
         outcome, output = tree.run(test, filters)
         if outcome != "passed":
             good = False
-            print(f"Without any fault, {test} {filters} has {outcome}:\n{output[-3000:]}", flush=True)
+            print(f"Without any fault, {test} {filters} has {outcome}:\n{output[-3000:]}",
+                  flush=True)
     return good
 
 
@@ -213,8 +240,11 @@ def mutate(tree, entry):
 def selected(entries, patterns):
     if not patterns:
         return entries
-    return [entry for entry in entries
-            if any(fnmatch.fnmatchcase(text, f"*{one}*") for one in patterns for text in (entry["name"], entry["file"]))]
+    return [
+        entry for entry in entries if any(
+            fnmatch.fnmatchcase(text, f"*{one}*") for one in patterns
+            for text in (entry["name"], entry["file"]))
+    ]
 
 
 def table(entries, arguments):
@@ -230,24 +260,33 @@ def table(entries, arguments):
         outcome, why = mutate(tree, entry)
         killed += outcome == "killed"
         test = " ".join([entry["test"], entry.get("filter", "")]).strip()
-        print(f"{entry['name']:{width}}  {outcome:11}  {time.monotonic() - begin:7.1f}  {entry['file']}: {test}", flush=True)
+        print(
+            f"{entry['name']:{width}}  {outcome:11}  {time.monotonic() - begin:7.1f}  "
+            f"{entry['file']}: {test}", flush=True)
         if why:
             print("    " + why.replace("\n", "\n    "), flush=True)
     share = 100.0 * killed / len(entries)
-    print(f"{killed} of {len(entries)} mutants are killed ({share:.1f} %; at least {arguments.least:g} % are required).")
+    print(f"{killed} of {len(entries)} mutants are killed ({share:.1f} %; at least "
+          f"{arguments.least:g} % are required).")
     return 0 if share >= arguments.least else 1
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", action="append", default=[], metavar="PATTERN", help="entries whose name or file matches; may be repeated")
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", action="append", default=[], metavar="PATTERN",
+                        help="entries whose name or file matches; may be repeated")
     parser.add_argument("--list", action="store_true", help="print the entries and stop")
-    parser.add_argument("--check", action="store_true", help="check the entries against the sources and stop")
+    parser.add_argument("--check", action="store_true",
+                        help="check the entries against the sources and stop")
     parser.add_argument("--self-test", action="store_true", help="check the checks and stop")
-    parser.add_argument("--tree", type=pathlib.Path, default=PROJECT / "build" / "mutants", help="folder of the copy (default: build/mutants)")
-    parser.add_argument("--preset", default="release", help="CMake preset of the copy (default: release)")
+    parser.add_argument("--tree", type=pathlib.Path, default=PROJECT / "build" / "mutants",
+                        help="folder of the copy (default: build/mutants)")
+    parser.add_argument("--preset", default="release",
+                        help="CMake preset of the copy (default: release)")
     parser.add_argument("--jobs", type=int, default=2, help="compilers at a time (default: 2)")
-    parser.add_argument("--least", type=float, default=95.0, help="percentage that must be killed (default: 95)")
+    parser.add_argument("--least", type=float, default=95.0,
+                        help="percentage that must be killed (default: 95)")
     arguments = parser.parse_args()
     if arguments.self_test:
         return self_test()

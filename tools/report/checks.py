@@ -4,16 +4,19 @@
 ENERGY = 1e-2  # share of the energy supplied that the integration may lose or make
 # A name, the value in a summary, the bound.
 CHECKS = (
-    ("balance of torque", lambda s: abs(s["static"]["torque_balance_defect"]) / s["static"]["torque_scale"], 1e-2),
+    ("balance of torque",
+     lambda s: abs(s["static"]["torque_balance_defect"]) / s["static"]["torque_scale"], 1e-2),
     ("residual of the static state", lambda s: s["static"]["residual"], 1e-8),
     ("balance of energy", lambda s: abs(s["transient"]["energy_residual"]), ENERGY),
     ("step error", lambda s: s["transient"]["step_error"], 5e-2),
-    ("share of steps that did not converge", lambda s: s["transient"]["unconverged_steps"] / s["transient"]["steps"], 1e-3),
+    ("share of steps that did not converge",
+     lambda s: s["transient"]["unconverged_steps"] / s["transient"]["steps"], 1e-3),
 )
 
 
 def measured(summary):
-    """(name, value, bound) of the checks that this run allows; a stage that did not run has none."""
+    """(name, value, bound) of the checks that this run allows; a stage that did not run has
+    none."""
     found = []
     for name, measure, bound in CHECKS:
         try:

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The deck of a run as it was run: its XML with the overrides of the command line, as nested dicts."""
+"""The deck of a run as it was run: its XML with the overrides of the command line, as nested
+dicts."""
 import math
 import re
 import xml.etree.ElementTree as xml
 
 RPM = 30 / math.pi
-# What a title says of a scene: path, words before, SI unit of a plain number with the factor to the unit that is shown.
+# What a title says of a scene: path, words before, SI unit of a plain number with the factor to the
+# unit that is shown.
 CONDITIONS = (
     ("Loads/Weight On Bit", "WOB ", "kN", 1e-3),
     ("Loads/Torque On Bit", "TOB ", "kN m", 1e-3),
@@ -19,7 +21,12 @@ OF_ANALYSES = (  # and of an analysis besides
 )
 BLOCK = ("Torque and Drag/Block Weight", "block ", "kN", 1e-3)
 # The speed a law ends with or turns about: law, parameter, words before and after.
-SPEEDS = (("Constant", "Speed", "", ""), ("Exponential", "Final Speed", "up to ", ""), ("Ramp", "Final Speed", "ramp to ", ""), ("Harmonic", "Mean Speed", "", " on average"))
+SPEEDS = (
+    ("Constant", "Speed", "", ""),
+    ("Exponential", "Final Speed", "up to ", ""),
+    ("Ramp", "Final Speed", "ramp to ", ""),
+    ("Harmonic", "Mean Speed", "", " on average"),
+)
 
 
 def nested(element):
@@ -74,7 +81,8 @@ def shown(text, unit, factor):
 
 
 def rotary_speed(deck, varied=()):
-    """"120 rpm", "up to 60 rpm", ... of the law of the rotary speed; "" where the deck gives none or it varies."""
+    """"120 rpm", "up to 60 rpm", ... of the law of the rotary speed; "" where the deck gives none
+    or it varies."""
     law = value(deck, "Rotary Speed/Law") or "Constant"
     for name, parameter, before, after in SPEEDS:
         path = f"Rotary Speed/{name}/{parameter}"
@@ -85,7 +93,8 @@ def rotary_speed(deck, varied=()):
 
 
 def conditions(deck, varied=(), more=()):
-    """"120 rpm, WOB 40 kN, ..." for the title of a page, without the paths that are `varied`; `more`: further conditions."""
+    """"120 rpm, WOB 40 kN, ..." for the title of a page, without the paths that are `varied`;
+    `more`: further conditions."""
     words = [rotary_speed(deck, varied)]
     for path, before, unit, factor in (*CONDITIONS, *more):
         text = value(deck, path) if path not in varied else None
@@ -95,7 +104,8 @@ def conditions(deck, varied=(), more=()):
 
 
 def rows(deck, depth=0):
-    """(depth, name, value or None) of all lists and parameters, parameters of a list before its lists."""
+    """(depth, name, value or None) of all lists and parameters, parameters of a list before its
+    lists."""
     for name, entry in deck.items():
         if not isinstance(entry, dict):
             yield depth, name, entry

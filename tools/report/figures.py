@@ -10,7 +10,9 @@ from report.quantities import fixed
 BLUE, ORANGE, GREEN = COLOURS[:3]
 PICTURE_ROWS = 240  # of contact forces over time and depth
 JOINT = 15.0  # [m]: longer than a joint of drill pipe (API range 3, with its tool joint)
-RESOLVED = 8  # rows of the picture for each joint of pipe: then the pipe body between its tool joints is seen on its own
+# rows of the picture for each joint of pipe: then the pipe body between its tool joints is seen on
+# its own
+RESOLVED = 8
 STRETCHES = 100  # of a profile that changes from element to element; longer than a joint of pipe
 MOST_BARS = 400  # of nodes along a profile
 FLOOR = 1e-8  # of the largest value of a spectrum, where its picture ends
@@ -20,9 +22,9 @@ EVEN = 1e-3  # of its size: a quantity that changes less is a line, not a pictur
 
 class Figure:
     """An inline SVG with its caption; wide ones take two columns of the page, large ones a row."""
-
     def __init__(self, name, made, caption, wide=False, large=False):
-        self.name, self.caption, self.size = name, caption, "wide large" if large else "wide" if wide else "slender"
+        self.name, self.caption, self.size = (name, caption, "wide large"
+                                              if large else "wide" if wide else "slender")
         self.svg = plots.inline_svg(made, name, tight=large)
 
 
@@ -62,6 +64,7 @@ def static_profiles(run):
         def draw(axes):
             axes.plot(values / 1e3, run.middles, color=colour, linewidth=1.3)
             axes.axvline(0, color=GREY, linewidth=0.6)
+
         return draw
 
     def side(axes):
@@ -71,42 +74,57 @@ def static_profiles(run):
 
     def radial(axes):
         draw_clearance(axes, run.s, run.get("/model/clearance"))
-        axes.plot(1e3 * results.lateral(run, run.get("/static/displacement")), run.s, color=GREEN, linewidth=1.1, label="string")
+        axes.plot(1e3 * results.lateral(run, run.get("/static/displacement")), run.s, color=GREEN,
+                  linewidth=1.1, label="string")
         axes.set_xlim(left=0)
         plots.legend_above(axes, 2)
 
-    add("axial", "effective axial force [kN]", "Static axial force; tension is positive.", forces(run.get("/static/axial_force"), ORANGE))
-    add("torque", "torque [kN m]", f"Static torque, {results.AGAINST[sense]}.", forces(results.static_torque(run, sense), GREEN))
+    add("axial", "effective axial force [kN]", "Static axial force; tension is positive.",
+        forces(run.get("/static/axial_force"), ORANGE))
+    add("torque", "torque [kN m]", f"Static torque, {results.AGAINST[sense]}.",
+        forces(results.static_torque(run, sense), GREEN))
     add("side", "side force [kN]", "Static contact force of each node.", side)
-    add("radial", "lateral displacement [mm]", "Static distance from the axis of the well, and the clearance.", radial)
+    add("radial", "lateral displacement [mm]",
+        "Static distance from the axis of the well, and the clearance.", radial)
     stress = results.von_mises(run, run.get("/static/displacement"))
     if stress is not None:
-        add("stress", "von Mises stress [MPa]", "Static stress at the outer wall: effective tension, bending, torsion" + ("; the largest of each stretch, pale down to the smallest." if len(stress) > 4 * STRETCHES else "."),
-            lambda axes: (banded(axes, stress / 1e6, run.middles, COLOURS[4]), axes.set_xlim(left=0)))
-    add("curvature", "dogleg severity [deg/30 m]", "Curvature of the axis of the string at rest.",
-        lambda axes: (axes.plot(np.degrees(results.curvature(run, run.get("/static/displacement"))) * 30, run.middles, color=COLOURS[5], linewidth=1.1),
-                      axes.set_xlim(left=0)))
+        add(
+            "stress", "von Mises stress [MPa]",
+            "Static stress at the outer wall: effective tension, bending, torsion" +
+            ("; the largest of each stretch, pale down to the smallest."
+             if len(stress) > 4 * STRETCHES else "."), lambda axes:
+            (banded(axes, stress / 1e6, run.middles, COLOURS[4]), axes.set_xlim(left=0)))
+    add(
+        "curvature", "dogleg severity [deg/30 m]", "Curvature of the axis of the string at rest.",
+        lambda axes: (axes.plot(
+            np.degrees(results.curvature(run, run.get("/static/displacement"))) * 30, run.middles,
+            color=COLOURS[5], linewidth=1.1), axes.set_xlim(left=0)))
     return found
 
 
 def draw_clearance(axes, s, clearance):
-    """The clearance [mm], pale; where it changes within a stretch of depth, as at tool joints, the least of it darker."""
+    """The clearance [mm], pale; where it changes within a stretch of depth, as at tool joints, the
+    least of it darker."""
     depth, narrow, wide = plots.stretches(s, 1e3 * clearance, min(STRETCHES, len(s) - 1))
     changes = np.any(wide > 1.001 * narrow)
-    axes.fill_betweenx(depth, 0, wide, step="mid", color="#ececec", linewidth=0, label="largest clearance" if changes else "clearance")
+    axes.fill_betweenx(depth, 0, wide, step="mid", color="#ececec", linewidth=0,
+                       label="largest clearance" if changes else "clearance")
     if changes:
-        axes.fill_betweenx(depth, 0, narrow, step="mid", color="#d2d2d2", linewidth=0, label="least clearance")
+        axes.fill_betweenx(depth, 0, narrow, step="mid", color="#d2d2d2", linewidth=0,
+                           label="least clearance")
 
 
 def bars(axes, depth, values, colour, width=1.1):
-    """A line from zero for each node; of many nodes the largest of each stretch, which is no wider on the page than a line."""
+    """A line from zero for each node; of many nodes the largest of each stretch, which is no wider
+    on the page than a line."""
     if len(depth) > MOST_BARS:
         depth, _, values = plots.stretches(depth, values, MOST_BARS)
     axes.hlines(depth, 0, values, color=colour, linewidth=width)
 
 
 def banded(axes, values, depth, colour):
-    """Values along the depth; of many elements the largest of each stretch, and pale the range down to the smallest."""
+    """Values along the depth; of many elements the largest of each stretch, and pale the range down
+    to the smallest."""
     if len(depth) > 4 * STRETCHES:
         depth, low, values = plots.stretches(depth, values, STRETCHES)
         axes.fill_betweenx(depth, low, values, color=colour, alpha=0.2, linewidth=0)
@@ -114,7 +132,8 @@ def banded(axes, values, depth, colour):
 
 
 def draw_bit_speed(axes, time, bit, rotary):
-    """Speeds [rad/s] of the bit and at the surface; a bit that turns evenly is a line, not a picture of rounding."""
+    """Speeds [rad/s] of the bit and at the surface; a bit that turns evenly is a line, not a
+    picture of rounding."""
     axes.plot(*plots.envelope(time, RPM * bit), color=BLUE, linewidth=0.8, label="bit")
     axes.plot(*plots.envelope(time, RPM * rotary), color=ORANGE, linewidth=1.4, label="surface")
     low, high = axes.get_ylim()
@@ -135,46 +154,62 @@ def bit_speed(run):
 def surface(run):
     """Torques and hook load over time, as far as they are recorded.
 
-    Torques have one sign, positive against the rotation: /transient/surface_torque is against the rotation of each sample (to the right where nothing turns),
-    /transient/torque_on_bit against a rotation to the right."""
+    Torques have one sign, positive against the rotation: /transient/surface_torque is against the
+    rotation of each sample (to the right where nothing turns), /transient/torque_on_bit against a
+    rotation to the right."""
     found = []
     sense = run.sense() or 1
     signs = {"surface_torque": sense * np.where(run.rotary() < 0, -1, 1), "torque_on_bit": sense}
     against = results.AGAINST[run.sense()]
-    for name, label, said, lines in (("torques", "torque [kN m]", f", {against}", (("surface_torque", "at the surface", ORANGE), ("torque_on_bit", "of the rock on the bit", BLUE))),
-                                     ("hook-loads", "hook load [kN]", "", (("hook_load", "what the hook carries, without block", ORANGE),))):
-        recorded = [(signs.get(data, 1) * values, text, colour) for data, text, colour in lines if (values := run.get(f"/transient/{data}")) is not None]
+    for name, label, said, lines in (
+        ("torques", "torque [kN m]", f", {against}", (
+            ("surface_torque", "at the surface", ORANGE),
+            ("torque_on_bit", "of the rock on the bit", BLUE),
+        )),
+        ("hook-loads", "hook load [kN]", "", (("hook_load", "what the hook carries, without block",
+                                               ORANGE),)),
+    ):
+        recorded = [(signs.get(data, 1) * values, text, colour) for data, text, colour in lines
+                    if (values := run.get(f"/transient/{data}")) is not None]
         if not recorded:
             continue
         made, axes = plots.in_time(label, run.time)
         for values, text, colour in recorded:
-            axes.plot(*plots.envelope(run.time, values / 1e3), color=colour, linewidth=0.9, label=text)
+            axes.plot(*plots.envelope(run.time, values / 1e3), color=colour, linewidth=0.9,
+                      label=text)
         low, high = axes.get_ylim()
         least = EVEN * max(abs(low), abs(high), 1.0)
         if high - low < least:
             axes.set_ylim(0.5 * (low + high - least), 0.5 * (low + high + least))
         plots.legend_above(axes)
-        found.append(Figure(name, made, f"{label.split(' [')[0].capitalize()} over time: {' and '.join(text for _, text, _ in recorded)}{said}.", True))
+        found.append(
+            Figure(
+                name, made, f"{label.split(' [')[0].capitalize()} over time: "
+                f"{' and '.join(text for _, text, _ in recorded)}{said}.", True))
     return found
 
 
 def joint_length(s, radius):
-    """Largest distance [m] of neighbouring nodes that touch first, wider than the nodes beside them; 0 without such a pattern of tool joints."""
+    """Largest distance [m] of neighbouring nodes that touch first, wider than the nodes beside
+    them; 0 without such a pattern of tool joints."""
     above, own, below = radius[:-2], radius[1:-1], radius[2:]
     apart = np.diff(s[1:-1][(own >= above) & (own >= below) & (own > np.minimum(above, below))])
     return max(apart[apart <= JOINT], default=0.0)
 
 
 def contact_picture(s, middles, radius, force):
-    """Contact force over depth (rows, equal stretches) and time: the largest of the nodes whose stretch of the string is in a row.
+    """Contact force over depth (rows, equal stretches) and time: the largest of the nodes whose
+    stretch of the string is in a row.
 
-    Pipe bodies between tool joints seldom touch. A row that is finer than a joint of pipe, but too coarse to show it, would hold a pipe body here and
-    a tool joint there: it is made as long as a joint."""
+    Pipe bodies between tool joints seldom touch. A row that is finer than a joint of pipe, but too
+    coarse to show it, would hold a pipe body here and a tool joint there: it is made as long as a
+    joint."""
     rows, joint = PICTURE_ROWS, joint_length(s, radius)
     if joint * rows < RESOLVED * (s[-1] - s[0]):
         rows = min(rows, int((s[-1] - s[0]) / joint)) if joint > 0 else rows
     edges = np.linspace(s[0], s[-1], rows + 1)
-    first, last = np.searchsorted(middles, edges[:-1], side="right"), np.searchsorted(middles, edges[1:], side="left")
+    first, last = np.searchsorted(middles, edges[:-1],
+                                  side="right"), np.searchsorted(middles, edges[1:], side="left")
     return np.array([force[:, a:b + 1].max(axis=1) for a, b in zip(first, last)])
 
 
@@ -188,11 +223,16 @@ def contact(run, found):
     made, axes = plots.figure(plots.WIDE, 3.2)
     picture = contact_picture(s, run.middles, run.get("/model/contact_radius"), found.force)
     shown = axes.imshow(np.ma.masked_less_equal(picture / 1e3, 0), aspect="auto", cmap=plots.MAP,
-                        extent=(found.time[0], found.time[-1], s[-1], s[0]), interpolation="nearest")
+                        extent=(found.time[0], found.time[-1], s[-1], s[0]),
+                        interpolation="nearest")
     axes.grid(False)
     axes.set_xlabel("time [s]"), axes.set_ylabel("measured depth [m]")
     made.colorbar(shown, ax=axes, label="contact force [kN]")
-    return [Figure("contact", made, f"Contact force over the motion, the largest of each {(s[-1] - s[0]) / len(picture):.2g} m of depth; white: no contact.", True), *shares]
+    return [
+        Figure(
+            "contact", made, "Contact force over the motion, the largest of each "
+            f"{(s[-1] - s[0]) / len(picture):.2g} m of depth; white: no contact.", True), *shares
+    ]
 
 
 def contact_shares(run, found):
@@ -212,36 +252,48 @@ def vibration(run, motion):
     """Along the string, of what vibrates."""
     found = []
     for name, label, values, colour, caption in (
-            ("rms", "lateral vibration [mm rms]", 1e3 * motion.lateral_rms(), GREEN, "Lateral vibration about the mean position, second half of the motion."),
-            ("twist", "torsional vibration [deg rms]", np.degrees(motion.rms[:, 5]), COLOURS[4], "Torsional vibration about the mean twist, second half of the motion.")):
+        ("rms", "lateral vibration [mm rms]", 1e3 * motion.lateral_rms(), GREEN,
+         "Lateral vibration about the mean position, second half of the motion."),
+        ("twist", "torsional vibration [deg rms]", np.degrees(motion.rms[:, 5]), COLOURS[4],
+         "Torsional vibration about the mean twist, second half of the motion."),
+    ):
         if values.max() <= (1e3 if name == "rms" else np.degrees(1)) * results.VIBRATES:
             continue
         made, axes = plots.profile(label, (run.s[0], run.s[-1]))
-        axes.plot(values, run.s[run.recorded], color=colour, linewidth=1.1, **({} if run.moves else {"marker": "o", "markersize": 4, "linestyle": ":"}))
+        axes.plot(values, run.s[run.recorded], color=colour, linewidth=1.1,
+                  **({} if run.moves else {"marker": "o", "markersize": 4, "linestyle": ":"}))
         axes.set_xlim(left=0)
         found.append(Figure(name, made, caption))
     return found
 
 
 def whirl(run, motion, number, turned):
-    """What a caption says of the mean precession of a chosen node: positive in the sense of the rotation. `turned`: of results.sides."""
+    """What a caption says of the mean precession of a chosen node: positive in the sense of the
+    rotation. `turned`: of results.sides."""
     half = slice(motion.first, None)
     time = run.time[half]
     a, b = turned @ motion.histories[half, number, :2].T
-    rates = [results.differences(values, time) for values in (a, b)] if motion.velocities is None else turned @ motion.velocities[:, number].T
+    rates = [results.differences(values, time) for values in (a, b)
+             ] if motion.velocities is None else turned @ motion.velocities[:, number].T
     sense, speed = run.sense(half), np.abs(run.rotary()[half]).mean()
     turn = (sense or 1) * results.precession(a, b, *rates)
     ratio = f", {fixed(turn / speed, 2)} of the surface speed" if speed > 0 else ""
-    forward = {1: "clockwise is forward, positive", -1: "anticlockwise is forward, positive", 0: "clockwise is positive"}[sense]
+    forward = {
+        1: "clockwise is forward, positive", -1: "anticlockwise is forward, positive",
+        0: "clockwise is positive"
+    }[sense]
     coarse = ""
     if motion.velocities is None and len(time) > 1:
-        turns = f"; {2 * np.pi / speed / np.median(np.diff(time)):.3g} samples a turn of the surface" if speed > 0 else ""
-        coarse = f"; from displacements alone, without velocity in Output/Fields: 1 % too small at 26 samples a turn of the orbit, 10 % at 8{turns}"
+        turns = (f"; {2 * np.pi / speed / np.median(np.diff(time)):.3g} samples a turn of the "
+                 "surface") if speed > 0 else ""
+        coarse = ("; from displacements alone, without velocity in Output/Fields: 1 % too small "
+                  f"at 26 samples a turn of the orbit, 10 % at 8{turns}")
     return f"mean precession {fixed(RPM * turn, 1)} rpm{ratio}; {forward}{coarse}"
 
 
 def orbits(run, motion, chosen):
-    """The path of the axis of the string in the bore at those of the chosen nodes that vibrate, in the second half of the motion, looking down the hole."""
+    """The path of the axis of the string in the bore at those of the chosen nodes that vibrate, in
+    the second half of the motion, looking down the hole."""
     found = []
     clearance = run.get("/model/clearance")
     half = slice(motion.first, None)
@@ -261,8 +313,13 @@ def orbits(run, motion, chosen):
         axes.plot(b[-1], a[-1], "o", color=ORANGE, markersize=4)
         plots.square(axes, 1.08 * largest)
         axes.set_xlabel(f"{right} [mm]"), axes.set_ylabel(f"{up} [mm]")
-        circle = "" if gap < 20 * largest else f"; the clearance of {gap:.0f} mm is out of the picture"
-        found.append(Figure(f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}, second half of the motion, looking down the hole; {whirl(run, motion, number, turned)}{circle}."))
+        circle = "" if gap < 20 * largest else (f"; the clearance of {gap:.0f} mm is out of the "
+                                                "picture")
+        found.append(
+            Figure(
+                f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}, second half of "
+                "the motion, looking down the hole; "
+                f"{whirl(run, motion, number, turned)}{circle}."))
     return found
 
 
@@ -296,10 +353,14 @@ def spectra(run, motion, chosen):
         for number, node in enumerate(chosen):
             if motion.vibrates[number]:
                 up = 1e3 * motion.histories[half, number, :2] @ results.sides(run, node)[1][0]
-                draw_spectrum(axes, up, interval, color=COLOURS[number], label=f"{run.s[node]:.0f} m, {results.sides(run, node)[0][0]}")
+                draw_spectrum(axes, up, interval, color=COLOURS[number],
+                              label=f"{run.s[node]:.0f} m, {results.sides(run, node)[0][0]}")
         if axes.lines:
             plots.legend_above(axes, 3)
-            found.append(Figure("lateral-spectrum", made, f"Spectra of the lateral displacement at the nodes of the orbits, second half of the motion, {DOWN_TO}.", True))
+            found.append(
+                Figure(
+                    "lateral-spectrum", made, "Spectra of the lateral displacement at the nodes "
+                    f"of the orbits, second half of the motion, {DOWN_TO}.", True))
         else:
             plots.plt.close(made)
     bit = run.bit_speed()
@@ -307,7 +368,9 @@ def spectra(run, motion, chosen):
         made, axes = frequency_axes("bit speed [rpm²/Hz]")
         draw_spectrum(axes, RPM * bit[half], interval, color=BLUE)
         if axes.lines:
-            found.append(Figure("bit-spectrum", made, f"Spectrum of the bit speed, second half of the motion, {DOWN_TO}.", True))
+            found.append(
+                Figure("bit-spectrum", made,
+                       f"Spectrum of the bit speed, second half of the motion, {DOWN_TO}.", True))
         else:
             plots.plt.close(made)
     return found

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of a run of imported parts: displacements of all nodes, the nodes that move most, forces of point laws."""
+"""Figures of a run of imported parts: displacements of all nodes, the nodes that move most, forces
+of point laws."""
 import h5py
 import numpy as np
 
@@ -11,7 +12,8 @@ from report.figures import DOWN_TO, Figure, draw_spectrum, frequency_axes
 
 def components(run):
     """(number, name, unit) of the components of a node."""
-    pairs = zip(results.texts(run.file["/model/components"]), results.texts(run.file["/model/component_units"]))
+    pairs = zip(results.texts(run.file["/model/components"]),
+                results.texts(run.file["/model/component_units"]))
     return [(number, name, unit) for number, (name, unit) in enumerate(pairs)]
 
 
@@ -20,7 +22,8 @@ def label(name, unit):
 
 
 def node_name(run, row):
-    return f"node {run.get('/model/node')[row]} of {results.texts(run.file['/model/part_names'])[run.get('/model/part')[row] - 1]}"
+    return (f"node {run.get('/model/node')[row]} of "
+            f"{results.texts(run.file['/model/part_names'])[run.get('/model/part')[row] - 1]}")
 
 
 def start_of(run):
@@ -52,18 +55,23 @@ def displacements(run):
             continue
         made, axes = plots.figure(plots.WIDE, 2.0)
         if run.records:
-            axes.fill_between(row, low[:, c], high[:, c], step="mid", color=COLOURS[5], alpha=0.5, linewidth=0, label="range of the motion")
+            axes.fill_between(row, low[:, c], high[:, c], step="mid", color=COLOURS[5], alpha=0.5,
+                              linewidth=0, label="range of the motion")
         axes.plot(row, start[:, c], ".", color="black", markersize=3, label="start")
         for first in np.flatnonzero(np.diff(part)):
             axes.axvline(first + 0.5, color="0.7", linewidth=0.6)
         present = np.unique(part)
         if len(present) <= 12:
             axes.set_xticks([row[part == number].mean() for number in present])
-            axes.set_xticklabels([names[number - 1] for number in present], fontsize=8, rotation=15, ha="right")
+            axes.set_xticklabels([names[number - 1] for number in present], fontsize=8, rotation=15,
+                                 ha="right")
         axes.set_xlim(-0.5, len(part) - 0.5)
         axes.set_ylabel(label(name, unit)), axes.set_xlabel("nodes, part by part")
         plots.legend_above(axes)
-        found.append(Figure(f"nodes-{c + 1}", made, f"Component {name} of all {'' if run.moves or not run.records else 'recorded '}nodes.", True))
+        found.append(
+            Figure(
+                f"nodes-{c + 1}", made, f"Component {name} of all "
+                f"{'' if run.moves or not run.records else 'recorded '}nodes.", True))
     return found
 
 
@@ -76,7 +84,8 @@ def histories(run):
         reach = high[:, c] - low[:, c]
         if reach.max() > 0:
             node = int(reach.argmax())
-            yield c, name, unit, int(run.recorded[node]), run.file["/transient/displacement"][:, node, c]
+            history = run.file["/transient/displacement"][:, node, c]
+            yield c, name, unit, int(run.recorded[node]), history
 
 
 def movers(run):
@@ -84,7 +93,9 @@ def movers(run):
     for c, name, unit, node, values in histories(run):
         made, axes = plots.in_time(label(name, unit), run.time, 2.0)
         axes.plot(*plots.envelope(run.time, values), color=COLOURS[c % len(COLOURS)], linewidth=0.8)
-        found.append(Figure(f"mover-{c + 1}", made, f"Component {name} of {node_name(run, node)}, which moves most.", True))
+        found.append(
+            Figure(f"mover-{c + 1}", made,
+                   f"Component {name} of {node_name(run, node)}, which moves most.", True))
     return found
 
 
@@ -96,9 +107,15 @@ def forces(run):
         if not isinstance(moving[law], h5py.Group):
             continue
         for name, channel in moving[law].items():
-            made, axes = plots.in_time(f"{name.replace('_', ' ')} [{channel.attrs['units']}]", run.time, 2.0)
-            axes.plot(*plots.envelope(run.time, np.abs(channel[:]).reshape(len(run.time), -1).max(axis=1)), color=COLOURS[1], linewidth=0.8)
-            found.append(Figure(f"law-{len(found) + 1}", made, f"{law}: {name.replace('_', ' ')}, largest size over its points.", True))
+            made, axes = plots.in_time(f"{name.replace('_', ' ')} [{channel.attrs['units']}]",
+                                       run.time, 2.0)
+            axes.plot(
+                *plots.envelope(run.time,
+                                np.abs(channel[:]).reshape(len(run.time), -1).max(axis=1)),
+                color=COLOURS[1], linewidth=0.8)
+            found.append(
+                Figure(f"law-{len(found) + 1}", made,
+                       f"{law}: {name.replace('_', ' ')}, largest size over its points.", True))
     return found
 
 
@@ -111,10 +128,16 @@ def spectra(run):
         made, axes = frequency_axes(f"displacement [{wanted}²/Hz]")
         for c, name, unit, node, values in histories(run):
             if unit == wanted:
-                draw_spectrum(axes, values[run.second_half():], interval, color=COLOURS[c % len(COLOURS)], label=f"{name}, {node_name(run, node)}")
+                draw_spectrum(axes, values[run.second_half():], interval,
+                              color=COLOURS[c % len(COLOURS)],
+                              label=f"{name}, {node_name(run, node)}")
         if axes.lines:
             plots.legend_above(axes, 2)
-            found.append(Figure(f"spectrum-{wanted}", made, f"Spectra of the nodes that move most, second half of the motion, {DOWN_TO}.", True))
+            found.append(
+                Figure(
+                    f"spectrum-{wanted}", made,
+                    f"Spectra of the nodes that move most, second half of the motion, {DOWN_TO}.",
+                    True))
         else:
             plots.plt.close(made)
     return found

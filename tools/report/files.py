@@ -10,8 +10,12 @@ import sys
 
 USAGE, FILES = 1, 5  # exit codes of the program and its tools
 AGAIN = "Run the deck again, or restore the file from a copy."
-DAMAGE = (OSError, RuntimeError, LookupError, ArithmeticError, AttributeError, TypeError, ValueError, csv.Error)  # what a damaged file raises while it is read and drawn
-REASONS = {errno.ENOSPC: "the disk is full", errno.EDQUOT: "the quota of the disk is used up", errno.EFBIG: "the file would be larger than the limit of the process (ulimit -f)"}
+DAMAGE = (OSError, RuntimeError, LookupError, ArithmeticError, AttributeError, TypeError,
+          ValueError, csv.Error)  # what a damaged file raises while it is read and drawn
+REASONS = {
+    errno.ENOSPC: "the disk is full", errno.EDQUOT: "the quota of the disk is used up",
+    errno.EFBIG: "the file would be larger than the limit of the process (ulimit -f)"
+}
 
 
 class Unreadable(Exception):
@@ -52,7 +56,9 @@ def reading(path):
         yield
     except DAMAGE as error:
         why = reason(error) if isinstance(error, OSError) else ""
-        raise unreadable(getattr(error, "filename", None) or path, why or "it is damaged, or not what this program writes") from error
+        raise unreadable(
+            getattr(error, "filename", None) or path, why
+            or "it is damaged, or not what this program writes") from error
 
 
 @contextlib.contextmanager
@@ -61,7 +67,9 @@ def writing(path):
     try:
         yield
     except OSError as error:
-        raise Unwritable(f"{path} cannot be written: {reason(error) or error}. Make room or name another folder.") from error
+        raise Unwritable(
+            f"{path} cannot be written: {reason(error) or error}. Make room or name another folder."
+        ) from error
 
 
 def write(path, text):
@@ -78,7 +86,8 @@ def write(path, text):
 
 
 def read_rows(path):
-    """Rows of a CSV file, its header first, as lists of texts. Unreadable where a row is cut off or has another number of cells."""
+    """Rows of a CSV file, its header first, as lists of texts.
+    Unreadable where a row is cut off or has another number of cells."""
     with reading(path):
         text = path.read_bytes().decode("utf-8")
         rows = list(csv.reader(io.StringIO(text, newline="")))
@@ -88,15 +97,16 @@ def read_rows(path):
         raise unreadable(path, "it holds bytes of zero")
     for number, row in enumerate(rows[1:], 2):
         if len(row) != len(rows[0]):
-            raise unreadable(path, f"row {number} has {len(row)} cells, the header has {len(rows[0])}")
+            raise unreadable(path,
+                             f"row {number} has {len(row)} cells, the header has {len(rows[0])}")
     if not text.endswith("\n"):
         raise unreadable(path, "its last row is cut off")
     return rows
 
 
 class Row(dict):
-    """A row of a table by the names of its columns: numbers, and texts where a cell holds no number."""
-
+    """A row of a table by the names of its columns: numbers, and texts where a cell holds no
+    number."""
     def __init__(self, cells, path):
         super().__init__(cells)
         self.path = path
@@ -106,17 +116,25 @@ class Row(dict):
 
 
 def read_table(path, *needed):
-    """A Row for each row of a CSV file; names without their units. Unreadable where a column with a unit holds a text, or where one of the columns `needed` is missing."""
+    """A Row for each row of a CSV file; names without their units.
+    Unreadable where a column with a unit holds a text, or where one of the columns `needed` is
+    missing."""
     def value(text, title, number):
         try:
             return float(text)
         except ValueError:
             if text and title.endswith("]"):
-                raise unreadable(path, f"row {number} has \"{text}\" in the column \"{title}\", expected is a number") from None
+                raise unreadable(
+                    path,
+                    f"row {number} has \"{text}\" in the column \"{title}\", expected is a number"
+                ) from None
             return text
 
     titles, *rows = read_rows(path)
-    found = [Row({title.split(" [")[0]: value(text, title, number) for title, text in zip(titles, row)}, path) for number, row in enumerate(rows, 2)]
+    found = [
+        Row({title.split(" [")[0]: value(text, title, number)
+             for title, text in zip(titles, row)}, path) for number, row in enumerate(rows, 2)
+    ]
     for name in needed:
         numbers(found, name)
     return found
@@ -126,5 +144,6 @@ def numbers(rows, name):
     """A column of a table; nan where a cell is empty. Unreadable where it holds a text."""
     for row in rows:
         if row[name] and not isinstance(row[name], float):
-            raise unreadable(row.path, f"the column \"{name}\" has \"{row[name]}\", expected is a number")
+            raise unreadable(row.path,
+                             f"the column \"{name}\" has \"{row[name]}\", expected is a number")
     return [math.nan if row[name] == "" else row[name] for row in rows]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The main of the tools that draw the folder a command has left, and what stands above their figures."""
+"""The main of the tools that draw the folder a command has left, and what stands above their
+figures."""
 import argparse
 import pathlib
 import sys
@@ -11,7 +12,8 @@ from report.results import open_results
 
 
 def conditions(results):
-    """What the deck in an HDF5 file of results says of the scene, for the second line of a title."""
+    """What the deck in an HDF5 file of results says of the scene, for the second line of a
+    title."""
     text, overrides = (results.attrs.get(name, "") for name in ("deck_text", "overrides"))
     lists = deck.read(text, overrides)
     name = pathlib.PurePath(results.attrs.get("deck_file", "")).stem
@@ -20,14 +22,18 @@ def conditions(results):
 
 
 def parser(description, kind, files):
-    options = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options = argparse.ArgumentParser(description=description,
+                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("folder", type=pathlib.Path, help=kind)
-    options.add_argument("--output", type=pathlib.Path, help=f"picture (default: {' or '.join(pathlib.Path(f).stem + '.png' for f in files)} in the folder)")
+    options.add_argument(
+        "--output", type=pathlib.Path, help="picture (default: "
+        f"{' or '.join(pathlib.Path(f).stem + '.png' for f in files)} in the folder)")
     return options
 
 
 def opened(folder, kind, files):
-    """(name, open file) of the first of `files` in the folder; ends with a sentence where none is there."""
+    """(name, open file) of the first of `files` in the folder; ends with a sentence where none is
+    there."""
     found = next((name for name in files if (folder / name).is_file()), None)
     if found is None:
         missing = f"neither {' nor '.join(files)}" if len(files) > 1 else f"no {next(iter(files))}"
@@ -44,10 +50,12 @@ def save(made, path):
 
 
 def draw_folder(description, kind, files):
-    """The main of a tool: the first of `files` (name.h5 -> pictures) in the folder gives name.png there, or the picture of --output. `kind`: the folder, in words.
+    """The main of a tool: the first of `files` (name.h5 -> pictures) in the folder gives name.png
+    there, or the picture of --output. `kind`: the folder, in words.
 
-    Pictures are a function of the open file that makes a figure, or several with their titles, {"": (title, function), "shapes": (title, function)}: the second is name_shapes.png.
-    A function may return None: there is nothing to draw.
+    Pictures are a function of the open file that makes a figure, or several with their titles,
+    {"": (title, function), "shapes": (title, function)}: the second is name_shapes.png. A function
+    may return None: there is nothing to draw.
     """
     options = parser(description, kind, files).parse_args()
     plots.use_style()

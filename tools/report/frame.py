@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What stands around the sections of every page: notes first, the deck and where the page comes from last."""
+"""What stands around the sections of every page: notes first, the deck and where the page comes
+from last."""
 from report import checks, deck, tables
 
 ENDS = {"failed": "failed", "interrupted": "was interrupted"}
@@ -11,7 +12,8 @@ def notes(page, results, what="run"):
         return
     status = results.value("status")
     if status != "finished":
-        page.note(f"The {what} {ENDS.get(status, 'did not finish')}: {results.value('message') or 'its results are incomplete.'}")
+        page.note(f"The {what} {ENDS.get(status, 'did not finish')}: "
+                  f"{results.value('message') or 'its results are incomplete.'}")
     measured = checks.measured(results.summary)
     for name, value, bound in measured:
         if value > bound:
@@ -30,7 +32,11 @@ def scene_of(results):
 def close(page, results):
     """Deck and origin of a page."""
     rows = list(deck.rows(scene_of(results)))
-    page.add("deck", "Deck", f"<details open><summary>{len(rows)} lines, with the overrides of the command line</summary>{tables.of_deck(rows)}</details>" if rows else "")
-    origin = (f"program {results.attribute('program_version')} ({results.attribute('git_hash')}), results of {results.attribute('date')}, deck SHA-256 {results.attribute('deck_sha256')}"
+    page.add(
+        "deck", "Deck", f"<details open><summary>{len(rows)} lines, with the overrides of the "
+        f"command line</summary>{tables.of_deck(rows)}</details>" if rows else "")
+    origin = (f"program {results.attribute('program_version')} ({results.attribute('git_hash')}), "
+              f"results of {results.attribute('date')}, deck SHA-256 "
+              f"{results.attribute('deck_sha256')}"
               if results.file is not None else "tables alone, without a summary and a deck")
     page.footer = f"Written by tooljoint report from {results.folder}: {origin}."

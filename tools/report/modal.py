@@ -14,9 +14,18 @@ from report.results import open_results
 BASIS_ROWS = 60  # of a page; basis.csv has all
 DIGITS = 4  # of the largest number of a column of frequencies
 # Columns as they are shown; those of undamped modes have no damping.
-TITLES = {"mode": "mode", "full": "full model [Hz]", "full_im": "in motion [Hz]", "full_damping": "damping ratio", "coupled_mode": "coupled mode", "coupled": "reduced model [Hz]",
-          "coupled_im": "in motion [Hz]", "coupled_damping": "damping ratio", "mac": "MAC", "error": "error", "estimate": "estimated error", "definite": "complete"}
-FREQUENCIES, RATIOS, SHARES = ("full", "full_im", "coupled", "coupled_im"), ("full_damping", "coupled_damping", "mac"), ("error", "estimate")
+TITLES = {
+    "mode": "mode", "full": "full model [Hz]", "full_im": "in motion [Hz]",
+    "full_damping": "damping ratio", "coupled_mode": "coupled mode",
+    "coupled": "reduced model [Hz]", "coupled_im": "in motion [Hz]",
+    "coupled_damping": "damping ratio", "mac": "MAC", "error": "error",
+    "estimate": "estimated error", "definite": "complete"
+}
+FREQUENCIES, RATIOS, SHARES = ("full", "full_im", "coupled",
+                               "coupled_im"), ("full_damping", "coupled_damping", "mac"), (
+                                   "error",
+                                   "estimate",
+                               )
 MODELS = (("full", "full model", "o", COLOURS[0]), ("coupled", "reduced model", "x", COLOURS[1]))
 
 
@@ -28,9 +37,12 @@ def basis_table(folder):
     if not rows:
         return ""
     shown = rows[:BASIS_ROWS]
-    more = f", the first {BASIS_ROWS} of {len(rows)}; basis.csv has all" if len(rows) > BASIS_ROWS else ""
+    more = f", the first {BASIS_ROWS} of {len(rows)}; basis.csv has all" if len(
+        rows) > BASIS_ROWS else ""
     table = tables.table(("part", "kind", "vector", "frequency [Hz]", "residual", "kept", "why"),
-                         [(row["part"], row["kind"], plain(row["vector"]), plain(row["frequency"]), plain(row["residual"], 2), row["kept"], row["why"]) for row in shown], (3, 4))
+                         [(row["part"], row["kind"], plain(row["vector"]), plain(
+                             row["frequency"]), plain(row["residual"], 2), row["kept"], row["why"])
+                          for row in shown], (3, 4))
     return f"<details><summary>Vectors of the bases{more}</summary>{table}</details>"
 
 
@@ -41,11 +53,14 @@ def whole_numbers(axes):
 
 
 def modes_figure(name, rows, columns, label, caption, zero=False):
-    """Columns of a full and of a reduced model, a mark for each mode; none where all are missing or 0."""
+    """Columns of a full and of a reduced model, a mark for each mode; none where all are missing or
+    0."""
     made, axes = plots.figure(plots.WIDE, 2.4)
     for column, text, marker, colour in columns:
-        if column in rows[0] and any(value for value in numbers(rows, column) if math.isfinite(value)):
-            axes.plot(numbers(rows, "mode"), numbers(rows, column), marker, color=colour, markersize=5, markerfacecolor="none", label=text)
+        if column in rows[0] and any(value
+                                     for value in numbers(rows, column) if math.isfinite(value)):
+            axes.plot(numbers(rows, "mode"), numbers(rows, column), marker, color=colour,
+                      markersize=5, markerfacecolor="none", label=text)
     if not axes.lines:
         plots.plt.close(made)
         return []
@@ -65,15 +80,23 @@ def errors_figure(rows):
         return []
     made, axes = plots.figure(plots.WIDE, 2.4)
     axes.set_yscale("log")
-    axes.plot(numbers(made_of, "mode"), [abs(x) for x in numbers(made_of, "error")], "o", color=COLOURS[0], markersize=4, label="error")
-    estimated = [row for row in made_of if isinstance(row.get("estimate"), float) and row["estimate"] > 0]
+    axes.plot(numbers(made_of, "mode"), [abs(x) for x in numbers(made_of, "error")], "o",
+              color=COLOURS[0], markersize=4, label="error")
+    estimated = [
+        row for row in made_of if isinstance(row.get("estimate"), float) and row["estimate"] > 0
+    ]
     if estimated:
-        axes.plot(numbers(estimated, "mode"), numbers(estimated, "estimate"), "s", markersize=4, markerfacecolor="none", color=COLOURS[1], label="estimate")
+        axes.plot(numbers(estimated, "mode"), numbers(estimated, "estimate"), "s", markersize=4,
+                  markerfacecolor="none", color=COLOURS[1], label="estimate")
     plots.logarithmic(axes.yaxis)
     axes.set_xlabel("mode"), axes.set_ylabel("relative error of the frequency [1]")
     whole_numbers(axes)
     plots.legend_above(axes)
-    return [Figure("mode-errors", made, "Errors of the coupled frequencies, and their estimates without the full model.", True)]
+    return [
+        Figure("mode-errors", made,
+               "Errors of the coupled frequencies, and their estimates without the full model.",
+               True)
+    ]
 
 
 def shapes_figure(folder):
@@ -82,52 +105,78 @@ def shapes_figure(folder):
         return []
     with open_results(folder / "modes.h5") as results:
         made = rotating.mode_shapes_figure(results)
-    return [] if made is None else [Figure("mode-shapes", made, "The lowest undamped modes of the full model in the hole.", large=True)]
+    return [] if made is None else [
+        Figure("mode-shapes", made, "The lowest undamped modes of the full model in the hole.",
+               large=True)
+    ]
 
 
 def table_of(rows, damped):
     """All modes, each column with as many decimals as its largest number needs."""
-    names = [name for name in TITLES if name in rows[0] and (damped or not name.endswith(("_damping", "_im")))]
+    names = [
+        name for name in TITLES
+        if name in rows[0] and (damped or not name.endswith(("_damping", "_im")))
+    ]
 
     def column(name):
         values = numbers(rows, name)
         if name in FREQUENCIES:
             largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
-            decimals = min(6, max(0, DIGITS - 1 - math.floor(math.log10(largest)))) if largest > 0 else 0
+            decimals = min(6, max(0, DIGITS - 1 -
+                                  math.floor(math.log10(largest)))) if largest > 0 else 0
         else:
             decimals = DIGITS if name in RATIOS else 0
-        return [percent(value) if name in SHARES else fixed(value, decimals) if math.isfinite(value) else "-" for value in values]
+        return [
+            percent(value)
+            if name in SHARES else fixed(value, decimals) if math.isfinite(value) else "-"
+            for value in values
+        ]
 
-    return tables.table([TITLES[name] for name in names], list(zip(*map(column, names))), range(len(names)), "complete: 0 where modes are missing below" if "definite" in names else "")
+    return tables.table([TITLES[name] for name in names], list(zip(*map(column, names))),
+                        range(len(names)),
+                        "complete: 0 where modes are missing below" if "definite" in names else "")
 
 
 def grows(rows):
     """Modes with a negative damping ratio, of either model."""
-    return [row for row in rows if any(isinstance(row.get(name), float) and row[name] < 0 for name in ("full_damping", "coupled_damping"))]
+    return [
+        row for row in rows if any(
+            isinstance(row.get(name), float) and row[name] < 0
+            for name in ("full_damping", "coupled_damping"))
+    ]
 
 
 def growing(count):
-    return "no mode grows" if count == 0 else "1 mode grows" if count == 1 else f"{count} modes grow"
+    return ("no mode grows"
+            if count == 0 else "1 mode grows" if count == 1 else f"{count} modes grow")
 
 
 def headline(results):
     """Cards of the lowest frequency, the least damping and the largest error."""
     found = []
     for file, what in (("modes.csv", ""), ("damped_modes.csv", ", damped")):
-        rows = read_table(results.folder / file, "mode") if (results.folder / file).is_file() else []
+        path = results.folder / file
+        rows = read_table(path, "mode") if path.is_file() else []
         if not rows:
             continue
         kind = "full" if "full" in rows[0] else "coupled"
         frequencies = [value for value in numbers(rows, kind) if math.isfinite(value)]
         if frequencies:
-            found.append((f"Lowest frequency{what}", f"{min(frequencies):.4g} Hz", f"highest {max(frequencies):.4g} Hz", f"{len(rows)} modes of the {dict(full='full', coupled='reduced')[kind]} model", False))
-        ratios = [(value, mode) for mode, value in enumerate(numbers(rows, f"{kind}_damping"), 1) if math.isfinite(value)] if f"{kind}_damping" in rows[0] and what else []
+            found.append(
+                (f"Lowest frequency{what}", f"{min(frequencies):.4g} Hz",
+                 f"highest {max(frequencies):.4g} Hz",
+                 f"{len(rows)} modes of the {dict(full='full', coupled='reduced')[kind]} model",
+                 False))
+        ratios = [(value, mode) for mode, value in enumerate(numbers(rows, f"{kind}_damping"), 1)
+                  if math.isfinite(value)] if f"{kind}_damping" in rows[0] and what else []
         if ratios:
             least, mode = min(ratios)
-            found.append(("Least damping ratio", f"{least:.3g}", f"mode {mode}", growing(len(grows(rows))), least < 0))
+            found.append(("Least damping ratio", f"{least:.3g}", f"mode {mode}",
+                          growing(len(grows(rows))), least < 0))
         errors = [abs(row["error"]) for row in rows if isinstance(row.get("error"), float)]
         if errors:
-            found.append((f"Largest error{what}", percent(max(errors)), "", "of the reduced model", False))
+            found.append(
+                (f"Largest error{what}", percent(max(errors)), "", "of the reduced model", False))
     return cards(found) if found else ""
 
 
@@ -142,11 +191,15 @@ def add_table(page, folder, file, title):
     if not rows:
         return
     name, damped = file.split(".")[0].replace("_", "-"), file.startswith("damped")
-    figures = modes_figure(f"{name}-frequencies", rows, MODELS, "frequency [Hz]", "Frequencies of the damped modes, |s| / 2 pi." if damped else "Frequencies of the modes without damping.")
+    figures = modes_figure(
+        f"{name}-frequencies", rows, MODELS, "frequency [Hz]",
+        "Frequencies of the damped modes, |s| / 2 pi."
+        if damped else "Frequencies of the modes without damping.")
     if damped:
         ratios = [(f"{column}_damping", *rest) for column, *rest in MODELS]
         unstable = "; below 0 the motion grows" if grows(rows) else ""
-        figures += modes_figure("mode-damping", rows, ratios, "damping ratio", f"Damping ratios of the modes{unstable}.", zero=True)
+        figures += modes_figure("mode-damping", rows, ratios, "damping ratio",
+                                f"Damping ratios of the modes{unstable}.", zero=True)
     else:
         figures += errors_figure(rows)
         with page.section(folder / "modes.h5"):

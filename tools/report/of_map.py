@@ -18,7 +18,10 @@ MOST_ROWS = 2000  # of the table of a page; map.csv has all
 
 def limit(value):
     """"unsafe above 6.5" of a value; "" where it has no limit."""
-    words = [f"{side} {value[f'unsafe_{side}']:g}" for side in ("below", "above") if value[f"unsafe_{side}"] is not None]
+    words = [
+        f"{side} {value[f'unsafe_{side}']:g}" for side in ("below", "above")
+        if value[f"unsafe_{side}"] is not None
+    ]
     return "unsafe " + " and ".join(words) if words else ""
 
 
@@ -29,12 +32,15 @@ def counted(value):
 
 def point(made, row):
     """"speed 60 rpm, weight on bit 5 kN" of a row of the table."""
-    return ", ".join(" ".join(filter(None, (axis["name"], pathlib.PurePath(row[axis["name"]]).name, axis["unit"]))) for axis in made.axes)
+    return ", ".join(" ".join(
+        filter(None, (axis["name"], pathlib.PurePath(row[axis["name"]]).name, axis["unit"])))
+                     for axis in made.axes)
 
 
 def extremes(value, grid):
-    """(word, row of the table) of the best and the worst point of a value. A limit on one side tells which is which; without one they are the
-    least and the largest. Empty where no point has the value."""
+    """(word, row of the table) of the best and the worst point of a value.
+    A limit on one side tells which is which; without one they are the least and the largest. Empty
+    where no point has the value."""
     if not np.isfinite(grid).any():
         return []
     least, largest = int(np.nanargmin(grid)), int(np.nanargmax(grid))
@@ -45,20 +51,26 @@ def extremes(value, grid):
 
 
 def safe(made):
-    """Points whose values are known and safe, as far as they have a limit; None for a map without limits."""
+    """Points whose values are known and safe, as far as they have a limit; None for a map without
+    limits."""
     limited = [value for value in made.values if limit(value)]
     if not limited:
         return None
-    return np.all([np.isfinite(made.grid[value["name"]]) & ~plot_map.unsafe(value, made.grid[value["name"]]) for value in limited], axis=0)
+    return np.all([
+        np.isfinite(made.grid[value["name"]]) & ~plot_map.unsafe(value, made.grid[value["name"]])
+        for value in limited
+    ], axis=0)
 
 
 def headline(made, summary):
     """Cards of the best and worst points, of the safe points and of the time."""
     total = len(made.rows)
-    found = [("Points done", str(summary["done"]), f"of {total}", f"{summary['failed']} failed", summary["failed"] > 0)]
+    found = [("Points done", str(summary["done"]), f"of {total}", f"{summary['failed']} failed",
+              summary["failed"] > 0)]
     harmless = safe(made)
     if harmless is not None:
-        found.append(("Safe points", str(np.count_nonzero(harmless)), f"of {total}", "every value with a limit is known and safe", not harmless.any()))
+        found.append(("Safe points", str(np.count_nonzero(harmless)), f"of {total}",
+                      "every value with a limit is known and safe", not harmless.any()))
     for value in made.values:
         grid = made.grid[value["name"]]
         ends = extremes(value, grid)
@@ -66,29 +78,41 @@ def headline(made, summary):
             found.append((value["name"], "-", "", "no point has this value", True))
         for word, row in ends:
             bad = bool(plot_map.unsafe(value, grid).flat[row])
-            found.append((f"{value['name']}, {word}", f"{plain(grid.flat[row])} {value.get('unit') or ''}".strip(), point(made, made.rows[row]), limit(value), bad))
-    found.append(("Time per point", f"{summary['wall_per_point_s']:.3g} s", f"CPU time {summary['cpu_per_point_s']:.3g} s", "mean of the points that ended", False))
+            found.append((f"{value['name']}, {word}",
+                          f"{plain(grid.flat[row])} {value.get('unit') or ''}".strip(),
+                          point(made, made.rows[row]), limit(value), bad))
+    found.append(
+        ("Time per point", f"{summary['wall_per_point_s']:.3g} s",
+         f"CPU time {summary['cpu_per_point_s']:.3g} s", "mean of the points that ended", False))
     return cards(found)
 
 
 def places(texts):
     """Points of an axis; of a long axis the ends."""
     names = [pathlib.PurePath(text).name for text in texts]
-    return ", ".join(names) if len(names) <= MOST_NAMED else f"{len(names)} points: {', '.join(names[:3])}, ..., {names[-1]}"
+    return ", ".join(names) if len(
+        names) <= MOST_NAMED else f"{len(names)} points: {', '.join(names[:3])}, ..., {names[-1]}"
 
 
 def grid_tables(made):
     """The parameters that vary, and the values that are mapped."""
-    axes = [(axis["name"], axis["parameter"], axis["unit"] or "-", places(axis["texts"])) for axis in made.axes]
-    values = [(value["name"], value["key"], value.get("unit") or "-", limit(value) or "-", plain(value["min"]), plain(value["max"]), value["known"], value["unsafe"] if limit(value) else "-") for value in made.values]
-    return (tables.table(("axis", "parameter of the deck", "unit", "points"), axes)
-            + tables.table(("value", "key of summary.json", "unit", "limit", "least", "largest", "known", "unsafe"), values, range(4, 8)))
+    axes = [(axis["name"], axis["parameter"], axis["unit"] or "-", places(axis["texts"]))
+            for axis in made.axes]
+    values = [(value["name"], value["key"], value.get("unit") or "-", limit(value)
+               or "-", plain(value["min"]), plain(value["max"]), value["known"],
+               value["unsafe"] if limit(value) else "-") for value in made.values]
+    return (tables.table(("axis", "parameter of the deck", "unit", "points"), axes) + tables.table(
+        ("value", "key of summary.json", "unit", "limit", "least", "largest", "known", "unsafe"),
+        values, range(4, 8)))
 
 
 def caption(made, value, rest):
-    where = ", ".join(f"{axis['name']} {axis['texts'][i]} {axis['unit']}".strip() for axis, i in zip(made.axes[2:], rest))
+    where = ", ".join(f"{axis['name']} {axis['texts'][i]} {axis['unit']}".strip()
+                      for axis, i in zip(made.axes[2:], rest))
     first = f"{value['name']} ({value['key']})" + (f" at {where}" if where else "")
-    return "; ".join(filter(None, (first, counted(value) + (" of the whole map" if where and limit(value) else "")))) + "."
+    return "; ".join(
+        filter(None, (first, counted(value) +
+                      (" of the whole map" if where and limit(value) else "")))) + "."
 
 
 def draw_all(made):
@@ -97,7 +121,9 @@ def draw_all(made):
     for value, rest, name in made.pictures():
         if len(found) == MOST_PICTURES:
             break
-        found.append(Figure(name.replace("_", "-"), plot_map.draw(made, value, rest), caption(made, value, rest), True))
+        found.append(
+            Figure(name.replace("_", "-"), plot_map.draw(made, value, rest),
+                   caption(made, value, rest), True))
     return found
 
 
@@ -109,34 +135,55 @@ def reason(row):
 
 def points_table(made):
     """A row per point, with the values that are unsafe there."""
-    beyond = {value["name"]: plot_map.unsafe(value, made.grid[value["name"]]).ravel() for value in made.values}
+    beyond = {
+        value["name"]: plot_map.unsafe(value, made.grid[value["name"]]).ravel()
+        for value in made.values
+    }
     some_failed = any(row["reason"] for row in made.rows)
     names = [axis["name"] for axis in made.axes]
     rows = []
     for i, row in enumerate(made.rows[:MOST_ROWS]):
-        values = [plain(float(row[value["name"]])) if row[value["name"]] else "-" for value in made.values]
+        values = [
+            plain(float(row[value["name"]])) if row[value["name"]] else "-" for value in made.values
+        ]
         unsafe = ", ".join(name for name, cells in beyond.items() if cells[i])
-        rows.append([row["point"], *(pathlib.PurePath(row[name]).name for name in names), *values, unsafe, row["status"], *(plain(float(row[name]), 3) for name in ("cpu", "wall")),
-                     *([reason(row)] if some_failed else [])])
+        rows.append([
+            row["point"], *(pathlib.PurePath(row[name]).name for name in names), *values, unsafe,
+            row["status"], *(plain(float(row[name]), 3) for name in ("cpu", "wall")),
+            *([reason(row)] if some_failed else [])
+        ])
     numeric = [1 + k for k, axis in enumerate(made.axes) if axis["numeric"]]
     after = 1 + len(names) + len(made.values)
     columns = {0, *numeric, *range(1 + len(names), after), after + 2, after + 3}
-    titles = ("point", *(axis["label"] for axis in made.axes), *(plots.label(value["name"], value.get("unit") or "") for value in made.values), "unsafe", "status", "CPU [s]", "wall [s]", *(["reason"] if some_failed else []))
-    more = f"The first {MOST_ROWS} of {len(made.rows)} points; map.csv has all. " if len(made.rows) > MOST_ROWS else ""
-    return tables.table(titles, rows, columns, f"{more}A click on a title sorts the table", "sortable")
+    titles = ("point", *(axis["label"] for axis in made.axes),
+              *(plots.label(value["name"],
+                            value.get("unit") or "") for value in made.values), "unsafe", "status",
+              "CPU [s]", "wall [s]", *(["reason"] if some_failed else []))
+    more = f"The first {MOST_ROWS} of {len(made.rows)} points; map.csv has all. " if len(
+        made.rows) > MOST_ROWS else ""
+    return tables.table(titles, rows, columns, f"{more}A click on a title sorts the table",
+                        "sortable")
 
 
 def computation(summary, attributes):
-    return tables.pairs([("Program", f"{attributes.get('program_version', '')} ({attributes.get('git_hash', '')})", ""),
-                         ("Deck", summary["deck"]["file"], f"SHA-256 {str(summary['deck']['sha256'])[:16]}"),
-                         ("Date", attributes.get("date", ""), ""), ("Ranks", plain(summary["ranks"]), ""),
-                         ("Wall time", f"{plain(summary['wall_s'], 3)} s", "of the last command; points that were known from before took none of it")])
+    return tables.pairs([
+        ("Program", f"{attributes.get('program_version', '')} ({attributes.get('git_hash', '')})",
+         ""),
+        ("Deck", summary["deck"]["file"], f"SHA-256 {str(summary['deck']['sha256'])[:16]}"),
+        ("Date", attributes.get("date", ""), ""),
+        ("Ranks", plain(summary["ranks"]), ""),
+        ("Wall time", f"{plain(summary['wall_s'], 3)} s",
+         "of the last command; points that were known from before took none of it"),
+    ])
 
 
 def attributes_of(folder):
     """Attributes of map.h5 as texts."""
     with results.open_results(folder / "map.h5") as file:
-        return {name: value.decode() if isinstance(value, bytes) else value for name, value in file.attrs.items()}
+        return {
+            name: value.decode() if isinstance(value, bytes) else value
+            for name, value in file.attrs.items()
+        }
 
 
 def page_of(folder):
@@ -156,7 +203,8 @@ def page_of(folder):
     page.add("figures", "Figures", headline(made, summary["map"]))
     shown = draw_all(made)
     count = sum(1 for _ in made.pictures())
-    more = f'<p class="remark">The first {len(shown)} of {count} maps; tools/plot_map.py draws all into the folder.</p>' if count > len(shown) else ""
+    more = (f'<p class="remark">The first {len(shown)} of {count} maps; tools/plot_map.py draws '
+            'all into the folder.</p>') if count > len(shown) else ""
     page.plots("maps", "Maps", shown, more)
     page.add("grid", "Parameters and values", grid_tables(made))
     page.add("points", "Points", points_table(made))
@@ -164,5 +212,7 @@ def page_of(folder):
     page.add("numerics", "Computation", computation(summary, attributes))
     rows = list(deck.rows(scene))
     page.add("deck", "Deck", tables.of_deck(rows) if rows else "")
-    page.footer = f"Written by tooljoint report from {folder}: program {attributes.get('program_version', '')} ({attributes.get('git_hash', '')}), {attributes.get('date', '')}."
+    page.footer = (f"Written by tooljoint report from {folder}: program "
+                   f"{attributes.get('program_version', '')} ({attributes.get('git_hash', '')}), "
+                   f"{attributes.get('date', '')}.")
     return page

@@ -8,7 +8,7 @@ UNITS = {
     "length": (("m", 1.0, 1), ("ft", 1 / FOOT, 0)),
     "side force": (("kN", 1e-3, 2), ("lbf", 1 / POUND, 0)),
     "hook load": (("kN", 1e-3, 1), ("klbf", 1e-3 / POUND, 1)),
-    "pressure": (("MPa", 1e-6, 1), ("ksi", 1e-3 * FOOT ** 2 / (144 * POUND), 1)),
+    "pressure": (("MPa", 1e-6, 1), ("ksi", 1e-3 * FOOT**2 / (144 * POUND), 1)),
     "penetration": (("m/h", 3600.0, 2), ("ft/h", 3600 / FOOT, 1)),
     "torque": (("kN m", 1e-3, 2), ("kft lbf", 1e-3 / (FOOT * POUND), 2)),
 }
@@ -28,7 +28,8 @@ def both(value, quantity):
     """("442.7 kN", "99.5 klbf"); dashes where there is no value."""
     if value is None or not math.isfinite(value):
         return "-", ""
-    return tuple(f"{fixed(value * factor, decimals)} {unit}" for unit, factor, decimals in UNITS[quantity])
+    return tuple(
+        f"{fixed(value * factor, decimals)} {unit}" for unit, factor, decimals in UNITS[quantity])
 
 
 def plain(value, digits=4):
@@ -47,4 +48,5 @@ def percent(value):
         return "-"
     if abs(value) >= 0.995:
         return f"{100 * value:.0f} %"
-    return f"{100 * value + 0.0:.2g} %" if value == 0 or abs(value) >= SMALLEST else f"< {100 * SMALLEST:g} %"
+    return f"{100 * value + 0.0:.2g} %" if value == 0 or abs(
+        value) >= SMALLEST else f"< {100 * SMALLEST:g} %"

@@ -12,12 +12,20 @@ from report.quantities import both, fixed
 
 BLOCK = 8_000_000  # numbers of a time series that are in memory at once
 SECOND_HALF = 0.5  # statistics begin after this share of the motion, when its start has died away
-VIBRATES = 1e-6  # [m], [rad], [rad/s], rms: less is no vibration. Solvers leave 1e-10 to 1e-7 of it, a wall is rough by more.
-STEEP = math.sin(math.radians(3))  # a hole that is nearer to the vertical has no high side worth the name
-AGAINST = {1: "positive against the rotation", -1: "positive against the rotation", 0: "positive against a rotation to the right"}  # torques, by the sense of the rotation
+# [m], [rad], [rad/s], rms: less is no vibration. Solvers leave 1e-10 to 1e-7 of it, a wall is rough
+# by more.
+VIBRATES = 1e-6
+STEEP = math.sin(
+    math.radians(3))  # a hole that is nearer to the vertical has no high side worth the name
+AGAINST = {
+    1: "positive against the rotation", -1: "positive against the rotation",
+    0: "positive against a rotation to the right"
+}  # torques, by the sense of the rotation
 NONE, STILL = "none", f"less than {1e6 * VIBRATES:g} micrometre rms: rounding"
 # Without these datasets of a string there is nothing to draw.
-NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius", "/model/path_curvature", "/model/curvature_of_rotations", "/static/displacement", "/static/normal_force", "/static/axial_force", "/static/torque")
+NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius",
+          "/model/path_curvature", "/model/curvature_of_rotations", "/static/displacement",
+          "/static/normal_force", "/static/axial_force", "/static/torque")
 
 
 def read_summary(folder):
@@ -43,8 +51,8 @@ def texts(dataset):
 
 
 class Folder:
-    """What a command left in its folder: summary.json and an HDF5 file, {} and None where there is none."""
-
+    """What a command left in its folder: summary.json and an HDF5 file, {} and None where there is
+    none."""
     def __init__(self, folder, summary, file):
         self.folder, self.summary, self.file = folder, summary, file
 
@@ -62,25 +70,34 @@ class Folder:
     @property
     def name(self):
         """Of the deck."""
-        return pathlib.Path(self.value("deck.file") or self.attribute("deck_file") or self.folder.resolve().name).stem
+        return pathlib.Path(
+            self.value("deck.file") or self.attribute("deck_file")
+            or self.folder.resolve().name).stem
 
 
 class Run(Folder):
-    """results.h5 and summary.json of a run. Arrays have the shapes of docs/file-formats.md; None for what is not there."""
-
+    """results.h5 and summary.json of a run.
+    Arrays have the shapes of docs/file-formats.md; None for what is not there."""
     def __init__(self, folder):
         self.path = folder / "results.h5"
         super().__init__(folder, read_summary(folder), open_results(self.path))
         self.is_string = "/model/s" in self.file
-        missing = [name for name in (NEEDED if self.is_string else ()) if name not in self.file and (name.startswith("/model") or "/static" in self.file)]
+        missing = [
+            name for name in (NEEDED if self.is_string else ())
+            if name not in self.file and (name.startswith("/model") or "/static" in self.file)
+        ]
         if missing:
-            raise Unreadable(f"{self.path} has no {', '.join(missing)}: it is damaged or of another program. Run the deck again.")
+            raise Unreadable(f"{self.path} has no {', '.join(missing)}: it is damaged or of "
+                             "another program. Run the deck again.")
         self.s = self.get("/model/s")
         self.time = self.get("/transient/time")
-        self.records = self.time is not None and len(self.time) > 1 and "/transient/displacement" in self.file
+        self.records = self.time is not None and len(
+            self.time) > 1 and "/transient/displacement" in self.file
         chosen = self.get("/transient/node")
         self.moves = self.records and chosen is None  # the motion of all nodes is there
-        self.recorded = np.arange(self.file["/static/displacement"].shape[0]) if chosen is None and self.records else None if chosen is None else chosen - 1
+        self.recorded = np.arange(
+            self.file["/static/displacement"].shape[0]
+        ) if chosen is None and self.records else None if chosen is None else chosen - 1
 
     def get(self, path):
         dataset = self.file.get(path)
@@ -94,7 +111,9 @@ class Run(Folder):
     def components(self):
         """Entry of the assembly of each element, or None."""
         names = self.file.get("/model/component_names")
-        return None if names is None else [texts(names)[i - 1] for i in self.get("/model/component")]
+        return None if names is None else [
+            texts(names)[i - 1] for i in self.get("/model/component")
+        ]
 
     def component_at(self, node):
         """Entry of the assembly a node (from 0) belongs to: the upper one where two meet."""
@@ -122,14 +141,16 @@ class Run(Folder):
         return np.zeros(len(self.time)) if speed is None else speed
 
     def sense(self, samples=slice(None)):
-        """Sense of the rotation in the samples: 1 to the right (clockwise looking down the hole), -1 to the left, 0 where it changes or nothing turns."""
+        """Sense of the rotation in the samples: 1 to the right (clockwise looking down the hole),
+        -1 to the left, 0 where it changes or nothing turns."""
         speed = self.rotary()[samples]
         return int(np.any(speed > VIBRATES)) - int(np.any(speed < -VIBRATES))
 
     def bit_speed(self):
         """Omega + dtheta_z/dt of the bit [rad/s] at the samples, or None."""
         motion = self.get("/transient/motion")
-        return motion[:, 2] if self.is_string and motion is not None and motion.shape[1] == 5 else None
+        return motion[:,
+                      2] if self.is_string and motion is not None and motion.shape[1] == 5 else None
 
     def second_half(self):
         start, end = self.time[0], self.time[-1]
@@ -137,7 +158,8 @@ class Run(Folder):
 
 
 def beside_releases(run, values):
-    """`values` (... x elements) with those of the next element where a joint above is released: results have the motion of the part above the joint."""
+    """`values` (... x elements) with those of the next element where a joint above is released:
+    results have the motion of the part above the joint."""
     below = run.get("/model/elements_below_releases")
     if below is not None:
         values = values.copy()
@@ -146,50 +168,64 @@ def beside_releases(run, values):
 
 
 def curvature(run, displacement):
-    """Curvature of the bent string in its elements [1/m]: turn of the axes of the cross sections from node to node, a' = a + theta x a, over the
-    length. `displacement` is ... x nodes x 6 in nodal frames."""
+    """Curvature of the bent string in its elements [1/m]: turn of the axes of the cross sections
+    from node to node, a' = a + theta x a, over the length. `displacement` is ... x nodes x 6 in
+    nodal frames."""
     rotations = displacement[..., 3:6]
     both = np.concatenate((rotations[..., :-1, :], rotations[..., 1:, :]), axis=-1)
-    return beside_releases(run, np.linalg.norm(run.get("/model/path_curvature") + np.einsum("eac,...ec->...ea", run.get("/model/curvature_of_rotations"), both), axis=-1))
+    return beside_releases(
+        run,
+        np.linalg.norm(
+            run.get("/model/path_curvature") +
+            np.einsum("eac,...ec->...ea", run.get("/model/curvature_of_rotations"), both), axis=-1))
 
 
 def internal_forces(run, displacement):
-    """(effective tension [N], torque [N m]) of the elements in a displacement (... x nodes x 6); None for results without sections.
+    """(effective tension [N], torque [N m]) of the elements in a displacement (... x nodes x 6);
+    None for results without sections.
 
         T = T_s + E S (w' - w_s'),  M = M_s + G J (theta_z' - theta_zs')
 
     s: static state."""
     if run.get("/model/young_modulus") is None or run.get("/static/axial_force") is None:
         return None
-    E, G, S, J = (run.get(f"/model/{name}") for name in ("young_modulus", "shear_modulus", "area", "torsion_constant"))
-    change = np.diff(displacement - run.get("/static/displacement"), axis=-2) / np.diff(run.s)[:, None]
-    tension, torque = (beside_releases(run, values) for values in (E * S * change[..., 2], G * J * change[..., 5]))
+    E, G, S, J = (run.get(f"/model/{name}")
+                  for name in ("young_modulus", "shear_modulus", "area", "torsion_constant"))
+    change = np.diff(displacement - run.get("/static/displacement"), axis=-2)
+    change /= np.diff(run.s)[:, None]
+    tension, torque = (beside_releases(run, values)
+                       for values in (E * S * change[..., 2], G * J * change[..., 5]))
     return run.get("/static/axial_force") + tension, run.get("/static/torque") + torque
 
 
 def von_mises(run, displacement):
-    """Largest von Mises stress of the elements [Pa] in a displacement (... x nodes x 6); None for results without sections.
+    """Largest von Mises stress of the elements [Pa] in a displacement (... x nodes x 6); None for
+    results without sections.
 
         sigma^2 = (|T|/S + E kappa R)^2 + 3 (M R/J)^2
 
-    at the outer wall, from effective tension, as for torque and drag (docs/guide/torque-drag.md)."""
+    at the outer wall, from effective tension, as for torque and drag
+    (docs/guide/torque-drag.md)."""
     forces = internal_forces(run, displacement)
     if forces is None:
         return None
-    E, S, J, R = (run.get(f"/model/{name}") for name in ("young_modulus", "area", "torsion_constant", "outer_radius"))
+    E, S, J, R = (run.get(f"/model/{name}")
+                  for name in ("young_modulus", "area", "torsion_constant", "outer_radius"))
     tension, torque = forces
     axial = np.abs(tension) / S + E * curvature(run, displacement) * R
-    return np.sqrt(axial ** 2 + 3 * (torque * R / J) ** 2)
+    return np.sqrt(axial**2 + 3 * (torque * R / J)**2)
 
 
 def static_sense(run):
-    """Sense of the rotation of the state at rest: -1 where the surface torque of the summary has the sign of the torque in the first element, to the left."""
+    """Sense of the rotation of the state at rest: -1 where the surface torque of the summary has
+    the sign of the torque in the first element, to the left."""
     surface, top = run.value("static.surface_torque"), run.value("static.top_torque")
     return -1 if surface and top and surface * top > 0 else 1
 
 
 def static_torque(run, sense):
-    """Torque of the elements at rest [N m], positive against the rotation, as the surface torque."""
+    """Torque of the elements at rest [N m], positive against the rotation, as the surface
+    torque."""
     return -sense * run.get("/static/torque")
 
 
@@ -199,8 +235,8 @@ def lateral(run, displacement):
 
 
 class Motion:
-    """Statistics of the second half of a motion, of the recorded nodes, and the histories of a few of them."""
-
+    """Statistics of the second half of a motion, of the recorded nodes, and the histories of a few
+    of them."""
     def __init__(self, run, chosen=()):
         self.run = run
         self.first = run.second_half()
@@ -211,26 +247,28 @@ class Motion:
         self.low, self.high = np.full(shape[1:], np.inf), np.full(shape[1:], -np.inf)
         for start, block in run.blocks("/transient/displacement"):
             self.histories[start:start + len(block)] = block[:, self.chosen]
-            self.low, self.high = np.minimum(self.low, block.min(axis=0)), np.maximum(self.high, block.max(axis=0))
+            self.low, self.high = np.minimum(self.low, block.min(axis=0)), np.maximum(
+                self.high, block.max(axis=0))
             kept = block[max(0, self.first - start):]
             total += kept.sum(axis=0)
-            square += (kept ** 2).sum(axis=0)
+            square += (kept**2).sum(axis=0)
         count = shape[0] - self.first
         self.mean = total / count
-        self.rms = np.sqrt(np.maximum(square / count - self.mean ** 2, 0.0))
+        self.rms = np.sqrt(np.maximum(square / count - self.mean**2, 0.0))
         self.vibrates = self.lateral_rms()[self.chosen] > VIBRATES  # of the chosen nodes
         velocity = run.file.get("/transient/velocity") if self.chosen else None
         # (u', v') of the chosen nodes in the second half, None where a run did not record them
         self.velocities = None if velocity is None else velocity[self.first:, self.chosen, :2]
 
     def lateral_rms(self):
-        """Root mean square of the lateral vibration about the mean position [m], of the nodes of a string."""
+        """Root mean square of the lateral vibration about the mean position [m], of the nodes of a
+        string."""
         return np.hypot(self.rms[:, 0], self.rms[:, 1])
 
 
 class Contact:
-    """Contact forces over the motion: share of time in contact and largest force of each node, and a thinned history."""
-
+    """Contact forces over the motion: share of time in contact and largest force of each node, and
+    a thinned history."""
     def __init__(self, run, most=160):
         self.force, self.duty, self.largest = None, None, None
         if "/transient/normal_force" not in run.file or not run.records:
@@ -249,22 +287,26 @@ class Contact:
 
 
 def differences(values, time):
-    """Central differences. Those of a circle of n samples a turn are its velocity times sin(2 pi/n)/(2 pi/n)."""
+    """Central differences.
+    Those of a circle of n samples a turn are its velocity times sin(2 pi/n)/(2 pi/n)."""
     return np.gradient(values, time) if len(time) > 1 else np.zeros_like(values)
 
 
 def precession(u, v, u_rate, v_rate):
-    """Mean rate of an orbit about its centre [rad/s], positive from u to v: sum(u v' - v u') / sum(u^2 + v^2)."""
+    """Mean rate of an orbit about its centre [rad/s], positive from u to v: sum(u v' - v u') /
+    sum(u^2 + v^2)."""
     u, v = u - u.mean(), v - v.mean()
-    size = np.sum(u ** 2 + v ** 2)
+    size = np.sum(u**2 + v**2)
     return float(np.sum(u * v_rate - v * u_rate) / size) if size > 0 and len(u) > 2 else 0.0
 
 
 def sides(run, node):
-    """((a, b), matrix that turns (u, v) of a node into them): the high side of the hole and its right side, looking down the hole; north and east in a
-    hole that is all but vertical. Both turn clockwise from a to b, as the rotation does."""
+    """((a, b), matrix that turns (u, v) of a node into them): the high side of the hole and its
+    right side, looking down the hole; north and east in a hole that is all but vertical. Both turn
+    clockwise from a to b, as the rotation does."""
     x, y, tangent = run.get("/model/frame")[node].T
-    names, up = (("high side", "right side"), [0, 0, -1]) if np.hypot(*tangent[:2]) > STEEP else (("north", "east"), [1, 0, 0])
+    names, up = (("high side", "right side"),
+                 [0, 0, -1]) if np.hypot(*tangent[:2]) > STEEP else (("north", "east"), [1, 0, 0])
     first = up - np.dot(up, tangent) * tangent
     first /= np.linalg.norm(first)
     second = np.cross(tangent, first)
@@ -272,8 +314,9 @@ def sides(run, node):
 
 
 def chosen_nodes(run, rms, most=4):
-    """At most `most` recorded nodes (from 0) worth a look, by depth, with why: the largest lateral vibration, the largest static side force,
-    above the bit, then quarters of the length; of chosen nodes those that vibrate most."""
+    """At most `most` recorded nodes (from 0) worth a look, by depth, with why: the largest lateral
+    vibration, the largest static side force, above the bit, then quarters of the length; of chosen
+    nodes those that vibrate most."""
     found = {}
     if not run.moves:
         places = sorted(np.argsort(-rms)[:most])
@@ -288,14 +331,16 @@ def chosen_nodes(run, rms, most=4):
     if force is not None and force.max() > 0:
         add(int(np.argmax(force)), "largest static side force")
     add(max(0, len(run.s) - 4), "above the bit")
-    for share, why in ((0.25, "quarter of the length"), (0.5, "middle"), (0.75, "three quarters of the length")):
+    for share, why in ((0.25, "quarter of the length"), (0.5, "middle"),
+                       (0.75, "three quarters of the length")):
         if len(found) < most:
             add(int(np.searchsorted(run.s, share * run.s[-1])), why)
     return dict(sorted(found.items()))
 
 
 def merits(run, motion=None):
-    """Figures of merit: rows of (name, value, what it is). `motion`: None where no displacements are recorded."""
+    """Figures of merit: rows of (name, value, what it is).
+    `motion`: None where no displacements are recorded."""
     if motion is None:
         return [*figures_of_bit(run), *figures_along(run, accelerates(run))]
     rms = motion.lateral_rms()
@@ -303,10 +348,15 @@ def merits(run, motion=None):
     node = int(run.recorded[largest])
     name = "Largest lateral vibration" + ("" if run.moves else " of the recorded nodes")
     vibrates = rms[largest] > VIBRATES
-    rows = [(name, f"{1e3 * rms[largest]:.3g} mm rms", f"at {run.s[node]:.1f} m, {run.component_at(node) or f'node {node + 1}'}") if vibrates else (name, NONE, STILL)]
+    rows = [
+        (name, f"{1e3 * rms[largest]:.3g} mm rms",
+         f"at {run.s[node]:.1f} m, {run.component_at(node) or f'node {node + 1}'}") if vibrates else
+        (name, NONE, STILL)
+    ]
     if run.recorded[-1] == len(run.s) - 1:
         axial = motion.rms[-1, 2]
-        rows.append(("Axial vibration of the bit", *((f"{1e3 * axial:.3g} mm rms", "") if axial > VIBRATES else (NONE, STILL))))
+        rows.append(("Axial vibration of the bit",
+                     *((f"{1e3 * axial:.3g} mm rms", "") if axial > VIBRATES else (NONE, STILL))))
     return [*figures_of_bit(run), *rows, *figures_along(run, vibrates)]
 
 
@@ -317,16 +367,22 @@ def span(first, last):
 def times_of_merits(run, motion=None):
     """Of which time the rows of merits() are."""
     found = run.value("transient.figures") or {}
-    said = [] if found.get("begin") is None else [f"Figures of {span(found['begin'], found['end'])} (transient.figures; Output/Figures chooses the window)"]
+    said = [] if found.get("begin") is None else [
+        f"Figures of {span(found['begin'], found['end'])} (transient.figures; Output/Figures "
+        "chooses the window)"
+    ]
     if motion is not None:
-        said.append(f"vibration in mm rms of the second half of the motion, {span(run.time[motion.first], run.time[-1])}")
+        said.append("vibration in mm rms of the second half of the motion, "
+                    f"{span(run.time[motion.first], run.time[-1])}")
     text = "; ".join(said)
     return text[:1].upper() + text[1:]
 
 
 def accelerates(run):
-    """Whether a motion without recorded displacements vibrates across the axis: more than VIBRATES of lateral acceleration [m/s2]."""
-    return ((run.value("transient.figures.lateral_acceleration") or {}).get("worst_rms") or 0.0) > VIBRATES
+    """Whether a motion without recorded displacements vibrates across the axis: more than VIBRATES
+    of lateral acceleration [m/s2]."""
+    return ((run.value("transient.figures.lateral_acceleration") or {}).get("worst_rms")
+            or 0.0) > VIBRATES
 
 
 def sense_of_figures(run, found):
@@ -340,13 +396,20 @@ def figures_of_bit(run):
     rows = []
     speed = found.get("bit_speed_rpm") or {}
     if speed.get("mean") is not None:
-        rows.append(("Bit speed", f"{fixed(speed['mean'], 1)} rpm", f"{fixed(speed['min'], 1)} to {fixed(speed['max'], 1)} rpm"))
+        rows.append(("Bit speed", f"{fixed(speed['mean'], 1)} rpm",
+                     f"{fixed(speed['min'], 1)} to {fixed(speed['max'], 1)} rpm"))
     if found.get("stick_slip_index") is not None:
-        rows.append(("Stick-slip index", fixed(found["stick_slip_index"], 3), f"(max - min) / (2 mean) of the bit speed; stick-slip from 1 on"))
+        rows.append(("Stick-slip index", fixed(found["stick_slip_index"], 3),
+                     f"(max - min) / (2 mean) of the bit speed; stick-slip from 1 on"))
     if found.get("stuck_share") is not None:
-        rows.append(("Time the bit is stuck", f"{fixed(100 * found['stuck_share'], 1)} %", f"below {found['stuck_speed_rpm']:.3g} rpm"))
-    for name, key, quantity in (("Mean weight on bit", "weight_on_bit", "hook load"), ("Mean torque on bit", "torque_on_bit", "torque"), ("Rate of penetration", "rate_of_penetration", "penetration"),
-                                ("Mechanical specific energy", "specific_energy", "pressure")):
+        rows.append(("Time the bit is stuck", f"{fixed(100 * found['stuck_share'], 1)} %",
+                     f"below {found['stuck_speed_rpm']:.3g} rpm"))
+    for name, key, quantity in (
+        ("Mean weight on bit", "weight_on_bit", "hook load"),
+        ("Mean torque on bit", "torque_on_bit", "torque"),
+        ("Rate of penetration", "rate_of_penetration", "penetration"),
+        ("Mechanical specific energy", "specific_energy", "pressure"),
+    ):
         value = found.get(key)
         spans = isinstance(value, dict)
         mean, ends = (value["mean"], [value.get("min"), value.get("max")]) if spans else (value, [])
@@ -357,22 +420,34 @@ def figures_of_bit(run):
                 mean, *ends = (sense or 1) * np.array([mean, *ends])
                 remark = f"; {AGAINST[sense]}"
             si, field = both(mean, quantity)
-            rows.append((name, si, field + (f"; {both(min(ends), quantity)[0]} to {both(max(ends), quantity)[0]}" if spans else "") + remark))
+            rows.append(
+                (name, si,
+                 field + (f"; {both(min(ends), quantity)[0]} to {both(max(ends), quantity)[0]}"
+                          if spans else "") + remark))
     return rows
 
 
 def figures_along(run, vibrates):
-    """Of the nodes and elements, from summary.json; without a lateral vibration no figures of one."""
+    """Of the nodes and elements, from summary.json; without a lateral vibration no figures of
+    one."""
     found = run.value("transient.figures") or {}
     rows = []
-    lateral, whirl, bending = (found.get(key) or {} for key in ("lateral_acceleration", "whirl", "bending"))
+    lateral, whirl, bending = (found.get(key) or {}
+                               for key in ("lateral_acceleration", "whirl", "bending"))
     if vibrates and lateral.get("rms") is not None:
-        rows.append(("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms", f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most"))
+        rows.append(("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms",
+                     f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most"))
     if vibrates and whirl.get("worst_backward_share"):
-        rows.append(("Backward whirl", f"{fixed(100 * whirl['worst_backward_share'], 1)} % of the time",
-                     f"at {whirl['worst_backward_share_depth']:.1f} m, mean precession {fixed((sense_of_figures(run, found) or 1) * whirl['worst_precession_rpm'], 1)} rpm; in contact as well at most {fixed(100 * whirl['worst_backward_contact_share'], 1)} %"))
+        rows.append(
+            ("Backward whirl", f"{fixed(100 * whirl['worst_backward_share'], 1)} % of the time",
+             f"at {whirl['worst_backward_share_depth']:.1f} m, mean precession "
+             f"{fixed((sense_of_figures(run, found) or 1) * whirl['worst_precession_rpm'], 1)} "
+             "rpm; in contact as well at most "
+             f"{fixed(100 * whirl['worst_backward_contact_share'], 1)} %"))
     if bending.get("range"):
-        rows.append(("Largest range of the bending moment", f"{bending['range'] / 1e3:.3g} kN m", f"at {bending['range_depth']:.1f} m, in a plane that turns with the pipe"))
+        rows.append(("Largest range of the bending moment", f"{bending['range'] / 1e3:.3g} kN m",
+                     f"at {bending['range_depth']:.1f} m, in a plane that turns with the pipe"))
     if bending.get("damage_per_hour") is not None:
-        rows.append(("Fatigue damage", f"{bending['damage_per_hour']:.2e} 1/h", f"at {bending['damage_per_hour_depth']:.1f} m"))
+        rows.append(("Fatigue damage", f"{bending['damage_per_hour']:.2e} 1/h",
+                     f"at {bending['damage_per_hour_depth']:.1f} m"))
     return rows

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The data of the 3-D view: positions, displacements and fields of a thinned motion, as numbers of 16 and 32 bits in base64.
+"""The data of the 3-D view: positions, displacements and fields of a thinned motion, as numbers of
+16 and 32 bits in base64.
 
-Axes of the view are east, up, south (right-handed, up is y); of parts their x, z, -y. Displacements are lateral and axial in nodal frames of a string, x, y, z of
-parts. What moves is thinned to NUMBERS node-samples, so that a page stays below 5 MB.
+Axes of the view are east, up, south (right-handed, up is y); of parts their x, z, -y. Displacements
+are lateral and axial in nodal frames of a string, x, y, z of parts. What moves is thinned to
+NUMBERS node-samples, so that a page stays below 5 MB.
 """
 import base64
 
@@ -34,7 +36,8 @@ def to_view(vectors):
 
 
 def kept_nodes(run):
-    """At most NODES nodes: both ends, those around gauges and large side forces, and the others in equal distances."""
+    """At most NODES nodes: both ends, those around gauges and large side forces, and the others in
+    equal distances."""
     count = len(run.s)
     if count <= NODES:
         return np.arange(count)
@@ -64,11 +67,15 @@ def colours():
 
 
 def field(name, label, unit, static, motion=None):
-    """A coloured quantity of nodes: at rest and over the samples; the scale of colours spans both."""
+    """A coloured quantity of nodes: at rest and over the samples; the scale of colours spans
+    both."""
     largest = max(float(np.max(static)), float(np.max(motion)) if motion is not None else 0.0)
     if not largest > 0:
         return None
-    entry = {"name": name, "label": label, "unit": unit, "largest": largest, "rest": packed(static, "f4")}
+    entry = {
+        "name": name, "label": label, "unit": unit, "largest": largest,
+        "rest": packed(static, "f4")
+    }
     if motion is not None:
         entry["motion"] = packed(motion, "i2")
     return entry
@@ -91,21 +98,34 @@ def of_string(run):
     at = samples_of(run, len(kept)) if run.moves else None
     motion = taken(run.file["/transient/displacement"], at) if run.moves else None
     stress, force = results.von_mises(run, rest), run.get("/static/normal_force")
-    moving_force = taken(run.file["/transient/normal_force"], at)[:, kept] / 1e3 if run.moves and "/transient/normal_force" in run.file else None
+    moving_force = taken(
+        run.file["/transient/normal_force"],
+        at)[:, kept] / 1e3 if run.moves and "/transient/normal_force" in run.file else None
     fields = [
-        field("stress", "von Mises stress", "MPa", at_nodes(stress)[kept] / 1e6, at_nodes(results.von_mises(run, motion))[:, kept] / 1e6 if run.moves else None)
-        if stress is not None else None,
+        field("stress", "von Mises stress", "MPa",
+              at_nodes(stress)[kept] / 1e6,
+              at_nodes(results.von_mises(run, motion))[:, kept] /
+              1e6 if run.moves else None) if stress is not None else None,
         field("force", "contact force", "kN", force[kept] / 1e3, moving_force),
-        field("displacement", "distance from the axis", "mm", 1e3 * results.lateral(run, rest)[kept],
-              1e3 * results.lateral(run, motion)[:, kept] if run.moves else None)]
+        field("displacement", "distance from the axis", "mm",
+              1e3 * results.lateral(run, rest)[kept],
+              1e3 * results.lateral(run, motion)[:, kept] if run.moves else None)
+    ]
     data = {
-        "kind": "string", "colours": colours(), "fields": [entry for entry in fields if entry],
-        "position": packed(to_view(position)[kept], "f4"), "frames": packed(frames[kept], "f4"),
+        "kind": "string",
+        "colours": colours(),
+        "fields": [entry for entry in fields if entry],
+        "position": packed(to_view(position)[kept], "f4"),
+        "frames": packed(frames[kept], "f4"),
         "radius": packed(radius[kept], "f4"),
-        "bore": packed(bore[kept], "f4"), "depth": packed(run.s[kept], "f4"), "rest": packed(rest[kept][:, :3], "f4")}
+        "bore": packed(bore[kept], "f4"),
+        "depth": packed(run.s[kept], "f4"),
+        "rest": packed(rest[kept][:, :3], "f4"),
+    }
     names = run.components()
     if names is not None:
-        data["places"] = [[f"{name} ({run.s[first]:.0f} m)", float(run.s[first])] for name, first in entries(names)][-12:]
+        data["places"] = [[f"{name} ({run.s[first]:.0f} m)",
+                           float(run.s[first])] for name, first in entries(names)][-12:]
     if run.moves:
         data["time"] = packed(run.time[at], "f4")
         data["motion"] = packed(motion[:, kept, :3], "i2")
@@ -114,15 +134,19 @@ def of_string(run):
 
 def entries(names):
     """Components where they begin, a row of equal ones once."""
-    return [(name, element) for element, name in enumerate(names) if element == 0 or names[element - 1] != name]
+    return [(name, element) for element, name in enumerate(names)
+            if element == 0 or names[element - 1] != name]
 
 
 def describe(run, at, shown, nodes):
     text = f"{shown} of {nodes} nodes are drawn." if shown < nodes else ""
     if run.records and not run.moves:
-        text += f" The motion of {len(run.recorded)} chosen nodes is recorded: the picture shows the state at rest."
+        text += (f" The motion of {len(run.recorded)} chosen nodes is recorded: the picture shows "
+                 "the state at rest.")
     if at is not None and len(at) > 1:
-        text += f" The motion is played back every {1e3 * (run.time[at[1]] - run.time[at[0]]):.3g} ms ({len(at)} of {len(run.time)} samples)."
+        text += (" The motion is played back every "
+                 f"{1e3 * (run.time[at[1]] - run.time[at[0]]):.3g} ms ({len(at)} of "
+                 f"{len(run.time)} samples).")
     return text.strip()
 
 
@@ -133,17 +157,22 @@ def translations(run):
 
 
 def in_space(displacement, columns):
-    return np.stack([displacement[..., c] if c >= 0 else np.zeros(displacement.shape[:-1]) for c in columns], axis=-1)
+    return np.stack(
+        [displacement[..., c] if c >= 0 else np.zeros(displacement.shape[:-1]) for c in columns],
+        axis=-1)
 
 
 def held_edges(position, part, edges):
-    """Edges from nodes without any, which are held, to the nearest node of their part that has some."""
+    """Edges from nodes without any, which are held, to the nearest node of their part that has
+    some."""
     linked = np.unique(np.array(edges, int))
     found = []
     for node in np.setdiff1d(np.arange(len(part)), linked):
         others = linked[part[linked] == part[node]]
         if len(others):
-            found.append((int(node), int(others[np.linalg.norm(position[others] - position[node], axis=1).argmin()])))
+            found.append((int(node),
+                          int(others[np.linalg.norm(position[others] - position[node],
+                                                    axis=1).argmin()])))
     return found
 
 
@@ -154,22 +183,34 @@ def of_parts(run):
     rows = run.get("/model/located") - 1
     columns = translations(run)
     if max(columns) < 0:
-        return None, "No component of the parts is a translation u, v or w: there is no view in space."
+        return None, ("No component of the parts is a translation u, v or w: there is no view in "
+                      "space.")
     position = run.get("/model/position")
     step = max(1, -(-len(rows) // 6000))
     rows, position = rows[::step], position[::step]
     number = {row: i for i, row in enumerate(rows)}
     part, links = run.get("/model/part")[rows] - 1, run.get("/model/links")
-    edges = [(number[a], number[b]) for a, b in links - 1 if a in number and b in number] if links is not None else []
+    edges = [(number[a], number[b]) for a, b in links - 1
+             if a in number and b in number] if links is not None else []
     edges += held_edges(position, part, edges) if step == 1 else []
     rest = in_space(run.get("/static/displacement"), columns)[rows]
     at = samples_of(run, len(rows)) if run.moves else None
-    motion = in_space(taken(run.file["/transient/displacement"], at), columns)[:, rows] if run.moves else None
-    size = 1e3 * np.linalg.norm(rest, axis=-1), None if motion is None else 1e3 * np.linalg.norm(motion, axis=-1)
+    motion = in_space(taken(run.file["/transient/displacement"], at),
+                      columns)[:, rows] if run.moves else None
+    size = 1e3 * np.linalg.norm(
+        rest, axis=-1), None if motion is None else 1e3 * np.linalg.norm(motion, axis=-1)
     turn = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])  # x, z up, -y
-    data = {"kind": "parts", "colours": colours(), "fields": [entry for entry in [field("displacement", "displacement", "mm", *size)] if entry],
-            "position": packed(position @ turn.T, "f4"), "rest": packed(rest @ turn.T, "f4"),
-            "links": packed(np.array(edges, dtype="u4").reshape(-1, 2), "u4"), "part": packed(part, "u4")}
+    data = {
+        "kind": "parts",
+        "colours": colours(),
+        "fields": [
+            entry for entry in [field("displacement", "displacement", "mm", *size)] if entry
+        ],
+        "position": packed(position @ turn.T, "f4"),
+        "rest": packed(rest @ turn.T, "f4"),
+        "links": packed(np.array(edges, dtype="u4").reshape(-1, 2), "u4"),
+        "part": packed(part, "u4"),
+    }
     if run.moves:
         data["time"] = packed(run.time[at], "f4")
         data["motion"] = packed(motion @ turn.T, "i2")

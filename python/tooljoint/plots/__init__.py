@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The one style of all plots: of the tools, the reports, the documents, and of scripts that import `tooljoint.plots`.
+"""The one style of all plots: of the tools, the reports, the documents, and of scripts that import
+`tooljoint.plots`.
 
-Every axis has a label with its unit, depth points downwards, maps have north up and east to the right, axes of lengths in space have one
-scale, no text lies on another one, and a figure says under which conditions it holds. The module needs numpy and matplotlib; the program
-brings a copy of it for its own tools, so that reports need no compiled module.
+Every axis has a label with its unit, depth points downwards, maps have north up and east to the
+right, axes of lengths in space have one scale, no text lies on another one, and a figure says under
+which conditions it holds. The module needs numpy and matplotlib; the program brings a copy of it
+for its own tools, so that reports need no compiled module.
 
 >>> made, axes = figure()
->>> axes.set_xlabel(label("time", "s")), axes.set_ylabel(label("bit speed", "rpm"))  # doctest: +ELLIPSIS
-(Text(..., 'time [s]'), Text(..., 'bit speed [rpm]'))
+>>> axes.set_xlabel(label("time", "s"))  # doctest: +ELLIPSIS
+Text(..., 'time [s]')
+>>> axes.set_ylabel(label("bit speed", "rpm"))  # doctest: +ELLIPSIS
+Text(..., 'bit speed [rpm]')
 >>> plt.close(made)
 """
 import logging as _logging
 import os as _os
 
-# Where its own folder cannot be written, matplotlib takes a temporary one, and warns of that while it is imported.
+# Where its own folder cannot be written, matplotlib takes a temporary one, and warns of that while
+# it is imported.
 _log = _logging.getLogger("matplotlib")
 _level = _log.level
 _log.setLevel(_logging.ERROR)
@@ -32,10 +37,15 @@ from .animation import animate
 from .labels import Labels, name_lines, overlaps
 from .signals import envelope, spectrum, stretches, thinned
 from .space import equal_axes, space_axes
-from .style import (COLOURS, GREY, MAP, MARKERS, RPM, SLENDER, STYLE, WIDE, depth_axis, error_band, figure, headline, in_time, label, legend_above, log_log, logarithmic,
-                    panels, percent, plain, profile, profiles, shades, square, tick, use_style, whole_ticks)
+from .style import (COLOURS, GREY, MAP, MARKERS, RPM, SLENDER, STYLE, WIDE, depth_axis, error_band,
+                    figure, headline, in_time, label, legend_above, log_log, logarithmic, panels,
+                    percent, plain, profile, profiles, shades, square, tick, use_style, whole_ticks)
 from .svg import inline_svg, save
 
-__all__ = ["COLOURS", "GREY", "Labels", "MAP", "MARKERS", "RPM", "SLENDER", "STYLE", "WIDE", "animate", "depth_axis", "envelope", "equal_axes", "error_band", "figure", "headline", "in_time",
-           "inline_svg", "label", "legend_above", "log_log", "logarithmic", "name_lines", "np", "overlaps", "panels", "percent", "plain", "plt", "profile", "profiles", "save", "shades",
-           "space_axes", "spectrum", "square", "stretches", "thinned", "tick", "ticker", "use_style", "whole_ticks"]
+__all__ = [
+    "COLOURS", "GREY", "Labels", "MAP", "MARKERS", "RPM", "SLENDER", "STYLE", "WIDE", "animate",
+    "depth_axis", "envelope", "equal_axes", "error_band", "figure", "headline", "in_time",
+    "inline_svg", "label", "legend_above", "log_log", "logarithmic", "name_lines", "np", "overlaps",
+    "panels", "percent", "plain", "plt", "profile", "profiles", "save", "shades", "space_axes",
+    "spectrum", "square", "stretches", "thinned", "tick", "ticker", "use_style", "whole_ticks"
+]

@@ -29,8 +29,8 @@ class Place(NamedTuple):
 
 
 class Labels:
-    """Texts beside points, put where they cover the least: other texts, markers and lines. The limits of the axes must be final."""
-
+    """Texts beside points, put where they cover the least: other texts, markers and lines.
+    The limits of the axes must be final."""
     def __init__(self, axes: Any):
         self.axes = axes
         self.boxes: list[tuple[float, float, float, float]] = []
@@ -43,9 +43,12 @@ class Labels:
         pixels = self.axes.transData.transform(np.column_stack([x, y]).astype(float))
         self.points.extend(pixels)
         for a, b in zip(pixels[:-1], pixels[1:]):
-            self.points.extend(a + (b - a) * f for f in np.linspace(0, 1, max(2, int(np.hypot(*(b - a)) / 6)), endpoint=False))
+            self.points.extend(
+                a + (b - a) * f
+                for f in np.linspace(0, 1, max(2, int(np.hypot(*(b - a)) / 6)), endpoint=False))
 
-    def find(self, text: str, anchors: Iterable[Any], size: float = 9, weight: str = "normal", reach: Iterable[float] = NEAR) -> Place:
+    def find(self, text: str, anchors: Iterable[Any], size: float = 9, weight: str = "normal",
+             reach: Iterable[float] = NEAR) -> Place:
         """The best place around one of the anchors (data coordinates)."""
         sample = self.axes.text(0, 0, text, fontsize=size, fontweight=weight)
         box = sample.get_window_extent(self.renderer)
@@ -63,20 +66,27 @@ class Labels:
         return min(places, key=lambda place: place.cost)
 
     def occupied(self, place: Place) -> None:
-        self.boxes.append((place.left, place.low, place.left + place.width, place.low + place.height))
+        self.boxes.append(
+            (place.left, place.low, place.left + place.width, place.low + place.height))
 
-    def draw(self, text: str, place: Place, colour: str, size: float = 9, weight: str = "normal") -> None:
+    def draw(self, text: str, place: Place, colour: str, size: float = 9,
+             weight: str = "normal") -> None:
         """The text at its place, with a thin line to its point where that is far."""
         left, low = place.left, place.low
         inverse = self.axes.transData.inverted()
-        self.axes.text(*inverse.transform((left, low)), text, color=colour, fontsize=size, fontweight=weight, va="bottom", ha="left", zorder=6, clip_on=False,
-                       linespacing=1.1)
+        self.axes.text(*inverse.transform(
+            (left, low)), text, color=colour, fontsize=size, fontweight=weight, va="bottom",
+                       ha="left", zorder=6, clip_on=False, linespacing=1.1)
         if place.distance > 20:
-            near = (min(max(place.point[0], left), left + place.width), min(max(place.point[1], low), low + place.height))
-            self.axes.plot(*zip(inverse.transform(near), inverse.transform(place.point)), color=colour, linewidth=0.5, alpha=0.6, zorder=1)
+            near = (min(max(place.point[0], left),
+                        left + place.width), min(max(place.point[1], low), low + place.height))
+            self.axes.plot(*zip(inverse.transform(near), inverse.transform(place.point)),
+                           color=colour, linewidth=0.5, alpha=0.6, zorder=1)
 
-    def put(self, text: str, anchors: Iterable[Any], colour: str, size: float = 9, weight: str = "normal", reach: Iterable[float] = NEAR) -> bool:
-        """The text around one of the anchors; False, and no text, where it would cover something everywhere."""
+    def put(self, text: str, anchors: Iterable[Any], colour: str, size: float = 9,
+            weight: str = "normal", reach: Iterable[float] = NEAR) -> bool:
+        """The text around one of the anchors; False, and no text, where it would cover something
+        everywhere."""
         place = self.find(text, anchors, size, weight, reach)
         if place.cost > CLEAR:
             return False
@@ -84,22 +94,29 @@ class Labels:
         self.occupied(place)
         return True
 
-    def cost(self, left: float, low: float, width: float, height: float, frame: Any, points: Any) -> float:
+    def cost(self, left: float, low: float, width: float, height: float, frame: Any,
+             points: Any) -> float:
         right, top = left + width, low + height
         cost = 0.0
         for x0, y0, x1, y1 in self.boxes:
-            overlap = max(0.0, min(right, x1 + 3) - max(left, x0 - 3)) * max(0.0, min(top, y1 + 2) - max(low, y0 - 2))
+            overlap = max(0.0,
+                          min(right, x1 + 3) - max(left, x0 - 3)) * max(
+                              0.0,
+                              min(top, y1 + 2) - max(low, y0 - 2))
             cost += 2.0 * overlap
         if len(points):
-            inside = (points[:, 0] > left - 3) & (points[:, 0] < right + 3) & (points[:, 1] > low - 3) & (points[:, 1] < top + 3)
+            inside = (points[:, 0] > left - 3) & (points[:, 0] < right + 3) & (
+                points[:, 1] > low - 3) & (points[:, 1] < top + 3)
             cost += 25.0 * np.count_nonzero(inside)
-        outside = max(0, frame.x0 - left) + max(0, right - frame.x1) + max(0, frame.y0 - low) + max(0, top - frame.y1)
+        outside = max(0, frame.x0 - left) + max(0, right - frame.x1) + max(0, frame.y0 - low) + max(
+            0, top - frame.y1)
         return cost + 40.0 * outside
 
 
 def name_lines(labels: Labels, lines: Mapping[str, Any], size: float = 9) -> bool:
-    """Names each line (name -> Line2D) beside it. Where one of the names has no free place, all stand in a legend below the axes
-    instead, in the order of the lines; the result is then False."""
+    """Names each line (name -> Line2D) beside it.
+    Where one of the names has no free place, all stand in a legend below the axes instead, in the
+    order of the lines; the result is then False."""
     names = {name: wrapped(name) for name in lines}
     before, found = len(labels.boxes), {}
     for name, line in lines.items():
@@ -109,7 +126,8 @@ def name_lines(labels: Labels, lines: Mapping[str, Any], size: float = 9) -> boo
             texts = [wrapped(each, LONGEST) for each in lines]
             made = labels.axes.figure
             made.set_figheight(made.get_figheight() + ROW * -(-len(texts) // 2))
-            labels.axes.legend(lines.values(), texts, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncol=2, borderaxespad=0.0, fontsize=8)
+            labels.axes.legend(lines.values(), texts, loc="upper left", bbox_to_anchor=(0.0, -0.12),
+                               ncol=2, borderaxespad=0.0, fontsize=8)
             return False
         labels.occupied(found[name])
     for name, line in lines.items():
@@ -131,23 +149,30 @@ def wrapped(name: str, width: int = 24) -> str:
 
 
 def overlaps(made: Any) -> list[str]:
-    """Texts of a figure that lie on one another or are cut off at its edge, each a line. Left out: turned texts, whose boxes are larger
-    than themselves, and texts for which another one keeps the room (a title for its conditions)."""
+    """Texts of a figure that lie on one another or are cut off at its edge, each a line.
+    Left out: turned texts, whose boxes are larger than themselves, and texts for which another one
+    keeps the room (a title for its conditions)."""
     made.canvas.draw()
     renderer, hidden, faults = made.canvas.get_renderer(), undrawn(made), []
-    seen = [text for text in made.findobj(Text) if text.get_visible() and text.get_in_layout() and text.get_text().strip() and text.get_rotation() % 90 == 0 and text not in hidden]
+    seen = [
+        text for text in made.findobj(Text) if text.get_visible() and text.get_in_layout()
+        and text.get_text().strip() and text.get_rotation() % 90 == 0 and text not in hidden
+    ]
     boxes = [(text.get_text().strip(), text.get_window_extent(renderer)) for text in seen]
     for text, box in boxes:
-        if box.x0 < -SHARED or box.y0 < -SHARED or box.x1 > made.bbox.x1 + SHARED or box.y1 > made.bbox.y1 + SHARED:
+        if (box.x0 < -SHARED or box.y0 < -SHARED or box.x1 > made.bbox.x1 + SHARED
+                or box.y1 > made.bbox.y1 + SHARED):
             faults.append(f"\"{text}\" is cut off")
     for (text, a), (other, b) in itertools.combinations(boxes, 2):
-        if min(a.x1, b.x1) - max(a.x0, b.x0) > SHARED and min(a.y1, b.y1) - max(a.y0, b.y0) > SHARED:
+        across, down = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
+        if across > SHARED and down > SHARED:
             faults.append(f"\"{text}\" lies on \"{other}\"")
     return faults
 
 
 def undrawn(made: Any) -> set[Any]:
-    """Texts that are there and not drawn: of hidden axes, and of ticks beyond the limits of an axis."""
+    """Texts that are there and not drawn: of hidden axes, and of ticks beyond the limits of an
+    axis."""
     hidden: set[Any] = set()
     for axes in made.axes:
         if not axes.get_visible():

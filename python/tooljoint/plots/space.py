@@ -9,19 +9,27 @@ from matplotlib import ticker
 
 from .style import label
 
-LEAST_SHARE = 0.25  # of the longest axis that each axis has, so that a vertical well has room for its numbers
+# of the longest axis that each axis has, so that a vertical well has room for its numbers
+LEAST_SHARE = 0.25
 FEWEST = 2  # numbers of a short axis
 ZOOM = 0.8  # leaves room for the labels
 
 
-def space_axes(made: Any, place: Any, names: tuple[str, str, str] = ("north", "east", "depth")) -> Any:
-    """Three-dimensional axes at a place of a grid (or 111), in metres; an axis "depth" is drawn downwards by equal_axes()."""
+def space_axes(made: Any, place: Any, names: tuple[str, str,
+                                                   str] = ("north", "east", "depth")) -> Any:
+    """Three-dimensional axes at a place of a grid (or 111), in metres; an axis "depth" is drawn
+    downwards by equal_axes()."""
     axes = made.add_subplot(place, projection="3d")
-    axes.set_xlabel(label(names[0], "m")), axes.set_ylabel(label(names[1], "m")), axes.set_zlabel(label(names[2], "m"))
+    x, y, z = (label(name, "m") for name in names)
+    axes.set_xlabel(x), axes.set_ylabel(y), axes.set_zlabel(z)
     axes.view_init(elev=18, azim=-150)
     axes.tick_params(labelsize=7, pad=0)
     axes.tick_params(axis="z", pad=9)
-    for axis, turn, pad in ((axes.xaxis, 0, 10), (axes.yaxis, 0, 10), (axes.zaxis, 90, 24)):  # pads [pt] that leave room for numbers of four digits
+    for axis, turn, pad in (
+        (axes.xaxis, 0, 10),
+        (axes.yaxis, 0, 10),
+        (axes.zaxis, 90, 24),
+    ):  # pads [pt] that leave room for numbers of four digits
         axis.set_rotate_label(False)
         axis.label.set_rotation(turn)
         axis.labelpad = pad
@@ -40,4 +48,5 @@ def equal_axes(axes: Any, points: Any) -> None:
     axes.set_zlim(*((last[2], first[2]) if down else (first[2], last[2])))
     axes.set_box_aspect(span, zoom=ZOOM)
     for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), span / span.max()):
-        axis.set_major_locator(ticker.MaxNLocator(max(FEWEST, round(5 * share)), min_n_ticks=FEWEST))
+        axis.set_major_locator(ticker.MaxNLocator(max(FEWEST, round(5 * share)),
+                                                  min_n_ticks=FEWEST))

@@ -14,17 +14,25 @@ from matplotlib.transforms import ScaledTranslation
 
 RPM = 30 / np.pi
 # Okabe and Ito (2008), which all can tell apart, darkened where they are too light for thin lines.
-COLOURS = ["#0072B2", "#C24E00", "#009E73", "#B8860B", "#CC4C99", "#3F9BD4", "#7A3E9D", "#4D4D4D", "#8C2D04", "#5C7A00", "#E69F00", "#117733", "#882255",
-           "#1B9E9E", "#6B4C2A", "#9A6FB0"]
-MARKERS = "osD^vPX*hp<>d"  # their number has no divisor in common with that of the colours, so that no pair comes twice
+COLOURS = [
+    "#0072B2", "#C24E00", "#009E73", "#B8860B", "#CC4C99", "#3F9BD4", "#7A3E9D", "#4D4D4D",
+    "#8C2D04", "#5C7A00", "#E69F00", "#117733", "#882255", "#1B9E9E", "#6B4C2A", "#9A6FB0"
+]
+# their number has no divisor in common with that of the colours, so that no pair comes twice
+MARKERS = "osD^vPX*hp<>d"
 GREY = "#8a8a8a"
 PALE = "#d9d9d9"
-SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")  # as text: matplotlib takes 10 ms for a formula
+SUPERSCRIPTS = str.maketrans("-0123456789",
+                             "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")  # as text: matplotlib takes 10 ms for a formula
 MAP = "cividis"  # of forces and stresses: the same for all eyes, and in grey
-STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 10, "axes.titleweight": "bold", "axes.titlelocation": "left",
-         "axes.edgecolor": "#555555", "xtick.color": "#555555", "ytick.color": "#555555", "axes.grid": True, "grid.color": "#e6e6e6", "grid.linewidth": 0.6,
-         "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "svg.fonttype": "none", "svg.hashsalt": "tooljoint", "figure.dpi": 100, "savefig.dpi": 150,
-         "legend.frameon": False}
+STYLE = {
+    "font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 10,
+    "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.edgecolor": "#555555",
+    "xtick.color": "#555555", "ytick.color": "#555555", "axes.grid": True, "grid.color": "#e6e6e6",
+    "grid.linewidth": 0.6, "axes.prop_cycle": matplotlib.cycler(color=COLOURS),
+    "svg.fonttype": "none", "svg.hashsalt": "tooljoint", "figure.dpi": 100, "savefig.dpi": 150,
+    "legend.frameon": False
+}
 SLENDER = 2.9  # width of a plot of one column in a report [inch]
 WIDE = 4.8
 PAD = 3.0  # of matplotlib's constrained layout, above a title [pt]
@@ -45,25 +53,30 @@ def tick(value: float, _: Any = None) -> str:
 
 
 def figure(width: float = WIDE, height: float = 3.0) -> tuple[Any, Any]:
-    """A figure and its axes, without overlaps. The number of ticks is given: one that grew with the axes would change the room they leave."""
+    """A figure and its axes, without overlaps.
+    The number of ticks is given: one that grew with the axes would change the room they leave."""
     made, axes = plt.subplots(figsize=(width, height), constrained_layout=True)
     whole_ticks(axes, 8 if width > SLENDER else 4, 8 if height > 2.9 else 5)
     return made, axes
 
 
 def whole_ticks(axes: Any, across: int, up: int) -> None:
-    """At most so many ticks; each has its number whole, without a factor or an offset in a corner."""
+    """At most so many ticks; each has its number whole, without a factor or an offset in a
+    corner."""
     for axis, most in ((axes.xaxis, across), (axes.yaxis, up)):
         axis.set_major_locator(ticker.MaxNLocator(most))
         axis.set_major_formatter(ticker.FuncFormatter(tick))
 
 
 def headline(made: Any, what: str, conditions: str = "") -> None:
-    """Above a figure with constrained layout: what it shows, and below that, smaller, the conditions under which it holds."""
+    """Above a figure with constrained layout: what it shows, and below that, smaller, the
+    conditions under which it holds."""
     lines = textwrap.wrap(conditions, int(17 * made.get_figwidth()))
-    made.suptitle("\n".join([what, *(" " for _ in lines)]), x=0.01, ha="left", fontsize=10, fontweight="bold")
+    made.suptitle("\n".join([what, *(" " for _ in lines)]), x=0.01, ha="left", fontsize=10,
+                  fontweight="bold")
     down = ScaledTranslation(0, -(PAD + 14) / 72, made.dpi_scale_trans)
-    made.text(0.01, 1.0, "\n".join(lines), transform=made.transFigure + down, va="top", fontsize=8, color="#555555").set_in_layout(False)
+    made.text(0.01, 1.0, "\n".join(lines), transform=made.transFigure + down, va="top", fontsize=8,
+              color="#555555").set_in_layout(False)
 
 
 def depth_axis(axes: Any, limits: tuple[float, float], name: str = "measured depth") -> None:
@@ -81,7 +94,8 @@ def profile(text: str, limits: tuple[float, float], height: float = 4.2) -> tupl
 
 
 def profiles(row: Sequence[Any], labels: Sequence[str], limits: tuple[float, float]) -> None:
-    """Axes side by side as profiles along one measured depth, which has its numbers at the first of them."""
+    """Axes side by side as profiles along one measured depth, which has its numbers at the first of
+    them."""
     for number, (axes, text) in enumerate(zip(row, labels)):
         whole_ticks(axes, 3, 8)
         axes.set_xlabel(text)
@@ -91,7 +105,8 @@ def profiles(row: Sequence[Any], labels: Sequence[str], limits: tuple[float, flo
             axes.tick_params(labelleft=False)
 
 
-def in_time(text: str, times: Sequence[float], height: float = 2.5, width: float = WIDE) -> tuple[Any, Any]:
+def in_time(text: str, times: Sequence[float], height: float = 2.5,
+            width: float = WIDE) -> tuple[Any, Any]:
     """Axes over the time between the first and the last of `times` [s]."""
     made, axes = figure(width, height)
     axes.set_xlabel(label("time", "s"))
@@ -101,11 +116,14 @@ def in_time(text: str, times: Sequence[float], height: float = 2.5, width: float
     return made, axes
 
 
-def panels(count: int, height: float = 2.3, width: float = 4.0, **options: Any) -> tuple[Any, list[Any], int]:
-    """A grid of small plots with the same axes; as many columns as make it about square: the figure, its axes, the number of columns."""
+def panels(count: int, height: float = 2.3, width: float = 4.0,
+           **options: Any) -> tuple[Any, list[Any], int]:
+    """A grid of small plots with the same axes; as many columns as make it about square: the
+    figure, its axes, the number of columns."""
     columns = min(3, count)
     rows = -(-count // columns)
-    made, grid = plt.subplots(rows, columns, figsize=(width * columns + 0.6, height * rows + 0.7), squeeze=False, constrained_layout=True, **options)
+    made, grid = plt.subplots(rows, columns, figsize=(width * columns + 0.6, height * rows + 0.7),
+                              squeeze=False, constrained_layout=True, **options)
     for index, unused in enumerate(grid.flat[count:], count):
         unused.set_visible(False)
         grid.flat[index - columns].tick_params(labelbottom=True)
@@ -120,8 +138,10 @@ def shades(colour: str, count: int) -> list[tuple[float, ...]]:
 
 
 def legend_above(axes: Any, columns: int = 4, left: float = 0.0) -> None:
-    """A legend that covers no data: in rows above the axes, from `left` (in widths of the axes) on."""
-    axes.legend(loc="lower left", bbox_to_anchor=(left, 1.0), ncol=columns, fontsize=8, borderaxespad=0.2, handlelength=1.4, columnspacing=1.0)
+    """A legend that covers no data: in rows above the axes, from `left` (in widths of the axes)
+    on."""
+    axes.legend(loc="lower left", bbox_to_anchor=(left, 1.0), ncol=columns, fontsize=8,
+                borderaxespad=0.2, handlelength=1.4, columnspacing=1.0)
 
 
 def square(axes: Any, reach: float) -> None:
@@ -142,7 +162,8 @@ def power(value: float) -> str:
 
 
 def plain(value: float, low: float | None = None, high: float | None = None) -> str:
-    """Numbers on logarithmic axes as people write them; all of an axis between `low` and `high` are written in one way.
+    """Numbers on logarithmic axes as people write them; all of an axis between `low` and `high` are
+    written in one way.
 
     >>> plain(0.02), plain(1e-6), plain(0), plain(0.1, 1e-6, 1.0)
     ('0.02', '10⁻⁶', '', '10⁻¹')
@@ -164,18 +185,23 @@ def percent(value: float, low: float | None = None, high: float | None = None) -
 
 
 def logarithmic(axis: Any, formatter: Callable[..., str] = plain) -> None:
-    """Ticks of a logarithmic axis that has its limits: decades, what is between them unless there are many, and 2, 3, 5 with numbers where
-    there is less than a decade and a half. `formatter` writes a number of an axis whose least and largest decade it is given."""
+    """Ticks of a logarithmic axis that has its limits: decades, what is between them unless there
+    are many, and 2, 3, 5 with numbers where there is less than a decade and a half. `formatter`
+    writes a number of an axis whose least and largest decade it is given."""
     def text(value: float, _: Any = None) -> str:
         low, high = sorted(axis.get_view_interval())
-        return formatter(value, *(10.0 ** math.ceil(math.log10(low) - 1e-9), high) if low > 0 else (None, None))
+        return formatter(
+            value,
+            *(10.0**math.ceil(math.log10(low) - 1e-9), high) if low > 0 else (None, None))
 
     axis.set_major_locator(ticker.LogLocator(base=10, numticks=20))
     axis.set_major_formatter(ticker.FuncFormatter(text))
     low, high = axis.get_view_interval()
     narrow = low > 0 and high < 30 * low
     wide = low > 0 and high > 1e6 * low
-    axis.set_minor_locator(ticker.NullLocator() if wide else ticker.LogLocator(base=10, subs=(2, 3, 5) if narrow else range(2, 10), numticks=40))
+    axis.set_minor_locator(ticker.NullLocator() if wide else ticker.
+                           LogLocator(base=10, subs=(2, 3,
+                                                     5) if narrow else range(2, 10), numticks=40))
     axis.set_minor_formatter(ticker.FuncFormatter(text) if narrow else ticker.NullFormatter())
 
 
@@ -186,6 +212,9 @@ def log_log(axes: Any, x: Callable[..., str] = plain, y: Callable[..., str] = pl
     logarithmic(axes.yaxis, y)
 
 
-def error_band(axes: Any, x: Any, low: Any, high: Any, colour: str = GREY, text: str | None = None, sideways: bool = False) -> None:
-    """What is uncertain about a curve, pale behind it: between `low` and `high` at each `x`; `sideways`: at each y, where the abscissa is uncertain."""
-    (axes.fill_betweenx if sideways else axes.fill_between)(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=0, label=text)
+def error_band(axes: Any, x: Any, low: Any, high: Any, colour: str = GREY, text: str | None = None,
+               sideways: bool = False) -> None:
+    """What is uncertain about a curve, pale behind it: between `low` and `high` at each `x`;
+    `sideways`: at each y, where the abscissa is uncertain."""
+    fill = axes.fill_betweenx if sideways else axes.fill_between
+    fill(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=0, label=text)

@@ -22,7 +22,7 @@ double EnergyAccount::residual() const {
 
 void EnergyLedger::allocate(CompiledModel& model) {
   const int n = model.size();
-  for (Vector* x : {&q_, &step_, &product_, &internal_, &load_}) x->setZero(n);
+  for (Vector* x : {&q_, &v_, &step_, &change_, &product_, &internal_, &load_}) x->setZero(n);
   dissipative_.clear();
   account_.dampingNames.clear();
   for (std::size_t i = 0; i < model.damping().terms().size(); ++i) {
@@ -58,6 +58,7 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   model.addStiffness(state.q.data(), internal_.data());
   load_ = Eigen::Map<const Vector>(model.load(), model.size());
   q_ = state.q;
+  v_ = state.v;
   x_ = middle_ = rate_ = state.x;
   time_ = reached_ = state.t;
   longest_ = 0;
@@ -157,18 +158,20 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     entry(account_.damping[i], taken);
     fed += std::max(0.0, -taken);
   }
-  // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at
-  // the end of a step that meets a wall is not what it went in with); friction by its own forces
+  // point laws: mean power of the step times h; friction by its own forces
   if (!model.points().empty()) {
     if (model.stateSize() > 0) bindChord(model, to, h);
-    const auto chord = [&](auto& batch) {
-      auto power = batch.chordPower(to.t - 0.5 * h, h, to.q.data(), step_.data(), batch.acted());
+    change_ = to.v - v_;
+    v_ = to.v;
+    const auto power = [&](auto& batch) {
+      auto each = batch.meanPower(to.t, h, to.q.data(), to.v.data(), step_.data(), change_.data(),
+                                  batch.acted());
       if (sliding_.has(static_cast<std::size_t>(&batch - model.points().data())))
-        power.friction = power.drive = 0;
-      return power;
+        each.friction = each.drive = 0;
+      return each;
     };
     const Powers mean =
-        sumPowers(model, chord, {0, 0, sliding_.friction() / h, sliding_.drive() / h});
+        sumPowers(model, power, {0, 0, sliding_.friction() / h, sliding_.drive() / h});
     sliding_.forget();
     entry(account_.friction, h * mean.friction);
     entry(account_.contactDamping, h * mean.damping);
@@ -224,7 +227,7 @@ void EnergyLedger::save(std::vector<double>& memory) const {
        strain_, stored_, account_.initial, account_.loads, account_.drive, account_.friction,
        account_.contactDamping, account_.circulatory, account_.exchanged, account_.supplied});
   memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
-  for (const Vector* x : {&q_, &internal_, &load_, &x_})
+  for (const Vector* x : {&q_, &v_, &internal_, &load_, &x_})
     memory.insert(memory.end(), x->begin(), x->end());
   sliding_.save(memory);
 }
@@ -242,7 +245,7 @@ void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memo
   for (double& x : account_.damping) x = *memory++;
   x_.setZero(model.stateSize());
   middle_ = rate_ = x_;
-  for (Vector* vector : {&q_, &internal_, &load_, &x_})
+  for (Vector* vector : {&q_, &v_, &internal_, &load_, &x_})
     for (double& x : *vector) x = *memory++;
   sliding_.restore(model, memory);
 }

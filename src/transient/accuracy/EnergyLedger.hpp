@@ -90,8 +90,9 @@ class EnergyLedger {
   int skipped_ = 0;                   ///< steps since the last one booked
   double time_ = 0;                   ///< the last one booked
   double reached_ = 0, longest_ = 0;  ///< end of the last step, and the longest step
-  Vector q_;
-  Vector step_, product_, internal_, load_;
+  Vector q_, v_;
+  Vector step_, change_;  ///< of q and v in a step
+  Vector product_, internal_, load_;
   Vector x_, middle_, rate_;  ///< states of point laws at the last booking, and of a chord
   double stored_ = 0;         ///< by point laws at the last booking
   double strain_ = 0;

@@ -47,7 +47,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   hasActed_.assign(at(points_), 0);
   acted_.reserve(at(points_));
   scale_.assign(at(points_), 1.0);
-  for (auto* array : {&d_, &v_, &f_}) array->assign(at(rows), 0.0);
+  for (auto* array : {&d_, &v_, &f_, &dd_, &dv_}) array->assign(at(rows), 0.0);
   for (auto* array : {&dfdd_, &dfdv_}) array->assign(at(rows) * at(width_), 0.0);
   one_.assign(1, 0);
 }
@@ -96,13 +96,39 @@ model::PointLaw::Power PointBatch::power(double t, const double* q, const double
   return callPower(t, points);
 }
 
-model::PointLaw::Power PointBatch::chordPower(double t, double h, const double* q,
-                                              const double* step, const std::vector<int>& points) {
-  gatherThese(points, q, step);
+/// With y = -1/2 ... 1/2 over the step and the mean m of both ends, the cubic
+///
+///     d(y) = m + y Dd + (y^2 - 1/4) h Dv/2 + y (y^2 - 1/4) (h (v_n + v_{n+1}) - 2 Dd)
+///
+/// is taken at y = -g and g, g^2 = 1/12, where its velocity is Dd/h -+ g Dv.
+model::PointLaw::Power PointBatch::meanPower(double t, double h, const double* q, const double* v,
+                                             const double* dq, const double* dv,
+                                             const std::vector<int>& points) {
+  constexpr double gauss = 0.28867513459481287;
+  gatherThese(points, q, v);
+  rows_.gather(points, dq, dd_.data());
+  rows_.gather(points, dv, dv_.data());
+  for (int p : points) {
+    const double smooth = scale_[at(p)] == 1.0 ? 1.0 : 0.0;
+    for (std::size_t r = at(p * width_); r < at((p + 1) * width_); ++r) {
+      const double chord = dd_[r], change = smooth * dv_[r];
+      const double bow = smooth * (h * (2 * v_[r] - dv_[r]) - 2 * chord);
+      dd_[r] = gauss * (smooth * chord - bow / 6);
+      dv_[r] = gauss * change;
+      d_[r] -= 0.5 * chord + gauss * gauss * h * change + dd_[r];
+      v_[r] = chord / h - dv_[r];
+    }
+  }
+  model::PointLaw::Power mean = callPower(t - (0.5 + gauss) * h, points);
   for (int p : points)
-    for (int r = p * width_; r < (p + 1) * width_; ++r)
-      d_[at(r)] -= 0.5 * v_[at(r)], v_[at(r)] /= h;
-  return callPower(t, points);
+    for (std::size_t r = at(p * width_); r < at((p + 1) * width_); ++r)
+      d_[r] += 2 * dd_[r], v_[r] += 2 * dv_[r];
+  const model::PointLaw::Power late = callPower(t - (0.5 - gauss) * h, points);
+  mean.stored = 0.5 * (mean.stored + late.stored);
+  mean.damping = 0.5 * (mean.damping + late.damping);
+  mean.friction = 0.5 * (mean.friction + late.friction);
+  mean.drive = 0.5 * (mean.drive + late.drive);
+  return mean;
 }
 
 model::PointLaw::Power PointBatch::callPower(double t, const std::vector<int>& points) const {

@@ -131,9 +131,12 @@ class PointBatch {
   /// Powers at (q, v), summed over these points.
   model::PointLaw::Power power(double t, const double* q, const double* v,
                                const std::vector<int>& points);
-  /// The same in the middle of the chord `step` that ends at q after h seconds, at its velocity.
-  model::PointLaw::Power chordPower(double t, double h, const double* q, const double* step,
-                                    const std::vector<int>& points);
+  /// Their mean over a step of h seconds that ends at (q, v) at the time t and changes them by dq
+  /// and dv: by Gauss' rule of two points on the cubic through both ends. Where an impact changes
+  /// the velocity within the step (scale() other than 1) it is that in the middle of the chord.
+  model::PointLaw::Power meanPower(double t, double h, const double* q, const double* v,
+                                   const double* dq, const double* dv,
+                                   const std::vector<int>& points);
   /// All points evaluated here, and those that were active since the last bookPowers().
   const std::vector<int>& everyPoint() const { return all_; }
   const std::vector<int>& acted();
@@ -179,7 +182,8 @@ class PointBatch {
   std::vector<double> scale_;
   int scaled_ = 0;  ///< scales that are not 1
   FrozenTangent frozen_;
-  std::vector<double> own_;  ///< d, v of a point that is evaluated elsewhere
+  std::vector<double> dd_, dv_;  ///< of a step, and halves of what is between Gauss' points
+  std::vector<double> own_;      ///< d, v of a point that is evaluated elsewhere
   std::vector<int> one_;
   long evaluations_ = 0;
 };

@@ -33,7 +33,7 @@ template <class Value>
 Column column(const Profiles& profiles, const std::string& name, const std::string& unit,
               const std::string& longName, const Value& value) {
   Column one{name, unit, longName, {}};
-  for (const auto& profile : profiles) one.values.push_back(value(profile));
+  for (const auto& profile : profiles) one.values.push_back(value(profile) + 0.0);  // no -0
   return one;
 }
 

@@ -278,7 +278,8 @@ constexpr double sharpestDrilled = 150.0 * constants::degree / 30.0;
 
 /// Measured and vertical depth of the bit, the sharpest bend above it, its inclination.
 std::string describeWell(const Scene& scene) {
-  constexpr double beside = 1e-6;  // [m] of a depth where the curvature jumps
+  constexpr double beside = 1e-6;     // [m] of a depth where the curvature jumps
+  constexpr double rounding = 1e-12;  // of the vertical depth of a level hole, over its length
   const double bit = scene.string.length();
   auto depths = scene.string.depths();
   for (const double s : scene.well.trajectory().breaks())
@@ -288,7 +289,8 @@ std::string describeWell(const Scene& scene) {
   for (const double s : depths)
     if (const double bend = scene.well.at(s).curvature.norm(); bend > sharpest)
       sharpest = bend, where = s;
-  const double fall = scene.well.at(bit).position.z() - scene.well.at(0.0).position.z();
+  double fall = scene.well.at(bit).position.z() - scene.well.at(0.0).position.z();
+  if (std::abs(fall) < rounding * bit) fall = 0.0;
   std::string text = fmt::sprintf("well        bit at MD %s, TVD %s, inclination %.3g deg; ",
                                   deck::printed(bit, "m", 5), deck::printed(fall, "m", 5),
                                   scene.well.inclination(bit) / constants::degree);

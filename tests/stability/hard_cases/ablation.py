@@ -3,7 +3,8 @@
 """What each strategy of an implicit step wins: hard cases and scenes with one left out at a time.
 
     ablation.py PROGRAM --short                     two cases (CTest)
-    ablation.py PROGRAM --write docs/strategies.md  all of them; writes the table and draws its figure
+    ablation.py PROGRAM --write docs/strategies.md  all of them; writes the table and draws its
+                                                    figure
 
 A strategy earns its place where a case is refused or changed without it, or takes 5 % longer. With
 --short the exit code is 1 when one that is left out is used, or none that is there is.
@@ -20,18 +21,28 @@ import sys
 import numpy as np
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
-import contact
+import impacts
 import report
 from program import FULL, ROOT, Program
 from scenes import HELICAL, LYING, STRESS, alpha, parts_deck, times
 
 OWN = "Transient/Generalized-alpha/"
-STRATEGIES = {name: {OWN + "Leave Out": [name]} for name in
-              ("Relaxation", "Near Solves", "Points Alone", "Point Paths", "Turns", "Resting Impacts", "Newton", "Troubled Points")}
-STRATEGIES |= {"Halving": {OWN + "Max Halvings": 0}, "Impacts resolved": {OWN + "Resolve Impacts": False}, "Phase correction": {OWN + "Phase Correction": False}}
+STRATEGIES = {
+    name: {OWN + "Leave Out": [name]}
+    for name in ("Relaxation", "Near Solves", "Points Alone", "Point Paths", "Turns",
+                 "Resting Impacts", "Newton", "Troubled Points")
+}
+STRATEGIES |= {
+    "Halving": {OWN + "Max Halvings": 0},
+    "Impacts resolved": {OWN + "Resolve Impacts": False},
+    "Phase correction": {OWN + "Phase Correction": False},
+}
 WINS = 0.05  # of the time, below which a strategy does not earn its place
-SAME, NOISE = 0.01, 3.0  # vibration error that counts as the same motion, and how often that of a run with half the tolerance
-JUDGED_ELSEWHERE = {"Transient/Energy Residual Limit": 1e9, "Transient/Step Error Limit": 1e9}  # what is wrong with a case by itself
+# vibration error that counts as the same motion, and how often that of a run with half the
+# tolerance
+SAME, NOISE = 0.01, 3.0
+JUDGED_ELSEWHERE = {"Transient/Energy Residual Limit": 1e9,
+                    "Transient/Step Error Limit": 1e9}  # what is wrong with a case by itself
 HEAD = """# Strategies of a step
 
 A step of `Generalized-alpha` has strategies for hard contact; [theory](theory.md) describes each.
@@ -60,8 +71,11 @@ class Case:
 
 
 def friction(slip, speed, share=(0.55, 0.45)):
-    return {"Contact/Friction/Static": share[0], "Contact/Friction/Dynamic": share[1], "Contact/Friction/Regularisation Velocity": slip,
-            "Rotary Speed/Exponential/Final Speed": f"{speed} rpm"}
+    return {
+        "Contact/Friction/Static": share[0], "Contact/Friction/Dynamic": share[1],
+        "Contact/Friction/Regularisation Velocity": slip,
+        "Rotary Speed/Exponential/Final Speed": f"{speed} rpm"
+    }
 
 
 def walls(stiffness):
@@ -70,46 +84,72 @@ def walls(stiffness):
 
 def balls(program):
     """The deck of forty linked balls on stops."""
-    count, height = 40, contact.DROP
+    count, height = 40, impacts.DROP
     K = 1e4 * (2 * np.eye(count) - np.eye(count, k=1) - np.eye(count, k=-1))
     K[0, 0] = K[-1, -1] = 1e4
-    file = program.part("balls", ["v"], contact.BALL * np.eye(count), K, loads=[-contact.BALL * contact.GRAVITY] * count)
-    starts = {f"drop {i}": {"Part": "ball", "Node": i, "Component": "v", "Displacement": height} for i in range(1, count + 1)}
-    stops = {f"floor {i}": {"First": f"ball:{i}", "Component": "v", "Stiffness": 1e7, "Damping": 0.0} for i in range(1, count + 1)}
-    return parts_deck(program, "balls", {"ball": file}, {**alpha(1e-3), **times(0.2, 1e-3)}, Parts={"Starts": starts}, Coupling={"Stops": stops})
+    file = program.part("balls", ["v"], impacts.BALL * np.eye(count), K,
+                        loads=[-impacts.BALL * impacts.GRAVITY] * count)
+    starts = {
+        f"drop {i}": {"Part": "ball", "Node": i, "Component": "v", "Displacement": height}
+        for i in range(1, count + 1)
+    }
+    stops = {
+        f"floor {i}": {"First": f"ball:{i}", "Component": "v", "Stiffness": 1e7, "Damping": 0.0}
+        for i in range(1, count + 1)
+    }
+    return parts_deck(program, "balls", {"ball": file}, {**alpha(1e-3), **times(0.2, 1e-3)},
+                      Parts={"Starts": starts}, Coupling={"Stops": stops})
 
 
 def cases(program, short):
-    reverse = {"Rotary Speed/Law": "Table", "Rotary Speed/Table/Interpolation": "Linear", "Rotary Speed/Table/Times": [0.0, 0.3, 0.5, 1.0, 1.2],
-               "Rotary Speed/Table/Speeds": [6.28, 6.28, 0.0, 0.0, -6.28], "Contact/Friction/Regularisation Velocity": 1e-3, "Damping/Mass Coefficient": 2.0}
+    reverse = {
+        "Rotary Speed/Law": "Table", "Rotary Speed/Table/Interpolation": "Linear",
+        "Rotary Speed/Table/Times": [0.0, 0.3, 0.5, 1.0, 1.2],
+        "Rotary Speed/Table/Speeds": [6.28, 6.28, 0.0, 0.0, -6.28],
+        "Contact/Friction/Regularisation Velocity": 1e-3, "Damping/Mass Coefficient": 2.0
+    }
     sharp = {**alpha(1e-3), **times(0.3, 0.005), **friction(3e-5, 0.5)}
     if short:
-        return [Case("sharp friction, stress_170m, 0.5 rpm", STRESS, {**sharp, **times(0.05, 0.005)}),
-                Case("walls of 3e9 N/m, stress_170m", STRESS, {**alpha(1e-3), **times(0.05, 0.0025), **walls(3e9)})]
+        return [
+            Case("sharp friction, stress_170m, 0.5 rpm", STRESS, {**sharp, **times(0.05, 0.005)}),
+            Case("walls of 3e9 N/m, stress_170m", STRESS,
+                 {**alpha(1e-3), **times(0.05, 0.0025), **walls(3e9)})
+        ]
     return [
         Case("helical_170m, 1 ms", HELICAL, {**alpha(1e-3), **times(2.0, 0.01)}),
         Case("helical_170m, 2.5 ms", HELICAL, {**alpha(2.5e-3), **times(3.0, 0.01)}),
         Case("helical_170m, reduced, 1 ms", HELICAL, {**alpha(1e-3), **times(2.0, 0.01)}, ()),
         Case("stress_170m, 1 ms", STRESS, {**alpha(1e-3), **times(2.0, 0.01)}),
         Case("stress_170m, 5 ms", STRESS, {**alpha(5e-3), **times(3.0, 0.01)}),
-        Case("inclined_1000m, 2.5 ms", ROOT / "xml/inclined_1000m.xml", {**alpha(2.5e-3), **times(1.0, 0.01)}),
-        Case("inclined_1000m, reduced, 2.5 ms", ROOT / "xml/inclined_1000m.xml", {**alpha(2.5e-3), **times(1.0, 0.01)}, ()),
-        Case("vertical_1000m, 5 ms", ROOT / "xml/vertical_1000m.xml", {**alpha(5e-3), **times(3.0, 0.01)}),
+        Case("inclined_1000m, 2.5 ms", ROOT / "xml/inclined_1000m.xml",
+             {**alpha(2.5e-3), **times(1.0, 0.01)}),
+        Case("inclined_1000m, reduced, 2.5 ms", ROOT / "xml/inclined_1000m.xml",
+             {**alpha(2.5e-3), **times(1.0, 0.01)}, ()),
+        Case("vertical_1000m, 5 ms", ROOT / "xml/vertical_1000m.xml",
+             {**alpha(5e-3), **times(3.0, 0.01)}),
         Case("sharp friction, stress_170m, 0.5 rpm", STRESS, sharp),
-        Case("sharp friction, stress_170m, 2 rpm, reduced", STRESS, {**sharp, **friction(1e-5, 2)}, ()),
-        Case("sharp friction, helical_170m, 1 rpm", HELICAL, {**sharp, **times(0.6, 0.005), **friction(3e-5, 1)}),
-        Case("sharp friction, helical_170m, 0.2 rpm", HELICAL, {**sharp, **times(0.6, 0.005), **friction(1e-5, 0.2)}),
+        Case("sharp friction, stress_170m, 2 rpm, reduced", STRESS, {**sharp, **friction(1e-5, 2)},
+             ()),
+        Case("sharp friction, helical_170m, 1 rpm", HELICAL,
+             {**sharp, **times(0.6, 0.005), **friction(3e-5, 1)}),
+        Case("sharp friction, helical_170m, 0.2 rpm", HELICAL,
+             {**sharp, **times(0.6, 0.005), **friction(1e-5, 0.2)}),
         Case("sharp friction, helical_170m, 2 rpm", HELICAL, {**sharp, **friction(3e-5, 2)}),
-        Case("walls of 1e8 N/m, stress_170m", STRESS, {**alpha(1e-3), **times(0.3, 0.0025), **walls(1e8)}),
-        Case("walls of 3e9 N/m, stress_170m", STRESS, {**alpha(1e-3), **times(0.15, 0.0025), **walls(3e9)}),
-        Case("walls of 3e9 N/m, stress_170m, reduced", STRESS, {**alpha(1e-3, 0.2), **times(0.15, 0.0025), **walls(3e9)}, ()),
+        Case("walls of 1e8 N/m, stress_170m", STRESS,
+             {**alpha(1e-3), **times(0.3, 0.0025), **walls(1e8)}),
+        Case("walls of 3e9 N/m, stress_170m", STRESS,
+             {**alpha(1e-3), **times(0.15, 0.0025), **walls(3e9)}),
+        Case("walls of 3e9 N/m, stress_170m, reduced", STRESS,
+             {**alpha(1e-3, 0.2), **times(0.15, 0.0025), **walls(3e9)}, ()),
         Case("forty balls", balls(program), {}, ()),
-        Case("reversal, lying string", LYING, {**alpha(1e-3), **times(1.5, 0.005), **reverse}, (*FULL, "Rotary Speed/Constant")),
+        Case("reversal, lying string", LYING, {**alpha(1e-3), **times(1.5, 0.005), **reverse},
+             (*FULL, "Rotary Speed/Constant")),
     ]
 
 
 def run(program, case, more):
-    return program.run("ablation", case.deck, {**JUDGED_ELSEWHERE, **case.settings, **more}, case.without, seconds=300)
+    return program.run("ablation", case.deck, {**JUDGED_ELSEWHERE, **case.settings, **more},
+                       case.without, seconds=300)
 
 
 def noise(program, case, whole):
@@ -124,12 +164,14 @@ def end(case):
 def used(one, strategy):
     """Uses of a strategy in a run, infinite for those that are not counted."""
     if strategy in ("Impacts resolved", "Halving"):
-        return one.motion.get("rejected" if strategy == "Impacts resolved" else "halved") or 0  # a refused run has none
+        return one.motion.get("rejected" if strategy ==
+                              "Impacts resolved" else "halved") or 0  # a refused run has none
     return (one.motion.get("strategies") or {}).get(strategy.lower().replace(" ", "_"), math.inf)
 
 
 def least(program, case, more, repeats):
-    """The run, with the least CPU time of all repeats; its folder stays until the next one of that name."""
+    """The run, with the least CPU time of all repeats; its folder stays until the next one of that
+    name."""
     found = [run(program, case, more) for _ in range(repeats)]
     return found[-1], min(one.work() for one in found)
 
@@ -142,7 +184,8 @@ def set_aside(one):
 
 
 def compared(program, case, strategy, whole, cost, same, repeats):
-    """Cell of the table, what the strategy wins in time (infinite where the motion needs it), and the run."""
+    """Cell of the table, what the strategy wins in time (infinite where the motion needs it), and
+    the run."""
     if used(whole, strategy) == 0:
         return "-", 0.0, None
     one, own = least(program, case, STRATEGIES[strategy], repeats)
@@ -170,7 +213,8 @@ def table(program, chosen, repeats):
             if one is not None:
                 wins[name].append((gain, case.name))
                 if used(one, name) not in (0, math.inf):
-                    broken.append(f"{case.name}: {name} is left out and used {used(one, name)} times")
+                    broken.append(
+                        f"{case.name}: {name} is left out and used {used(one, name)} times")
             cells.append(cell)
             print(f"{case.name}: without {name} {cell}", flush=True)
         lines.append((case.name, f"{1e6 * cost / whole.motion['steps']:.0f}", *cells))
@@ -182,13 +226,15 @@ def verdicts(wins):
         needed = [case for gain, case in found if math.isinf(gain)]
         faster = [(gain, case) for gain, case in found if WINS <= gain < math.inf]
         slower = [(gain, case) for gain, case in found if gain <= -WINS]
-        yield (name, "; ".join(needed), "; ".join(f"{case} ({100 * gain:.0f} %)" for gain, case in faster),
+        yield (name, "; ".join(needed),
+               "; ".join(f"{case} ({100 * gain:.0f} %)" for gain, case in faster),
                "; ".join(f"{case} ({-100 * gain:.0f} %)" for gain, case in slower),
                "earned" if needed or faster else "not used" if not found else "not earned")
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--work", default="ablation", help="folder of the runs")
     parser.add_argument("--repeats", type=int, default=2)
@@ -201,11 +247,14 @@ def main():
     repeats = 1 if options.short else options.repeats
     lines, wins, broken = table(program, chosen, repeats)
     if options.write:
-        text = HEAD.format(repeats=repeats, same=100 * SAME) + f"Machine: {platform.machine()}, {platform.system()}.\n\n"
-        text += report.table(("left out", "needed by", "time won by", "time lost by", "verdict"), verdicts(wins))
+        text = HEAD.format(repeats=repeats, same=100 *
+                           SAME) + f"Machine: {platform.machine()}, {platform.system()}.\n\n"
+        text += report.table(("left out", "needed by", "time won by", "time lost by", "verdict"),
+                             verdicts(wins))
         text += "\n## Case by case\n\n" + report.table(("case", "step [us]", *STRATEGIES), lines)
         pathlib.Path(options.write).write_text(text, encoding="utf-8")
-        subprocess.run([sys.executable, str(ROOT / "tools/strategies_figure.py")], check=True)  # of the page
+        subprocess.run([sys.executable, str(ROOT / "tools/strategies_figure.py")],
+                       check=True)  # of the page
     tried = [name for name, found in wins.items() if found]
     print(f"{len(chosen)} cases, {len(tried)} strategies left out: {', '.join(tried)}")
     for fault in broken:

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the numbers of src/transient/Tuned.hpp do: short hard cases with one of them halved and doubled.
+"""What the numbers of src/transient/Tuned.hpp do: short hard cases with one of them halved and
+doubled.
 
-    constants.py BUILD                builds the program in BUILD from a copy of the sources whose numbers can be set, and runs all
+    constants.py BUILD                builds the program in BUILD from a copy of the sources whose
+                                      numbers can be set, and runs all
     constants.py BUILD --only NAME... these numbers
     constants.py BUILD --built        with the program that is there, or the one named
 
-Prints, for each number, value and case: refused, the vibration error against the values of Tuned.hpp, and the work (iterations,
-and factorisations at the price of Tuned::factorPrice) over theirs. docs/step-constants.md says what was found.
+Prints, for each number, value and case: refused, the vibration error against the values of
+Tuned.hpp, and the work (iterations, and factorisations at the price of Tuned::factorPrice) over
+theirs. docs/step-constants.md says what was found.
 """
 import argparse
 import os
@@ -22,7 +25,8 @@ from program import FULL, ROOT, Program
 from scenes import HELICAL, STRESS, alpha, times
 
 HEADER = "src/transient/Tuned.hpp"
-NUMBER = re.compile(r"static constexpr (double|int) (?!colours)(\w+) = ([^;]+);")  # colours sizes other constants
+NUMBER = re.compile(
+    r"static constexpr (double|int) (?!colours)(\w+) = ([^;]+);")  # colours sizes other constants
 READS = """#pragma once
 #include <cstdlib>
 inline double variation(const char* name, double usual) {
@@ -32,37 +36,56 @@ inline double variation(const char* name, double usual) {
 """
 PRICE = 45  # Tuned::factorPrice
 FACTORS = (0.5, 2.0)
-SMOOTH, PHASE, FRICTION, STIFF, BALLS = "helical 1 ms", "helical 2.5 ms", "sharp friction", "walls of 3e9 N/m", "forty balls"
-CASES = {"slowestRate": (PHASE, FRICTION), "slowestRelaxation": (FRICTION,), "progress": (FRICTION,), "mostIdle": (FRICTION,), "decrease": (FRICTION,),
-         "mostTries": (FRICTION,), "counted": (PHASE, FRICTION), "rightEnough": (SMOOTH, PHASE), "mostGrowth": (PHASE, FRICTION), "rounding": (SMOOTH, STIFF),
-         "factorPrice": (SMOOTH, PHASE), "positionsPerPoint": (SMOOTH, FRICTION), "dropped": (SMOOTH, FRICTION), "pointTolerance": (FRICTION, STIFF),
-         "mostPointIterations": (FRICTION,), "mostPathSteps": (FRICTION,), "patience": (FRICTION,), "mostTroubled": (FRICTION,),
-         "mostLost": (STIFF, BALLS), "mostMisplaced": (STIFF, BALLS), "resolved": (STIFF, BALLS), "calmSteps": (STIFF, BALLS), "lookStride": (STIFF, BALLS), "quiet": (STIFF, BALLS),
-         "mostHalvings": (STIFF, BALLS), "atATime": (STIFF, BALLS), "mostPhase": (SMOOTH, PHASE), "lookAhead": (SMOOTH, STIFF)}
+SMOOTH, PHASE, FRICTION, STIFF, BALLS = ("helical 1 ms", "helical 2.5 ms", "sharp friction",
+                                         "walls of 3e9 N/m", "forty balls")
+CASES = {
+    "slowestRate": (PHASE, FRICTION), "slowestRelaxation": (FRICTION,), "progress": (FRICTION,),
+    "mostIdle": (FRICTION,), "decrease": (FRICTION,), "mostTries": (FRICTION,),
+    "counted": (PHASE, FRICTION), "rightEnough": (SMOOTH, PHASE), "mostGrowth": (PHASE, FRICTION),
+    "rounding": (SMOOTH, STIFF), "factorPrice": (SMOOTH, PHASE), "dropped": (SMOOTH, FRICTION),
+    "positionsPerPoint": (SMOOTH, FRICTION), "pointTolerance": (FRICTION, STIFF),
+    "mostPointIterations": (FRICTION,), "mostPathSteps": (FRICTION,), "patience": (FRICTION,),
+    "mostTroubled": (FRICTION,), "mostLost": (STIFF, BALLS), "mostMisplaced": (STIFF, BALLS),
+    "resolved": (STIFF, BALLS), "calmSteps": (STIFF, BALLS), "lookStride": (STIFF, BALLS),
+    "quiet": (STIFF, BALLS), "mostHalvings": (STIFF, BALLS), "atATime": (STIFF, BALLS),
+    "mostPhase": (SMOOTH, PHASE), "lookAhead": (SMOOTH, STIFF)
+}
 
 
 def build(folder):
     """A program whose numbers come from the environment, from a copy of the sources."""
     copy = folder / "sources"
-    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z"], stdout=subprocess.PIPE,
+                            text=True, check=True).stdout
     for name in filter(None, listed.split("\0")):
         target = copy / name
         target.parent.mkdir(parents=True, exist_ok=True)
         if not target.exists() or target.read_bytes() != (ROOT / name).read_bytes():
             shutil.copy2(ROOT / name, target)
-    text = NUMBER.sub(r'static inline const \1 \2 = static_cast<\1>(variation("\2", \3));', (ROOT / HEADER).read_text(encoding="utf-8"))
+    text = NUMBER.sub(r'static inline const \1 \2 = static_cast<\1>(variation("\2", \3));',
+                      (ROOT / HEADER).read_text(encoding="utf-8"))
     (copy / HEADER).write_text(text.replace("#pragma once\n", READS), encoding="utf-8")
-    subprocess.run(["cmake", "-S", str(copy), "-B", str(folder / "build"), "-G", "Ninja", "-D", "CMAKE_BUILD_TYPE=Release", "-D", "BUILD_TESTING=OFF"], check=True)
-    subprocess.run(["cmake", "--build", str(folder / "build"), "-j", "2", "--target", "tooljoint"], check=True)
+    subprocess.run([
+        "cmake", "-S",
+        str(copy), "-B",
+        str(folder / "build"), "-G", "Ninja", "-D", "CMAKE_BUILD_TYPE=Release", "-D",
+        "BUILD_TESTING=OFF"
+    ], check=True)
+    subprocess.run(["cmake", "--build",
+                    str(folder / "build"), "-j", "2", "--target", "tooljoint"], check=True)
     return folder / "build" / "tooljoint"
 
 
 def decks(program):
     """{case: (deck, settings, lists left out, end)}"""
     sharp = {**alpha(1e-3), **times(0.3, 0.005)}
-    return {SMOOTH: (HELICAL, {**alpha(1e-3), **times(0.6, 0.01)}, FULL, 0.6), PHASE: (HELICAL, {**alpha(2.5e-3), **times(1.0, 0.01)}, FULL, 1.0),
-            FRICTION: (STRESS, {**sharp, **friction(3e-5, 0.5)}, FULL, 0.3),
-            STIFF: (STRESS, {**alpha(1e-3, 0.2), **times(0.15, 0.0025), **walls(3e9)}, FULL, 0.15), BALLS: (balls(program), {}, (), 0.2)}
+    return {
+        SMOOTH: (HELICAL, {**alpha(1e-3), **times(0.6, 0.01)}, FULL, 0.6),
+        PHASE: (HELICAL, {**alpha(2.5e-3), **times(1.0, 0.01)}, FULL, 1.0),
+        FRICTION: (STRESS, {**sharp, **friction(3e-5, 0.5)}, FULL, 0.3),
+        STIFF: (STRESS, {**alpha(1e-3, 0.2), **times(0.15, 0.0025), **walls(3e9)}, FULL, 0.15),
+        BALLS: (balls(program), {}, (), 0.2),
+    }
 
 
 def work(run):
@@ -70,19 +93,25 @@ def work(run):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build")
     parser.add_argument("--only", nargs="+", default=[], metavar="NAME")
     parser.add_argument("--built", metavar="PROGRAM", nargs="?", const="")
     options = parser.parse_args()
     folder = pathlib.Path(options.build).resolve()
-    program = Program((options.built or folder / "build" / "tooljoint") if options.built is not None else build(folder), folder / "runs")
+    program = Program((options.built or folder / "build" / "tooljoint")
+                      if options.built is not None else build(folder), folder / "runs")
     cases, usual = decks(program), {}
 
     def run(name, case):
         deck, settings, without, _ = cases[case]
         return program.run(name, deck, {**JUDGED_ELSEWHERE, **settings}, without, seconds=200)
-    values = {name: float(value) for _, name, value in NUMBER.findall((ROOT / HEADER).read_text(encoding="utf-8"))}
+
+    values = {
+        name: float(value)
+        for _, name, value in NUMBER.findall((ROOT / HEADER).read_text(encoding="utf-8"))
+    }
     for name, value in values.items():
         if options.only and name not in options.only:
             continue
@@ -98,7 +127,8 @@ def main():
                     cells.append(f"{value * factor:g}: refused")
                     continue
                 apart = program.vibration_error(one, usual[case], cases[case][3])
-                cells.append(f"{value * factor:g}: {100 * apart:.2g} %, work {work(one) / work(usual[case]):.2f}")
+                cells.append(f"{value * factor:g}: {100 * apart:.2g} %, work "
+                             f"{work(one) / work(usual[case]):.2f}")
             print(f"{name} = {value:g}, {case}: " + "; ".join(cells), flush=True)
     return 0
 

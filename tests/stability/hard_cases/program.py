@@ -12,15 +12,19 @@ import h5py
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-TIME_FACTOR = float(os.environ.get("TOOLJOINT_TIME_FACTOR", "1"))  # programs with sanitizers take longer
+TIME_FACTOR = float(os.environ.get("TOOLJOINT_TIME_FACTOR",
+                                   "1"))  # programs with sanitizers take longer
 FULL = ("Reduction", "Substructures")  # lists without which the full model runs
-NAMED = ("Loads/Forces/", "Loads/Unbalance/", "Coupling/Springs/", "Drillstring/Components/")  # lists of the user's names
+NAMED = ("Loads/Forces/", "Loads/Unbalance/", "Coupling/Springs/", "Drillstring/Components/"
+         )  # lists of the user's names
 QUIET = {"Output/XDMF": "false", "Output/CSV": "false"}
-COUNTERS = (("steps", "steps"), ("newton_iterations", "iterations"), ("factorisations", "factorisations"),
-            ("halved", "halved"), ("rejected", "rejected"), ("right_hand_sides", "right-hand sides"))
+COUNTERS = (("steps", "steps"), ("newton_iterations", "iterations"),
+            ("factorisations", "factorisations"), ("halved", "halved"), ("rejected", "rejected"),
+            ("right_hand_sides", "right-hand sides"))
 # Beginnings of warnings that say nothing of the accuracy of a motion or of its start.
-OTHER_WARNINGS = ("The annulus", "No node of the string", "The output folder", "The mass matrix is singular",
-                  "The checkpoint", "There are", "The static state is unstable", "The bit has not settled", "The bit made",
+OTHER_WARNINGS = ("The annulus", "No node of the string", "The output folder",
+                  "The mass matrix is singular", "The checkpoint", "There are",
+                  "The static state is unstable", "The bit has not settled", "The bit made",
                   "Path/Pre-stress")
 
 
@@ -30,7 +34,6 @@ class NoResult(Exception):
 
 class Run:
     """What a command left: exit code, the sentence it ended with, summary.json and results.h5."""
-
     def __init__(self, folder, code, output, cpu):
         self.folder, self.code, self.output, self.cpu = folder, code, output, cpu
         path = folder / "summary.json"
@@ -52,8 +55,10 @@ class Run:
 
     def warnings(self):
         """Warnings that tell of the accuracy of the result."""
-        return [" ".join(w.split()) for w in self.summary.get("warnings") or []
-                if not w.startswith(OTHER_WARNINGS) and "has no stiffness" not in w]
+        return [
+            " ".join(w.split()) for w in self.summary.get("warnings") or []
+            if not w.startswith(OTHER_WARNINGS) and "has no stiffness" not in w
+        ]
 
     def work(self):
         """CPU time of the motion [s], or of the command where nothing moves."""
@@ -80,7 +85,6 @@ class Run:
 
 class Program:
     """The program under test; every run has a folder of its own in the work folder."""
-
     def __init__(self, executable, work, mpiexec="mpiexec"):
         self.executable, self.mpiexec = str(pathlib.Path(executable).resolve()), mpiexec
         self.work = pathlib.Path(work).resolve()
@@ -91,8 +95,8 @@ class Program:
         return [*parallel, self.executable, *map(str, arguments)]
 
     def overrides(self, settings, without):
-        return [x for name in without for x in ("--without", name)] + \
-            [x for path, value in settings.items() for x in ("--set", f"{path}={text(value)}")]
+        return ([x for name in without for x in ("--without", name)] +
+                [x for path, value in settings.items() for x in ("--set", f"{path}={text(value)}")])
 
     def run(self, name, deck, settings=None, without=(), command="run", ranks=1, seconds=900,
             extra=()):
@@ -120,8 +124,9 @@ class Program:
 
     def vibration_error(self, run, reference, end):
         """`tooljoint compare` over 0 to `end`; infinite where there is nothing to compare."""
-        done = subprocess.run(self.command("compare", run.folder, reference.folder, "--to", end,
-                                           "--json"), stdout=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(
+            self.command("compare", run.folder, reference.folder, "--to", end, "--json"),
+            stdout=subprocess.PIPE, text=True, check=False)
         return json.loads(done.stdout)["vibration_error"] if done.returncode == 0 else float("inf")
 
     def deck(self, name, lists):
@@ -131,15 +136,16 @@ class Program:
         return path
 
     def with_lists(self, name, deck, settings):
-        """A copy of a deck with parameters in lists named by the user, which --set does not make; the
-        deck must not name files."""
+        """A copy of a deck with parameters in lists named by the user, which --set does not make;
+        the deck must not name files."""
         tree = ElementTree.parse(deck)
         for path, value in settings.items():
             *lists, last = path.split("/")
             at = tree.getroot()
             for one in lists:
                 found = at.find(f"ParameterList[@name='{one}']")
-                at = ElementTree.SubElement(at, "ParameterList", name=one) if found is None else found
+                at = ElementTree.SubElement(at, "ParameterList",
+                                            name=one) if found is None else found
             for old in at.findall(f"Parameter[@name='{last}']"):
                 at.remove(old)
             ElementTree.SubElement(at, "Parameter", name=last, type=kind(value), value=text(value))
@@ -150,9 +156,14 @@ class Program:
     def part(self, name, components, M, K, C=None, loads=None, sets=None, labels=None):
         """Writes a part file with dense matrices; nodes count from 1 unless `labels` are given."""
         width = len(components)
-        content = {"format": "tooljoint part 1", "components": list(components),
-                   "dofs": labels or [[i // width + 1, components[i % width]] for i in range(len(M))],
-                   "mass": rows(M), "stiffness": rows(K), "interfaces": sets or {}}
+        content = {
+            "format": "tooljoint part 1",
+            "components": list(components),
+            "dofs": labels or [[i // width + 1, components[i % width]] for i in range(len(M))],
+            "mass": rows(M),
+            "stiffness": rows(K),
+            "interfaces": sets or {},
+        }
         if C is not None:
             content["damping"] = rows(C)
         if loads is not None:
@@ -189,5 +200,6 @@ def parameter_list(name, lists, indent=""):
         if isinstance(value, dict):
             lines.append(parameter_list(key, value, indent + "  "))
         else:
-            lines.append(f'{indent}  <Parameter name="{key}" type="{kind(value)}" value="{text(value)}"/>')
+            lines.append(
+                f'{indent}  <Parameter name="{key}" type="{kind(value)}" value="{text(value)}"/>')
     return "\n".join(lines + [f"{indent}</ParameterList>"])

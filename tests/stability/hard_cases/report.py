@@ -13,27 +13,30 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
 import plots  # noqa: E402
 
 ORDER = ("met", "warned", "off", "refused", "WRONG", "open")
-PARTS = {"short": "This is the short version: a few points of the range, near its easy end.",
-         "stopped": "The case was stopped before its end: the last points of the range are not there."}
+PARTS = {
+    "short": "This is the short version: a few points of the range, near its easy end.",
+    "stopped": "The case was stopped before its end: the last points of the range are not there."
+}
 LONGEST_NOTE = 150  # characters of a sentence in the page
-COLUMNS = ("variant", "parameter", "truth", "found", "deviation", "bound", "verdict", "cost", "what the program says")
+COLUMNS = ("variant", "parameter", "truth", "found", "deviation", "bound", "verdict", "cost",
+           "what the program says")
 VERDICT = COLUMNS.index("verdict")
 HEAD = """# Hard cases
 
-Cases that are hard for the statics, the reduction or the integration, each swept over a range of its
-parameter and set beside a truth of its own: a closed form, an eigenvalue, a tighter step, another
-integrator, or the statistics of perturbed runs. This page, its figures and its tables are written by
+Cases that are hard for the statics, the reduction or the integration, each swept over a range of
+its parameter and set beside a truth of its own: a closed form, an eigenvalue, a tighter step,
+another integrator, or the statistics of perturbed runs. This page, its figures and its tables are
+written by
 
     cmake --build --preset release --target hard-cases
 
-A row of a sweep is *met* where the number is within its bound of the truth, *warned* where it is not and
-the run says so (error up to 50 %), *off* where nothing says so and the error of the motion is below 20 %,
-*refused* where the program ends with exit code 2, 3 or 4 and a
-sentence instead of a number, and WRONG where none of these holds. The command fails when a row is
-WRONG, or when a row that must be met is refused. Each chapter shows the rows that are not met and names
-the table of all its rows. Costs are CPU times over those of the easy variant
-that is named; counters are those of `summary.json`, per step where they grow with the steps. `ctest -R
-hard_cases` runs a short version.
+A row of a sweep is *met* where the number is within its bound of the truth, *warned* where it is
+not and the run says so (error up to 50 %), *off* where nothing says so and the error of the motion
+is below 20 %, *refused* where the program ends with exit code 2, 3 or 4 and a sentence instead of a
+number, and WRONG where none of these holds. The command fails when a row is WRONG, or when a row
+that must be met is refused. Each chapter shows the rows that are not met and names the table of all
+its rows. Costs are CPU times over those of the easy variant that is named; counters are those of
+`summary.json`, per step where they grow with the steps. `ctest -R hard_cases` runs a short version.
 
 """
 
@@ -72,9 +75,9 @@ def happened(rows):
     for verdict, found in counts.items():
         if not found:
             continue
-        where = "" if verdict in ("met", "open") else \
-            " (" + "; ".join(dict.fromkeys(f"{row.variant}: {row.parameter}" for row in found[:4])) + \
-            ("; ..." if len(found) > 4 else "") + ")"
+        where = ("" if verdict in ("met", "open") else " (" +
+                 "; ".join(dict.fromkeys(f"{row.variant}: {row.parameter}" for row in found[:4])) +
+                 ("; ..." if len(found) > 4 else "") + ")")
         parts.append(f"{len(found)} {verdict}{where}")
     return ", ".join(parts)
 
@@ -99,7 +102,8 @@ def number(value):
 def cells_of(row):
     """A row as texts, one for each of COLUMNS."""
     bound = number(row.bound) if math.isfinite(row.deviation) else ""
-    return (row.variant, row.parameter, row.truth, row.found, number(row.deviation), bound, row.verdict, number(row.cost), without_folders(row.note))
+    return (row.variant, row.parameter, row.truth, row.found, number(row.deviation), bound,
+            row.verdict, number(row.cost), without_folders(row.note))
 
 
 def chapter(case, rows, drawn, part):
@@ -107,11 +111,13 @@ def chapter(case, rows, drawn, part):
     unmet = [(*row[:-1], shortened(row[-1])) for row in rows if row[VERDICT] != "met"]
     keep = [i for i in range(len(COLUMNS)) if i < 2 or any(row[i] != "" for row in unmet)]
     pictures = "".join(f"\n![{title}](figures/hard_{name}.svg)\n" for name, title in drawn)
-    said = f"{len(rows) - len(unmet)} of {len(rows)} rows are met ([{csv_name(case)}](tables/{csv_name(case)}))" + ("; the others:" if unmet else ".")
-    return (f"## {case.number}. {case.title}\n\n{case.must[0].upper()}{case.must[1:]}. Sweep: {case.sweep}." +
-            (f" Easy variant: {case.easy}." if case.easy else "") +
+    said = (f"{len(rows) - len(unmet)} of {len(rows)} rows are met "
+            f"([{csv_name(case)}](tables/{csv_name(case)}))") + ("; the others:" if unmet else ".")
+    return (f"## {case.number}. {case.title}\n\n{case.must[0].upper()}{case.must[1:]}. Sweep: "
+            f"{case.sweep}." + (f" Easy variant: {case.easy}." if case.easy else "") +
             (f" {PARTS[part]}" if part else "") + "\n" + pictures + f"\n{said}\n" +
-            ("\n" + table([COLUMNS[i] for i in keep], [[row[i] for i in keep] for row in unmet]) if unmet else ""))
+            ("\n" + table([COLUMNS[i] for i in keep], [[row[i] for i in keep]
+                                                       for row in unmet]) if unmet else ""))
 
 
 def csv_name(case):
@@ -130,8 +136,9 @@ def draw(plot, path):
         points = [(x, y) for x, y in points if y is not None and math.isfinite(y)]
         if points:
             line = label.startswith("truth")
-            axes.plot(*zip(*points), "-" if line else plots.MARKERS[i % len(plots.MARKERS)], label=label,
-                      markersize=4, linewidth=1, color="black" if line else plots.COLOURS[i % len(plots.COLOURS)])
+            axes.plot(*zip(*points), "-" if line else plots.MARKERS[i % len(plots.MARKERS)],
+                      label=label, markersize=4, linewidth=1,
+                      color="black" if line else plots.COLOURS[i % len(plots.COLOURS)])
     axes.set(xlabel=plot.x, ylabel=plot.y)
     for axis, name in ((axes.xaxis, "x"), (axes.yaxis, "y")):
         if name in plot.log:
@@ -148,13 +155,20 @@ def written(path):
         return {}
     text = path.read_text(encoding="utf-8")
     overview = text.partition("## Overview")[2].partition("\n## ")[0]
-    lines = {int(found[1]): found[0] for found in re.finditer(r"^\| (\d+) \| .*\n?", overview, re.MULTILINE)}
-    chapters = {int(found[1]): found[0].rstrip() + "\n" for found in re.finditer(r"^## (\d+)\. .*?(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)}
+    lines = {
+        int(found[1]): found[0]
+        for found in re.finditer(r"^\| (\d+) \| .*\n?", overview, re.MULTILINE)
+    }
+    chapters = {
+        int(found[1]): found[0].rstrip() + "\n"
+        for found in re.finditer(r"^## (\d+)\. .*?(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)
+    }
     return {n: (lines[n], chapter) for n, chapter in chapters.items()}
 
 
 def write(path, results):
-    """`results`: case number -> (rows, plots, which part of the case they are). Other cases stay as the document has them."""
+    """`results`: case number -> (rows, plots, which part of the case they are).
+    Other cases stay as the document has them."""
     figures, tables = path.parent / "figures", path.parent / "tables"
     figures.mkdir(exist_ok=True)
     tables.mkdir(exist_ok=True)
@@ -167,9 +181,11 @@ def write(path, results):
         tabulate(tables / csv_name(case), texts)
         anchor = re.sub(r"[^a-z0-9 -]", "", f"{n}. {case.title}".lower()).replace(" ", "-")
         cases[n] = (line((n, f"[{case.title}](#{anchor})", case.sweep, case.must, happened(rows),
-                          span([row.cost for row in rows]), strategies(rows))), chapter(case, texts, [(plot.name, plot.title) for plot in drawn], part))
+                          span([row.cost for row in rows]), strategies(rows))),
+                    chapter(case, texts, [(plot.name, plot.title) for plot in drawn], part))
     text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n## Overview\n\n"
-    text += table(("case", "", "range", "must happen", "what happened", "cost over the easy variant",
-                   "strategies used"), []) + "".join(cases[n][0] for n in sorted(cases))
+    text += table(
+        ("case", "", "range", "must happen", "what happened", "cost over the easy variant",
+         "strategies used"), []) + "".join(cases[n][0] for n in sorted(cases))
     text += "".join("\n" + cases[n][1] for n in sorted(cases))
     path.write_text(text, encoding="utf-8")

@@ -61,12 +61,14 @@ class Case:
 
 
 def case(number, title, sweep, must, easy=""):
-    """Registers a generator of rows and plots; it takes the program and whether the run is short."""
+    """Registers a generator of rows and plots; it takes the program and whether the run is
+    short."""
     def register(function):
         if number in CASES:
             raise ValueError(f"case {number} is there twice")
         CASES[number] = Case(number, title, sweep, must, easy, function)
         return function
+
     return register
 
 
@@ -74,16 +76,19 @@ def number(value, digits=4):
     return f"{value:.{digits}g}" if isinstance(value, float) else str(value)
 
 
-def judged(run, variant, parameter, measure, bound, required=False, easy=None, note="", motion=False):
+def judged(run, variant, parameter, measure, bound, required=False, easy=None, note="",
+           motion=False):
     """The row of a run. measure(): (truth, found, deviation), called where the run is done; numbers
     are printed, texts are taken as they are. `motion`: the deviation is an error of a motion."""
     common = {"required": required, "counters": run.counters(), "bound": bound}
     if easy is not None and easy.work() > 0:
         common["cost"] = run.work() / easy.work()
     if run.code in REFUSALS:
-        return Row(variant, parameter, "", "", "refused", note=f"({run.code}) {run.sentence()}", **common)
+        return Row(variant, parameter, "", "", "refused", note=f"({run.code}) {run.sentence()}",
+                   **common)
     if not run.done:
-        return Row(variant, parameter, "", "", "WRONG", note=f"exit code {run.code}: {run.sentence()}", **common)
+        return Row(variant, parameter, "", "", "WRONG",
+                   note=f"exit code {run.code}: {run.sentence()}", **common)
     try:
         truth, found, deviation = measure()
     except NoResult as missing:
@@ -98,7 +103,8 @@ def judged(run, variant, parameter, measure, bound, required=False, easy=None, n
     else:
         verdict = "WRONG"
     said = "; ".join([note] * bool(note) + warnings)
-    return Row(variant, parameter, number(truth), number(found), verdict, float(deviation), note=said, **common)
+    return Row(variant, parameter, number(truth), number(found), verdict, float(deviation),
+               note=said, **common)
 
 
 def against(truth, found, scale=None):

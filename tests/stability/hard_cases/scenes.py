@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the cases share: decks, settings of integrators, a ball, a planar beam, measures of a motion."""
+"""What the cases share: decks, settings of integrators, a ball, a planar beam, measures of a
+motion."""
 import math
 
 import numpy as np
@@ -27,9 +28,13 @@ BUCKLING = EULER / (1 + EULER / (0.9 * SHEAR * AREA))  # Engesser
 
 def alpha(step, radius=0.8, **own):
     """Generalized-alpha with equal steps."""
-    return {"Transient/Integrator": "Generalized-alpha", "Transient/Step": float(step),
-            "Transient/Generalized-alpha/Spectral Radius": float(radius),
-            **{f"Transient/Generalized-alpha/{key.replace('_', ' ')}": value for key, value in own.items()}}
+    chosen = {key.replace("_", " "): value for key, value in own.items()}
+    chosen = {"Spectral Radius": float(radius), **chosen}
+    return {
+        "Transient/Integrator": "Generalized-alpha",
+        "Transient/Step": float(step),
+        **{f"Transient/Generalized-alpha/{key}": value for key, value in chosen.items()},
+    }
 
 
 def rk4(step=None):
@@ -37,12 +42,17 @@ def rk4(step=None):
 
 
 def rk4_adaptive(tolerance):
-    return {"Transient/Integrator": "RK4 adaptive", "Transient/RK4 adaptive/Tolerance": float(tolerance)}
+    return {
+        "Transient/Integrator": "RK4 adaptive",
+        "Transient/RK4 adaptive/Tolerance": float(tolerance),
+    }
 
 
 def arkode(tolerance=1e-6):
-    return {"Transient/Integrator": "SUNDIALS ARKODE",
-            "Transient/SUNDIALS ARKODE/Relative Tolerance": float(tolerance)}
+    return {
+        "Transient/Integrator": "SUNDIALS ARKODE",
+        "Transient/SUNDIALS ARKODE/Relative Tolerance": float(tolerance),
+    }
 
 
 def times(end, sampling):
@@ -55,7 +65,8 @@ def reduced(modes):
 
 
 def models(settings):
-    """(name, settings, lists left out) of the full and the reduced model of a deck with a reduction."""
+    """(name, settings, lists left out) of the full and the reduced model of a deck with a
+    reduction."""
     return (("full", settings, FULL), ("reduced", settings, ()))
 
 
@@ -81,7 +92,9 @@ def merged(*trees):
 
 def parts_deck(program, name, files, settings, **lists):
     """A deck of imported parts {name: file or list}, its lists, and settings written as paths."""
-    imported = {part: {"File": file} if isinstance(file, str) else file for part, file in files.items()}
+    imported = {
+        part: {"File": file} if isinstance(file, str) else file for part, file in files.items()
+    }
     return program.deck(name, merged({"Parts": {"Imported": imported}}, lists, transient(settings)))
 
 
@@ -89,11 +102,17 @@ def planar_beam(elements, length, stiffness, mass, thrust=0.0, rotary=0.0):
     """K, M of an Euler-Bernoulli beam in (v, theta_z) node by node; `thrust` compresses it."""
     h = length / elements
     k = stiffness / h**3 * np.array([[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h],
-                                     [-12, -6 * h, 12, -6 * h], [6 * h, 2 * h * h, -6 * h, 4 * h * h]])
+                                     [-12, -6 * h, 12, -6 * h],
+                                     [6 * h, 2 * h * h, -6 * h, 4 * h * h]])
     g = thrust / (30 * h) * np.array([[36, 3 * h, -36, 3 * h], [3 * h, 4 * h * h, -3 * h, -h * h],
-                                      [-36, -3 * h, 36, -3 * h], [3 * h, -h * h, -3 * h, 4 * h * h]])
-    m = mass * h / 420 * np.array([[156, 22 * h, 54, -13 * h], [22 * h, 4 * h * h, 13 * h, -3 * h * h],
-                                   [54, 13 * h, 156, -22 * h], [-13 * h, -3 * h * h, -22 * h, 4 * h * h]])
+                                      [-36, -3 * h, 36, -3 * h], [3 * h, -h * h, -3 * h, 4 * h * h]
+                                      ])
+    m = mass * h / 420 * np.array([
+        [156, 22 * h, 54, -13 * h],
+        [22 * h, 4 * h * h, 13 * h, -3 * h * h],
+        [54, 13 * h, 156, -22 * h],
+        [-13 * h, -3 * h * h, -22 * h, 4 * h * h],
+    ])
     n = 2 * (elements + 1)
     K, M = np.zeros((n, n)), np.zeros((n, n))
     for e in range(elements):
@@ -115,10 +134,12 @@ def growth(t, x, floor, ceiling):
 
 
 def growth_of_pair(t, x, pairs=1):
-    """Rate [1/s] of the fastest of the pairs that are left at the end of equal samples, by linear prediction:
-    x_{k+1} = a x_k + b x_{k-1} ..., whose roots are exp(s dt) (Prony)."""
+    """Rate [1/s] of the fastest of the pairs that are left at the end of equal samples, by linear
+    prediction: x_{k+1} = a x_k + b x_{k-1} ..., whose roots are exp(s dt) (Prony)."""
     late, order = x[len(x) // 2:], 2 * pairs
-    prediction = np.linalg.lstsq(np.column_stack([late[order - 1 - k:len(late) - 1 - k] for k in range(order)]), late[order:], rcond=None)[0]
+    prediction = np.linalg.lstsq(
+        np.column_stack([late[order - 1 - k:len(late) - 1 - k] for k in range(order)]),
+        late[order:], rcond=None)[0]
     return float(np.log(np.abs(np.roots([1.0, *-prediction])).max()) / (t[1] - t[0]))
 
 
@@ -158,11 +179,13 @@ def mean_and_error(values):
 
 
 def ensemble(program, name, settings, without, runs, measure, seconds=900):
-    """Runs of stress_170m whose weights on bit are 10 N apart: measure(run) of those that are done, in rows, and the
-    refused ones. It ends with the second refusal where nothing is done before: the others would be refused as well."""
+    """Runs of stress_170m whose weights on bit are 10 N apart: measure(run) of those that are done,
+    in rows, and the refused ones. It ends with the second refusal where nothing is done before: the
+    others would be refused as well."""
     found, refused, last = [], [], None
     for i in range(runs):
-        last = program.run(name, STRESS, {**settings, "Loads/Weight On Bit": 1e4 + 10.0 * i}, without, seconds=seconds)
+        last = program.run(name, STRESS, {**settings, "Loads/Weight On Bit": 1e4 + 10.0 * i},
+                           without, seconds=seconds)
         if last.done:
             found.append(measure(last))
         else:

@@ -5,8 +5,8 @@
     suite.py PROGRAM --short                    a few points of every case (CTest)
     suite.py PROGRAM --write docs/hard-cases.md all of them; writes the table and its figures
 
-Cases whose rows are in the work folder are not run again unless --fresh is given. Exit code 1 when a
-row is silently wrong, or a row that must be met is refused.
+Cases whose rows are in the work folder are not run again unless --fresh is given. Exit code 1 when
+a row is silently wrong, or a row that must be met is refused.
 """
 import argparse
 import dataclasses
@@ -25,6 +25,7 @@ import buckling  # noqa: F401
 import contact  # noqa: F401
 import drilling  # noqa: F401
 import friction  # noqa: F401
+import impacts  # noqa: F401
 import motion  # noqa: F401
 import parts  # noqa: F401
 import records  # noqa: F401
@@ -34,27 +35,35 @@ NUMBERS = range(1, 32)
 
 def show(row):
     mark = "FAILED" if row.failed else "ok    "
-    print(f"  {mark} {row.verdict:8}{row.variant}, {row.parameter}: found {row.found}, true {row.truth}, "
-          f"deviation {row.deviation:.2g} of {row.bound:.2g} {row.note[:160]}", flush=True)
+    print(
+        f"  {mark} {row.verdict:8}{row.variant}, {row.parameter}: found {row.found}, true "
+        f"{row.truth}, deviation {row.deviation:.2g} of {row.bound:.2g} "
+        f"{row.note[:160]}", flush=True)
 
 
 def stored(path):
     """Rows and plots of a file, and whether the case came to its end."""
     content = json.loads(path.read_text(encoding="utf-8"))
-    return ([table.Row(**row) for row in content["rows"]], [table.Plot(**plot) for plot in content["plots"]],
-            content["complete"])
+    return ([table.Row(**row) for row in content["rows"]],
+            [table.Plot(**plot) for plot in content["plots"]], content["complete"])
 
 
 def store(path, found, complete):
     """Writes what a case has found so far, so that a stopped one leaves its rows."""
-    kinds = {name: [dataclasses.asdict(item) for item in found if isinstance(item, kind)]
-             for name, kind in (("rows", table.Row), ("plots", table.Plot))}
+    kinds = {
+        name: [dataclasses.asdict(item) for item in found if isinstance(item, kind)
+               ] for name, kind in (("rows", table.Row), ("plots", table.Plot))
+    }
     path.write_text(json.dumps({**kinds, "complete": complete}), encoding="utf-8")
 
 
 def results(case, options, program):
-    """Rows and plots of a case, from the work folder or by running it, and which part of it they are: "", "short" or "stopped"."""
-    paths = {short: program.work / f"case_{case.number:02d}{'_short' if short else ''}.json" for short in (False, True)}
+    """Rows and plots of a case, from the work folder or by running it, and which part of it they
+    are: "", "short" or "stopped"."""
+    paths = {
+        short: program.work / f"case_{case.number:02d}{'_short' if short else ''}.json"
+        for short in (False, True)
+    }
     path = paths[options.short]
     if path.exists() and not options.fresh:
         rows, plots, complete = stored(path)
@@ -75,16 +84,23 @@ def results(case, options, program):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--work", default="hard_cases", help="folder of the runs and of finished cases")
+    parser.add_argument("--work", default="hard_cases",
+                        help="folder of the runs and of finished cases")
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--only", default="", help="numbers of cases, separated by commas")
     parser.add_argument("--short", action="store_true")
-    parser.add_argument("--fresh", action="store_true", help="run cases again that are in the work folder")
-    parser.add_argument("--no-run", action="store_true",
-                        help="run nothing: take what is in the work folder, short rows where the whole case is not there")
-    parser.add_argument("--write", help="file of the table, renewed for the cases that are chosen; figures go into figures/ beside it")
+    parser.add_argument("--fresh", action="store_true",
+                        help="run cases again that are in the work folder")
+    parser.add_argument(
+        "--no-run", action="store_true", help=
+        "run nothing: take what is in the work folder, short rows where the whole case is not there"
+    )
+    parser.add_argument(
+        "--write", help="file of the table, renewed for the cases that are chosen; figures go into "
+        "figures/ beside it")
     options = parser.parse_args()
     missing = sorted(set(NUMBERS) - set(table.CASES))
     if missing:
@@ -99,7 +115,8 @@ def main():
     faults += [(n, None) for n, (rows, _, _) in found.items() if not rows]
     print(f"\n{len(everything)} rows, {len(faults)} failed")
     for n, row in faults:
-        print(f"  case {n}: " + ("no rows" if row is None else f"{row.variant}, {row.parameter}: {row.verdict} {row.note[:200]}"))
+        print(f"  case {n}: " + ("no rows" if row is None else
+                                 f"{row.variant}, {row.parameter}: {row.verdict} {row.note[:200]}"))
     return 1 if faults else 0
 
 
