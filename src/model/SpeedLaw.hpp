@@ -5,6 +5,7 @@
 
 #include <complex>
 #include <functional>
+#include <limits>
 
 #include "model/ScalarLaw.hpp"
 
@@ -17,6 +18,9 @@ struct SpeedLaw {
   /// At a constant speed [rad/s] the law is Re(steady(Omega) exp(i order Omega t)).
   std::function<std::complex<double>(double)> steady;
   int order = 0;  ///< 0: constant (steady() is real); 1: turns with the string (a mass unbalance)
+  /// Speeds it is given for [rad/s]: a table has its last value beyond.
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
 
   double operator()(double t) const { return inTime(t); }
 };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/SteadyRotation.hpp"
 
+#include <fmt/format.h>
 #include <set>
 
+#include "common/Constants.hpp"
 #include "common/Index.hpp"
 #include "model/SpeedLaw.hpp"
 #include "model/laws/Friction.hpp"
@@ -40,6 +42,20 @@ std::vector<std::string> matrixLaws(const SecondOrderModel& model, bool ofSpeed)
       if (!law.isOne() && (speedLaw(law) != nullptr) == ofSpeed) names.insert(law.name);
     }
   return {names.begin(), names.end()};
+}
+
+std::vector<std::string> matrixLawsBeyond(const SecondOrderModel& model, double least,
+                                          double most) {
+  std::set<std::string> found;
+  for (const auto* terms : {&model.damping, &model.stiffness})
+    for (const auto& term : *terms) {
+      const auto* law = speedLaw(model.laws[at(term.law)]);
+      if (law != nullptr && (least < law->least || most > law->most))
+        found.insert(fmt::format("\"{}\" ({:.4g} to {:.4g} rpm)", model.laws[at(term.law)].name,
+                                 law->least * constants::rpmPerRadianPerSecond,
+                                 law->most * constants::rpmPerRadianPerSecond));
+    }
+  return {found.begin(), found.end()};
 }
 
 }  // namespace tooljoint::model

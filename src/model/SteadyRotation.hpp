@@ -23,4 +23,8 @@ Eigen::VectorXcd turningLoad(const SecondOrderModel& model, double speed);
 /// "1").
 std::vector<std::string> matrixLaws(const SecondOrderModel& model, bool ofSpeed);
 
+/// Of those that follow the speed, the ones that are not given for all of these speeds [rad/s], as
+/// text: "stiffness" (0 to 9549 rpm).
+std::vector<std::string> matrixLawsBeyond(const SecondOrderModel& model, double least, double most);
+
 }  // namespace tooljoint::model

@@ -118,6 +118,7 @@ class SpeedTable final : public Table {
  public:
   explicit SpeedTable(const ParameterList& list) : Table(list, "Speeds", "speeds", "rad/s") {}
   bool ofSpeed() const override { return true; }
+  std::vector<double> places() const override { return corners(); }
 };
 
 /// f = c |Omega|^n, with the sign of Omega where it is odd
@@ -221,9 +222,10 @@ model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list,
                       ", but there is no law of time \"" + rotarySpeedName +
                       "\". Add one to Laws: its value is the rotary speed in rad/s.");
     const auto inTime = [law, speed = speed.value](double t) { return law->value(speed(t)); };
-    return {name,
-            model::SpeedLaw{inTime, [law](double omega) { return Complex(law->value(omega)); }},
-            speed.corners};
+    model::SpeedLaw follows{inTime, [law](double omega) { return Complex(law->value(omega)); }};
+    if (const auto places = law->places(); !places.empty())
+      follows.least = places.front(), follows.most = places.back();
+    return {name, follows, speed.corners};
   }
   const auto inTime = [law](double t) { return law->value(t); };
   const auto corners = law->corners();

@@ -26,6 +26,9 @@ class TimeLaw {
   virtual std::vector<double> corners() const { return {}; }
   /// True: value() takes the rotary speed [rad/s] in the place of the time.
   virtual bool ofSpeed() const { return false; }
+  /// Places, in order, outside of which value() is that of the first or the last; none of a
+  /// formula.
+  virtual std::vector<double> places() const { return {}; }
 };
 
 /// name -> form; a new form is one file that registers itself.

@@ -381,7 +381,7 @@ void runResponse(const cases::Case& one, const std::string& folder, bool fresh) 
         cases::announce(one);
         rotating = std::make_unique<RotatingCase>(one, settings.friction);
         if (settings.bySpeed())
-          rotating->announceLaws();
+          rotating->announceLaws(settings.speeds);
         else if (one.list().isSublist("Rotary Speed") && !one.deck().gives("Response/Rotary Speed"))
           log::warn(
               "The string turns, but the response is that of 0 rpm. Give Response/Rotary "

@@ -2,6 +2,8 @@
 #include "response/RotatingCase.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cases/ModesReport.hpp"
 #include "cases/run/Report.hpp"
@@ -128,7 +130,7 @@ void RotatingCase::announceUnknownStates() const {
         "are at rest in the responses.");
 }
 
-void RotatingCase::announceLaws() const {
+void RotatingCase::announceLaws(const std::vector<double>& speeds) const {
   const auto followed = model::matrixLaws(model(), true), held = model::matrixLaws(model(), false);
   if (followed.empty())
     log::warn(
@@ -139,6 +141,12 @@ void RotatingCase::announceLaws() const {
   if (!held.empty())
     log::info("            " + quotedList(held) +
               " have their values of t = " + formatNumber(time_) + " s");
+  const auto [least, most] = std::minmax_element(speeds.begin(), speeds.end());
+  const auto beyond = model::matrixLawsBeyond(model(), *least, *most);
+  if (!beyond.empty())
+    log::warn(fmt::format(
+        "The speeds go beyond the table of the law {}. Beyond it, its first or last value stays.",
+        fmt::join(beyond, ", ")));
 }
 
 }  // namespace tooljoint::response

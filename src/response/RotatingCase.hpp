@@ -66,8 +66,9 @@ class RotatingCase {
   /// Needs estimated().
   const estimate::DynamicError& error() const { return *error_; }
 
-  /// Logs which laws follow the speed, and warns where no matrix does.
-  void announceLaws() const;
+  /// Logs which laws follow the speed, and warns where no matrix does, or one is not given for all
+  /// of these speeds [rad/s].
+  void announceLaws(const std::vector<double>& speeds) const;
   /// Warns of point laws with states that modes leave as they are.
   void announceHeldStates() const;
   /// Warns of the point laws whose states do not follow a harmonic motion.

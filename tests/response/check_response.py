@@ -168,7 +168,13 @@ def bearing():
         "Campbell",
         values(Highest_Speed=900.0, Points=7, Modes=2) +
         '<Parameter name="Orders" type="Array(double)" value="{1}"/>')
-    run("campbell", deck("bearing", "bearing.h5", campbell, laws), "bearing")
+    done = run("campbell", deck("bearing", "bearing.h5", campbell, laws), "bearing")
+    expect("bearing: no word of a table that holds all speeds", "beyond" not in done.stderr,
+           done.stderr)
+    short = deck("short_table", "bearing.h5", campbell, laws.replace("{0, 1000}", "{0, 800}", 1))
+    done = run("campbell", short, "short_table")
+    expect("bearing: speeds beyond a table are warned of",
+           'beyond the table of the law "table" (0 to 7639 rpm)' in done.stderr, done.stderr)
     exact = (k1 + np.sqrt(k1**2 + 4 * (m - k2) * k0)) / (2 * (m - k2))  # m w^2 = k0 + k1 w + k2 w^2
     close("bearing: critical speed of a stiffness that follows the speed",
           table("bearing", "crossings")["speed"], exact, 1e-9)

@@ -317,7 +317,7 @@ void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) 
         cases::announce(one);
         states = std::make_unique<RotatingStates>(one, settings.friction, settings.stateOfEachSpeed,
                                                   settings.speeds.front());
-        states->first().announceLaws();
+        states->first().announceLaws(settings.speeds);
         states->first().announceHeldStates();
         limitModes(one, settings, states->first().model().size());
         diagram = campbell(*states, settings, {one, files.folder().folder(), fresh});
