@@ -185,8 +185,9 @@ def lateral_names(results):
     from north and east where it starts downwards."""
     frame = results.get("/model/frame")
     known = frame is not None and frame[0, 0, 0] > ALONG
-    return ("u, north at the surface", "v, east at the surface") if known else ("displacement u",
-                                                                                "displacement v")
+    if known:
+        return "u, north at the surface", "v, east at the surface"
+    return "displacement u", "displacement v"
 
 
 def moving_string(results, samples):

@@ -63,8 +63,8 @@ DISTURBED = re.compile(r"changes\s+that\s+by\s+(\S+)\s+%")
 class Case:
     """A deck, what is set in it, and the steps and ways it is run with."""
     def __init__(self, name, deck, settings, steps=STEPS, ways=ORDINARY):
-        self.name, self.deck, self.settings, self.steps, self.ways = (name, deck, settings, steps,
-                                                                      ways)
+        self.name, self.deck, self.settings = name, deck, settings
+        self.steps, self.ways = steps, ways
 
 
 SCENES = [
@@ -338,8 +338,8 @@ def wall_chapter(runs):
 
 def renewed(text, chapter):
     """The document with a chapter at its end."""
-    return text.split("\n" + CHAPTER)[0].rstrip() + "\n" + ("\n" + chapter.rstrip() +
-                                                            "\n" if chapter else "")
+    added = "\n" + chapter.rstrip() + "\n" if chapter else ""
+    return text.split("\n" + CHAPTER)[0].rstrip() + "\n" + added
 
 
 def figure(runs, bounds):

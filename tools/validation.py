@@ -279,8 +279,8 @@ def limit_table(bench):
             row["contact_force"]
             for row in profile if row["operation"] == "Rotate off bottom") / off["surface_torque"]
         torque = off["stiff_surface_torque"] / off["surface_torque"]
-        drag = (out["stiff_hook_load"] - off["stiff_hook_load"]) / (out["hook_load"] -
-                                                                    off["hook_load"])
+        stiff = out["stiff_hook_load"] - off["stiff_hook_load"]
+        drag = stiff / (out["hook_load"] - off["hook_load"])
         rows.append(f"| {title} | {torque:.4f} | {pressed:.4f} | "
                     f"{round(torque - pressed, 4) + 0.0:.4f} | {drag:.4f} |")
     rows.append(f"| limit: 1/sqrt(1 + mu^2), 1 | {closed_forms.LIMIT:.4f} | "

@@ -73,8 +73,8 @@ for rope in (False, True):
     if rope:
         model.add_points("guy", tj.law("Guy Rope", stiffness="20 kN/mm", damping=2e3),
                          np.eye(len(model))[corner], nodes=[3])
-    motions["with the rope" if rope else "free"] = tj.integrate(model, end, step="0.5 ms",
-                                                                sampling_interval="2.5 ms")
+    motion = tj.integrate(model, end, step="0.5 ms", sampling_interval="2.5 ms")
+    motions["with the rope" if rope else "free"] = motion
 
 # %% Shapes and histories
 figure, (shapes, history) = common.figure(2)

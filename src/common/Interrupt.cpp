@@ -2,6 +2,7 @@
 #include "common/Interrupt.hpp"
 
 #include <csignal>
+#include <ctime>
 
 #include "common/Error.hpp"
 
@@ -10,13 +11,26 @@ namespace {
 
 volatile std::sig_atomic_t requested_ = 0;
 
+/// Of a SIGTERM after the first signal: one that comes sooner is that of mpirun beside that of a
+/// terminal or a batch system.
+constexpr double repeated = 1.0;  // [s]
+timespec first_{};
+
+double sinceFirst() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec - first_.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec - first_.tv_nsec);
+}
+
 extern "C" void onSignal(int number) {
-  if (requested_ != 0 && number == SIGINT) {
+  if (requested_ == 0) {
+    clock_gettime(CLOCK_MONOTONIC, &first_);
+    requested_ = 1;
+  } else if (number == SIGINT || (number == SIGTERM && sinceFirst() > repeated)) {
     std::signal(number, SIG_DFL);
     std::raise(number);
-    return;
   }
-  requested_ = 1;
 }
 
 }  // namespace

@@ -8,8 +8,9 @@
 namespace tooljoint {
 
 /// Install handlers for these, but not for a SIGHUP that is ignored (nohup); call it after
-/// MPI_Init. A second SIGINT ends the program at once. A file that outgrows the limit of the
-/// process (SIGXFSZ) is an error of the write, like a full disk.
+/// MPI_Init. A second SIGINT, or a SIGTERM more than a second after the first signal, ends the
+/// program at once: a solver between two looks at the flag may take minutes. A file that outgrows
+/// the limit of the process (SIGXFSZ) is an error of the write, like a full disk.
 void installInterruptHandlers();
 
 /// True once a signal has come. Local to this rank.

@@ -49,6 +49,11 @@ Eigen::MatrixXcd DynamicStiffness::solve(const Eigen::MatrixXcd& f) const {
   return columns_.asDiagonal() * factors_.solve(rows_.asDiagonal() * f);
 }
 
+double DynamicStiffness::logDeterminant() const {
+  return factors_.logAbsDeterminant().real() - rows_.array().log().sum() -
+         columns_.array().log().sum();
+}
+
 Eigen::MatrixXcd DynamicStiffness::solveTransposed(const Eigen::MatrixXcd& c) {
   return rows_.asDiagonal() * factors_.transpose().solve(columns_.asDiagonal() * c);
 }

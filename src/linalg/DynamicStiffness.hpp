@@ -22,6 +22,8 @@ class DynamicStiffness {
   bool singular() const { return factors_.info() != Eigen::Success; }
   /// Q(s)^-1 f, column by column.
   Eigen::MatrixXcd solve(const Eigen::MatrixXcd& f) const;
+  /// log |det Q(s)|.
+  double logDeterminant() const;
   /// Q(s)^-T c, transposed and not conjugated: the adjoint of an output c'x.
   Eigen::MatrixXcd solveTransposed(const Eigen::MatrixXcd& c);
 

@@ -19,6 +19,8 @@ namespace {
 
 /// Of |s|: a mode with less damping has no finite peak.
 constexpr double noDamping = 1e-9;
+/// Of the place: how near to such a resonance amplitudes are computed.
+constexpr double nearUndamped = 1e-6;
 /// Modes computed beyond the undamped ones up to the highest frequency, and at most.
 constexpr int moreModes = 8, mostModes = 256;
 /// Speeds of a sweep whose modes are computed.
@@ -99,8 +101,9 @@ class Search {
   }
 
   void add(double where, Complex s) {
-    if (where > sweep_.front() && where < sweep_.back() && -s.real() > noDamping * std::abs(s))
-      out_.found.push_back({where, -s.real() / perUnit_});
+    if (!(where > sweep_.front() && where < sweep_.back()) || grows(s)) return;
+    const bool damped = -s.real() > noDamping * std::abs(s);
+    out_.found.push_back({where, damped ? -s.real() / perUnit_ : nearUndamped * where, damped});
   }
 
   /// Omega <- (Im s(Omega) - offset)/order.

@@ -17,10 +17,11 @@ namespace tooljoint::response {
 struct Resonance {
   double where = 0.0;
   double width = 0.0;  ///< delta, in the unit of the sweep: half the width of the resonance
+  bool damped = true;  ///< otherwise `width` is a millionth of `where`, and there is no bound
 };
 
 struct Resonances {
-  std::vector<Resonance> found;  ///< increasing, of modes with damping
+  std::vector<Resonance> found;  ///< increasing
   std::optional<Growing> growing;
 };
 

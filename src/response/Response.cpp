@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "cases/ListText.hpp"
@@ -27,18 +26,21 @@ namespace {
 
 constexpr Complex imaginary{0.0, 1.0};
 /// Points of a golden section between two neighbours of a largest amplitude: the place of a peak is
-/// known to 1e-4 of their distance.
-constexpr int goldenSteps = 20;
-/// And within the half widths about a resonance: 0.3 % of one, 1e-5 of the amplitude.
-constexpr int narrowSteps = 13;
+/// known to 0.4 % of their distance, which is no more than half a width of its resonance, and the
+/// amplitude to 1e-5.
+constexpr int goldenSteps = 13;
 /// Of the distance of points: resonances of a larger half width are seen by them.
 constexpr double seenWidth = 1.0;
-/// Half widths of a resonance within which its largest amplitude is sought.
-constexpr double narrowSide = 2.0;
-/// Of the distance of points: two peaks nearer than this are one.
-constexpr double onePeak = 1e-3;
+/// Half widths from a narrower resonance at which the amplitudes are computed beside the points.
+constexpr double beside[] = {-2.0, -1.0, 0.0, 1.0, 2.0};
+/// Of the largest amplitude there: an output that changes by less does not see the resonance.
+constexpr double unseen = 1e-6;
 
-constexpr int storeFormat = 3;  ///< raised when the meaning of a kept point changes
+/// Of the work of a load: as much of it by rounding of the stiffness, as of one that does not hold
+/// a model at rest, and the response has no digits.
+constexpr double noDigits = 0.01;
+
+constexpr int storeFormat = 4;  ///< raised when the meaning of a kept point changes
 
 /// Rows of the recovery that the deck names.
 struct Rows {
@@ -118,7 +120,7 @@ class Sweep {
     const auto& sweep = sweepOf();
     cases::RowKeys keys{"points", whose(), {}};
     for (const double where : sweep) keys.rows.push_back(fmt::format("{}", where));
-    out.points = resumed(keys, [&](std::size_t i) { return at(sweep[i]); });
+    out.points = resumed(keys, [&](std::size_t i) { return at(sweep[i], true, true); });
     addPeaks(out);
     if (rotating_.reduced() && settings_.spotChecks > 0) addChecks(out);
     if (lookedAlong()) {
@@ -204,7 +206,8 @@ class Sweep {
 
   /// \param where  rotary speed [rad/s] or frequency [Hz]
   /// \param whole  with estimate and margin
-  ResponsePoint at(double where, bool whole = true) const {
+  /// \param given  a place of the sweep, and none beside a resonance, where digits may be few
+  ResponsePoint at(double where, bool whole = true, bool given = false) const {
     ResponsePoint point;
     point.speed = settings_.bySpeed() ? where : settings_.rotarySpeed;
     const double omega = settings_.omega(where);
@@ -212,8 +215,11 @@ class Sweep {
     const Complex s = imaginary * omega;
     const auto m = rotating_.at(point.speed, omega);
     linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness, s);
-    requireInverse(Q, point);
+    if (Q.singular()) throw singular(point);
     const ComplexMatrix f = loads_.on(rotating_.model(), point.speed), y = Q.solve(f);
+    for (Eigen::Index j = 0; given && j < f.cols(); ++j)
+      if (rotating_.rounding(m, y.col(j)) > noDigits * y.col(j).cwiseAbs().dot(f.col(j).cwiseAbs()))
+        throw singular(point);
     const ComplexMatrix c = loads_.outputs(rotating_.model());
     point.x = c.transpose() * y;
     if (!whole) return point;
@@ -229,11 +235,11 @@ class Sweep {
     return settings_.excitation != Excitation::Transfer && !along_.empty();
   }
 
-  static void requireInverse(const linalg::DynamicStiffness& Q, const ResponsePoint& point) {
-    if (Q.singular())
-      throw ModelError("The dynamic stiffness at " + formatNumber(point.frequency) +
-                       " Hz is singular: the model has an undamped resonance there, or it is not "
-                       "supported. Add damping or supports, or leave this frequency out.");
+  ModelError singular(const ResponsePoint& point) const {
+    return ModelError("The dynamic stiffness at " + formatNumber(point.frequency) +
+                      " Hz is singular: the model has an undamped resonance there, or it is not "
+                      "supported. Add damping or supports, or leave this frequency out (Response/" +
+                      (settings_.bySpeed() ? "Lowest Speed" : "Lowest Frequency") + ").");
   }
 
   /// The outputs of the deck and the extremes along the string in any model of the case.
@@ -268,7 +274,7 @@ class Sweep {
     const double omega = constants::twoPi * point.frequency;
     const auto m = rotating_.fullAt(point.speed, omega);
     const linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness, imaginary * omega);
-    requireInverse(Q, point);
+    if (Q.singular()) throw singular(point);
     const ComplexMatrix y = Q.solve(loads_.on(rotating_.full(), point.speed));
     point.x = loads_.outputs(rotating_.full()).transpose() * y;
     if (lookedAlong()) point.along = along_.ofFull(y.col(0), reduced.along);
@@ -295,24 +301,18 @@ class Sweep {
     return settings_.bySpeed() ? point.speed : point.frequency;
   }
 
-  /// A local maximum of the amplitude: between the neighbours of a point.
+  /// A local maximum of the amplitude: between the neighbours of a place.
   struct Bracket {
     int load = 0, output = 0;
     double from = 0.0, middle = 0.0, to = 0.0;
-    double size = 0.0;  ///< at the point
-    int steps = goldenSteps;
+    double size = 0.0;  ///< in the middle
   };
 
-  std::vector<Bracket> brackets(const std::vector<ResponsePoint>& points, int load,
-                                int output) const {
-    std::vector<Bracket> found;
-    const auto size = [&](std::size_t i) { return std::abs(points[i].x(output, load)); };
-    for (std::size_t i = 1; i + 1 < points.size(); ++i)
-      if (size(i) > size(i - 1) && size(i) >= size(i + 1))
-        found.push_back({load, output, whereOf(points[i - 1]), whereOf(points[i]),
-                         whereOf(points[i + 1]), size(i)});
-    return found;
-  }
+  /// Amplitudes at a place of the sweep, outputs x load cases.
+  struct Sample {
+    double where = 0.0;
+    Matrix size;
+  };
 
   const std::vector<double>& sweepOf() const {
     return settings_.bySpeed() ? settings_.speeds : settings_.frequencies;
@@ -323,67 +323,79 @@ class Sweep {
     return (sweep.back() - sweep.front()) / static_cast<double>(sweep.size() - 1);
   }
 
-  /// Maxima about resonances that are too narrow for the points.
-  std::vector<Bracket> narrowBrackets(const std::vector<Resonance>& resonances) const {
+  /// About each resonance that is too narrow for the points.
+  std::vector<std::vector<Sample>> besideNarrow(const std::vector<Resonance>& resonances) const {
     const auto& sweep = sweepOf();
-    std::vector<Bracket> found;
+    std::vector<std::vector<Sample>> found;
     for (const auto& one : resonances) {
       if (one.width > seenWidth * distance()) continue;
-      const double from = std::max(sweep.front(), one.where - narrowSide * one.width),
-                   to = std::min(sweep.back(), one.where + narrowSide * one.width);
-      const Matrix before = at(from, false).x.cwiseAbs(), size = at(one.where, false).x.cwiseAbs(),
-                   after = at(to, false).x.cwiseAbs();
-      for (int output = 0; output < size.rows(); ++output)
-        for (int load = 0; load < size.cols(); ++load)
-          if (size(output, load) > std::max(before(output, load), after(output, load)))
-            found.push_back({load, output, from, one.where, to, size(output, load), narrowSteps});
+      auto& samples = found.emplace_back();
+      for (const double widths : beside) {
+        const double where = one.where + widths * one.width;
+        if (!one.damped && widths == 0.0) continue;  // no inverse
+        if (where > sweep.front() && where < sweep.back())
+          samples.push_back({where, at(where, false).x.cwiseAbs()});
+      }
     }
     return found;
   }
 
-  /// The golden section of a bracket of points may find the narrow maximum in it, too: the larger
-  /// of both is kept.
-  void dropTwice(std::vector<ResponsePeak>& peaks) const {
-    const double near = onePeak * distance();
-    std::vector<ResponsePeak> kept;
-    for (auto& peak : peaks) {
-      const bool twice = !kept.empty() && kept.back().load == peak.load &&
-                         kept.back().output == peak.output &&
-                         whereOf(peak.at) - whereOf(kept.back().at) <= near;
-      if (!twice)
-        kept.push_back(std::move(peak));
-      else if (amplitude(peak) > amplitude(kept.back()))
-        kept.back() = std::move(peak);
+  /// Of one output under one load: the points, and what lies beside the resonances it sees.
+  std::vector<std::pair<double, double>> amplitudes(const std::vector<ResponsePoint>& points,
+                                                    const std::vector<std::vector<Sample>>& narrow,
+                                                    int load, int output) const {
+    std::vector<std::pair<double, double>> all;
+    for (const auto& point : points)
+      all.emplace_back(whereOf(point), std::abs(point.x(output, load)));
+    for (const auto& samples : narrow) {
+      const auto [least, most] = std::minmax_element(
+          samples.begin(), samples.end(), [&](const Sample& a, const Sample& b) {
+            return a.size(output, load) < b.size(output, load);
+          });
+      if (least == samples.end() ||
+          most->size(output, load) - least->size(output, load) <= unseen * most->size(output, load))
+        continue;
+      for (const auto& one : samples) all.emplace_back(one.where, one.size(output, load));
     }
-    peaks = std::move(kept);
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  std::vector<Bracket> brackets(const std::vector<ResponsePoint>& points,
+                                const std::vector<std::vector<Sample>>& narrow, int load,
+                                int output) const {
+    std::vector<Bracket> found;
+    const auto all = amplitudes(points, narrow, load, output);
+    for (std::size_t i = 1; i + 1 < all.size(); ++i)
+      if (all[i].second > all[i - 1].second && all[i].second >= all[i + 1].second)
+        found.push_back(
+            {load, output, all[i - 1].first, all[i].first, all[i + 1].first, all[i].second});
+    return found;
   }
 
   void addPeaks(HarmonicResponse& out) const {
     const auto found = resonances(rotating_, settings_);
     out.growing = found.growing;
-    std::vector<Bracket> all = narrowBrackets(found.found);
+    for (const auto& one : found.found)
+      if (!one.damped) out.undamped.push_back(one.where);
+    const auto narrow = besideNarrow(found.found);
+    std::vector<Bracket> all;
     for (int load = 0; load < static_cast<int>(out.loads.size()); ++load)
       for (int output = 0; output < sizeOf(settings_.outputs); ++output)
-        for (const auto& one : brackets(out.points, load, output)) all.push_back(one);
+        for (const auto& one : brackets(out.points, narrow, load, output)) all.push_back(one);
     cases::RowKeys keys{"peaks", whose(), {}};
     for (const auto& one : all)
       keys.rows.push_back(fmt::format("{} {} {} {}", one.load, one.output, one.from, one.to));
     const auto peaks = resumed(keys, [&](std::size_t i) { return peak(all[i]); });
     for (std::size_t i = 0; i < all.size(); ++i)
       out.peaks.push_back({all[i].load, all[i].output, peaks[i]});
-    std::stable_sort(out.peaks.begin(), out.peaks.end(),
-                     [this](const ResponsePeak& a, const ResponsePeak& b) {
-                       return std::make_tuple(a.load, a.output, whereOf(a.at)) <
-                              std::make_tuple(b.load, b.output, whereOf(b.at));
-                     });
-    dropTwice(out.peaks);
   }
 
   /// By golden section of the larger side of the largest point, which so is never lost.
   ResponsePoint peak(const Bracket& bracket) const {
     const double section = 0.5 * (3.0 - std::sqrt(5.0));
     double a = bracket.from, best = bracket.middle, b = bracket.to, most = bracket.size;
-    for (int k = 0; k < bracket.steps; ++k) {
+    for (int k = 0; k < goldenSteps; ++k) {
       const bool above = b - best > best - a;
       const double probe = best + section * (above ? b - best : a - best);
       const double size = std::abs(at(probe, false).x(bracket.output, bracket.load));

@@ -108,6 +108,7 @@ struct HarmonicResponse {
   std::vector<AlongString::Node> nodes;  ///< of the margins along the string
   std::vector<cases::BendingPlace> elements;  ///< of the moments
   std::optional<Growing> growing;             ///< the fastest of the modes computed
+  std::vector<double> undamped;  ///< where modes without damping are met, see Resonance::where
 };
 
 /// DeckError: a node or component that is not there or held, nothing that loads the model.

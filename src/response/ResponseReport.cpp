@@ -16,6 +16,7 @@
 #include "response/Columns.hpp"
 #include "response/Response.hpp"
 #include "response/StringReport.hpp"
+#include "response/SweepParameters.hpp"
 #include "response/campbell/ModeSearch.hpp"
 
 namespace tooljoint::response {
@@ -35,8 +36,10 @@ class Report {
         largest_(largestAmplitudes(response)) {}
 
   void print() const {
-    log::info(fmt::format("largest amplitudes of {}:",
-                          settings_.bySpeed() ? "the sweep by speed" : "the sweep by frequency"));
+    log::info("largest amplitudes from " +
+              (settings_.bySpeed() ? rangeOf(settings_.speeds, rpmPerRadianPerSecond) + " rpm:"
+                                   : rangeOf(settings_.frequencies) + " Hz, at " +
+                                         formatNumber(rpm(settings_.rotarySpeed)) + " rpm:"));
     for (const auto& peak : response_.peaks) {
       const deck::PrintedUnit unit(unitOf(peak.load, peak.output));
       log::info(fmt::format(
@@ -48,7 +51,7 @@ class Report {
                                                     unit(peak.at.estimate(peak.output, peak.load)))
                                       : ""));
     }
-    if (response_.peaks.empty()) log::info("  no local maximum in this range");
+    printEnds();
     if (!response_.checks.empty())
       log::info(fmt::format(
           "spot checks with the full model: largest error {:.1e} of the largest amplitude of an "
@@ -68,7 +71,10 @@ class Report {
           "amplitude of an output. Keep more modes (Reduction/Mode Selection), or leave the list "
           "Reduction out.",
           100.0 * worstError()));
+    else
+      warnOfPoorPoints();
     warnOfGrowth();
+    warnOfMissingDamping();
     warnOfDeparture();
     StringReport(response_, settings_.bySpeed(), rotating_.estimated()).print();
   }
@@ -111,6 +117,46 @@ class Report {
   }
 
  private:
+  /// Of outputs that are largest at an end of the sweep.
+  void printEnds() const {
+    const auto size = [](const ResponsePoint& point, int load, int output) {
+      return std::abs(point.x(output, load));
+    };
+    const auto &first = response_.points.front(), &last = response_.points.back();
+    for (int load = 0; load < loads(); ++load)
+      for (int output = 0; output < outputs(); ++output) {
+        const auto& end = size(first, load, output) > size(last, load, output) ? first : last;
+        const double amplitude = size(end, load, output);
+        if (!(amplitude > 0.0) || amplitude < largest_(output, load)) continue;
+        const deck::PrintedUnit unit(unitOf(load, output));
+        log::info(fmt::format("  {:<24} {:>9.2f} rpm {:>10.4f} Hz  {:.4e} {:<10} end of the sweep",
+                              nameOf(load, output), rpm(end.speed), end.frequency, unit(amplitude),
+                              unit.name()));
+      }
+  }
+
+  /// An amplitude that is large at one place, as of a body that floats near 0 Hz, hides errors that
+  /// are as large as what moves everywhere else.
+  void warnOfPoorPoints() const {
+    if (!rotating_.estimated()) return;
+    int most = 0;
+    std::string where;
+    for (int load = 0; load < loads(); ++load)
+      for (int output = 0; output < outputs(); ++output) {
+        if (scale(load, output) > largest_(output, load)) continue;
+        const auto poor = static_cast<int>(std::count_if(
+            response_.points.begin(), response_.points.end(), [&](const ResponsePoint& point) {
+              return point.estimate(output, load) > poorPoint * std::abs(point.x(output, load));
+            }));
+        if (poor > most) most = poor, where = nameOf(load, output);
+      }
+    if (most > poorShare * sizeOf(response_.points))
+      log::warn(fmt::format(
+          "At {} of {} points the estimated error of \"{}\" is above {:.0f} % of the amplitude "
+          "there. Retain the dof of the load, or keep more modes (Reduction/Mode Selection).",
+          most, response_.points.size(), where, 100.0 * poorPoint));
+  }
+
   const ResponsePoint* farthest() const {
     const ResponsePoint* worst = nullptr;
     const auto look = [&](const ResponsePoint& point) {
@@ -131,6 +177,23 @@ class Report {
                     : std::string("it is left without vibration"),
         s.real()));
   }
+  /// Of peaks that are as large as the search has come near to them.
+  void warnOfMissingDamping() const {
+    const auto isAtOne = [this](const ResponsePeak& peak) {
+      const double where = settings_.bySpeed() ? peak.at.speed : peak.at.frequency;
+      return std::any_of(response_.undamped.begin(), response_.undamped.end(),
+                         [&](double at) { return std::abs(where - at) <= sameResonance * at; });
+    };
+    const auto first = std::find_if(response_.peaks.begin(), response_.peaks.end(), isAtOne);
+    if (first == response_.peaks.end()) return;
+    log::warn(fmt::format(
+        "Modes have no damping: at {:.4g} Hz{} the amplitude has no bound, and that listed is the "
+        "largest that was computed. Add damping; the other responses are right.",
+        first->at.frequency,
+        std::count_if(response_.peaks.begin(), response_.peaks.end(), isAtOne) > 1
+            ? " and elsewhere"
+            : ""));
+  }
   void warnOfDeparture() const {
     const auto* worst = farthest();
     if (worst == nullptr || !(worst->departure.part > farFromLinear)) return;
@@ -141,6 +204,11 @@ class Report {
         worst->frequency, worst->departure.set, worst->departure.part));
   }
 
+  /// Of the amplitude of a point: an estimate that makes it useless; and of the points: more of
+  /// them are worth a warning.
+  static constexpr double poorPoint = 0.2, poorShare = 0.25;
+  /// Of its place: a peak nearer to a mode without damping is that of the mode.
+  static constexpr double sameResonance = 1e-5;
   /// Of the largest load: forces of point laws farther from their tangents are worth a warning.
   static constexpr double farFromLinear = 0.1;
   /// Of the largest amplitude: a larger estimate, or error, is worth a warning.

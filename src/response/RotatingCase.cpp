@@ -8,6 +8,7 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "estimate/PartResidual.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
 #include "model/DofNames.hpp"
 #include "model/HarmonicTangent.hpp"
 #include "model/SteadyRotation.hpp"
@@ -108,6 +109,12 @@ std::vector<estimate::ModeComparison> RotatingCase::compare(double speed, int co
 std::vector<estimate::ModeComparison> RotatingCase::compare(
     double speed, const linalg::DampedTarget& target) const {
   return compareAt(speed, target);
+}
+
+double RotatingCase::rounding(const estimate::Linearised& m, const Eigen::VectorXcd& y) const {
+  if (rounding_) return rounding_(y);
+  const Vector size = y.cwiseAbs();
+  return linalg::roundingOf(m.stiffness) * size.dot(Sparse(m.stiffness.cwiseAbs()) * size);
 }
 
 void RotatingCase::announceHeldStates() const { stability::warnOfHeldStates(model(), time_); }

@@ -60,6 +60,9 @@ class RotatingCase {
   std::vector<estimate::ModeComparison> compare(double speed, int count) const;
   std::vector<estimate::ModeComparison> compare(double speed,
                                                 const linalg::DampedTarget& target) const;
+  /// What rounding of the stiffness may leave of y'K y (linalg::roundingOf) of the model that is
+  /// solved.
+  double rounding(const estimate::Linearised& m, const Eigen::VectorXcd& y) const;
   /// Needs estimated().
   const estimate::DynamicError& error() const { return *error_; }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "response/SweepParameters.hpp"
 
+#include <fmt/format.h>
+
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
@@ -39,6 +41,10 @@ std::vector<double> evenly(const Teuchos::ParameterList& list, const std::string
   std::vector<double> values;
   for (int i = 0; i < count; ++i) values.push_back(first + (last - first) * i / (count - 1));
   return values;
+}
+
+std::string rangeOf(const std::vector<double>& sweep, double factor) {
+  return fmt::format("{:.6g} to {:.6g}", factor * sweep.front(), factor * sweep.back());
 }
 
 std::vector<std::size_t> spread(std::size_t size, int count) {

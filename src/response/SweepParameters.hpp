@@ -18,6 +18,8 @@ bool wantsFriction(const Teuchos::ParameterList& list);
 /// increase.
 std::vector<double> evenly(const Teuchos::ParameterList& list, const std::string& from,
                            const std::string& to, const std::string& unit);
+/// "0 to 9549.3": ends of a sweep, times a factor.
+std::string rangeOf(const std::vector<double>& sweep, double factor = 1.0);
 /// Positions of `count` of `size` points, spread from the first to the last.
 std::vector<std::size_t> spread(std::size_t size, int count);
 

@@ -23,6 +23,7 @@
 #include "estimate/ModeComparison.hpp"
 #include "linalg/DynamicStiffness.hpp"
 #include "linalg/trilinos/DividedModes.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "model/HarmonicTangent.hpp"
@@ -252,6 +253,15 @@ class Release {
   const estimate::Linearised& held_;
 };
 
+/// Growth of a motion that takes no work but rounding: |s|^2 |phi'M phi| of the size of what
+/// rounding leaves of phi'K phi.
+bool isRigidMotion(const estimate::Linearised& tangent, const linalg::DampedMode& mode) {
+  const Vector size = mode.shape.cwiseAbs();
+  const Sparse absolute = tangent.stiffness.cwiseAbs();
+  return std::norm(mode.s) * std::abs(mode.shape.dot(tangent.mass.cast<Complex>() * mode.shape)) <=
+         linalg::roundingOf(tangent.stiffness) * size.dot(absolute * size);
+}
+
 /// Of the modes that grow nearly as fast as the fastest one, that of lowest frequency: the
 /// overtones of a string that friction drives grow as fast as its fundamental. Nothing where the
 /// whole equations have none.
@@ -271,7 +281,7 @@ std::optional<GrowingMode> mostTelling(const estimate::Linearised& tangent,
     if (exact && release != nullptr)
       if (auto followed = (*release)(*exact)) exact = std::move(followed);
     const GrowingMode one{exact ? *exact : ritz[i], exact.has_value()};
-    if (isGrowth(one.mode.s)) found.push_back(one);
+    if (isGrowth(one.mode.s) && !isRigidMotion(tangent, one.mode)) found.push_back(one);
   }
   if (found.empty()) return std::nullopt;
   double rate = 0;
@@ -385,7 +395,8 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
       reduction::symmetricPart(model.stiffnessAt(t)) + coupling::normalStiffness(model);
   found.negativePivots =
       linalg::eigenvaluesBelow(symmetric, tangent.mass, -slowestGrowth * slowestGrowth);
-  if (found.negativePivots == 0 && !canFlutter(model, tangent, t)) return found;
+  const bool flutters = canFlutter(model, tangent, t);
+  if (found.negativePivots == 0 && !flutters) return found;
   linalg::EigenOptions options;
   options.tolerance = basisAccuracy;
   if (found.negativePivots == 0) {
@@ -403,6 +414,10 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   const auto modes =
       share ? linalg::lowestModesOfChain(symmetric, tangent.mass, wanted, options, share)
             : linalg::lowestFiniteModes(symmetric, tangent.mass, wanted, options);
+  const auto rigid = linalg::areRounding(modes.values, modes.vectors, symmetric);
+  for (Eigen::Index j = 0; j < modes.values.size(); ++j)
+    if (rigid[at(j)] != 0 && modes.values[j] < -slowestGrowth * slowestGrowth)
+      --found.negativePivots;
   const Matrix basis = wanted == model.size()
                            ? modes.vectors
                            : joined(tangent.mass, modes.vectors,
@@ -411,6 +426,7 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   found.examined = static_cast<int>(basis.cols());
   count("modes of the static state", found.examined);
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
+  if (found.negativePivots == 0 && !flutters) return found;
   const bool follow = !found.held.empty() && model::setsWithUnknownStates(model, t).empty();
   const auto others =
       follow ? std::min<std::size_t>(mostReleased, at(dofsReleased / model.size())) : 0;

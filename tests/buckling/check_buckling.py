@@ -119,8 +119,8 @@ def helix():
         near("advance of the bit", -state["bit_advance"], state["weight_on_bit"] * 60.0 /
              (YOUNG * AREA) + state["shortening"], 1e-6) if state["weight_on_bit"] else None
     first, second = found[-3], found[-1]
-    slope = (first["bit_advance"] - second["bit_advance"]) / (second["weight_on_bit"] -
-                                                              first["weight_on_bit"])
+    added = second["weight_on_bit"] - first["weight_on_bit"]
+    slope = (first["bit_advance"] - second["bit_advance"]) / added
     near("slope of load and displacement, L/(E S) + r^2 L/(4 E I)", slope,
          60.0 / (YOUNG * AREA) + CLEARANCE**2 * 60.0 / (4 * RIGIDITY), 2e-2)
 
@@ -330,8 +330,8 @@ def refused(what, sentence, code, *arguments):
 def refusals():
     good = deck("good", 20.0, 20, 1e5)
     refused("no wall", "Add the list Contact", 2, deck("no_wall", 20.0, 20, 1e5, contact=False))
-    refused("a bit that is held", "cannot move the bit", 2, deck("held", 20.0, 20, 1e5,
-                                                                 bit="u v w"))
+    held = deck("held", 20.0, 20, 1e5, bit="u v w")
+    refused("a bit that is held", "cannot move the bit", 2, held)
     refused("no last weight", "the last weight on bit is not given", 2,
             deck("no_weight", 20.0, 20, 0))
     refused("steps the wrong way round", "has to lie between Smallest Step", 2, good, "--set",

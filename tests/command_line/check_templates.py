@@ -57,8 +57,8 @@ def tvd(stations):
         bend = math.acos(
             min(1.0,
                 math.cos(i) * math.cos(j) + math.sin(i) * math.sin(j) * math.cos(turn)))
-        depth += (b - a) / 2 * (math.cos(i) + math.cos(j)) * (math.tan(bend / 2) /
-                                                              (bend / 2) if bend > 0 else 1.0)
+        ratio = math.tan(bend / 2) / (bend / 2) if bend > 0 else 1.0
+        depth += (b - a) / 2 * (math.cos(i) + math.cos(j)) * ratio
     return depth
 
 
@@ -162,8 +162,7 @@ def parts():
         "parts: a part in the deck has no files beside it", beside.returncode == 2
         and 'names the file "M.mtx", but stands in no folder' in beside.stderr, beside.stderr)
     asked = tooljoint("modes", "parts.xml", "--count", "3", "--bases")
-    frequencies, vectors = (text.find(word) for text, word in ((done.stdout, "full [Hz]"),
-                                                               (asked.stdout, "|Phi'M Phi - I|")))
+    frequencies, vectors = done.stdout.find("full [Hz]"), asked.stdout.find("|Phi'M Phi - I|")
     expect(
         "parts: frequencies come first, the vectors of the bases behind them where they are asked "
         "for", 0 < frequencies < done.stdout.find("RK4 step")

@@ -206,8 +206,8 @@ def of_the_option():
                f"({done.returncode}) {done.stderr}")
     for command in ("run", "check", "modes", "torque-drag", "bha", "buckling", "campbell",
                     "response", "study", "map", "export"):
-        expect(f"{command} has the option", "--units {si,field}" in tooljoint(command,
-                                                                              "--help").stdout)
+        shown = tooljoint(command, "--help").stdout
+        expect(f"{command} has the option", "--units {si,field}" in shown)
     listed = tooljoint("doc", "units").stdout
     for name, factor in FIELD.values():
         shown = re.search(r"\| " + re.escape(name) + r" \| (\S+) ", listed)

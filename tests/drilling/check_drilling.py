@@ -28,7 +28,8 @@ import models
 from combinations import combinations
 import scene_2500m
 from checks import expect, finish
-from models import THETA_Z, W, near
+from agreement import near
+from models import THETA_Z, W
 from program import Program
 from inertias import onset, stick_slip, torque_limit
 from merits import figures, oscillator, whirl

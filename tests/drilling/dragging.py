@@ -8,7 +8,8 @@ import math
 import models
 import numpy as np
 from checks import expect
-from models import W, near
+from agreement import near
+from models import W
 from program import FULL
 from scipy.integrate import solve_ivp
 

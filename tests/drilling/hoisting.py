@@ -7,7 +7,8 @@ import math
 import models
 import numpy as np
 from checks import expect
-from models import THETA_Z, W, near
+from agreement import near
+from models import THETA_Z, W
 
 ALPHA = {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 1e-3}
 RK4 = {"Transient/Integrator": "RK4", "Transient/Step": 1e-4}

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import models
 from checks import expect
-from models import near
+from agreement import near
 from scenes import parts_deck
 
 # Two inertias on a torsion spring: the drive J1 and the bit J2 (numbers of the size of
@@ -53,8 +53,8 @@ def exact(drive, times, start, bit=BIT):
     a0 = start[0]
 
     def rates(t, y):
-        wanted = drive.get("Initial Force", 0.0) + kp * (V - y[2]) + ki * (V * t -
-                                                                           (y[0] - a0) + y[4])
+        behind = V * t - (y[0] - a0) + y[4]
+        wanted = drive.get("Initial Force", 0.0) + kp * (V - y[2]) + ki * behind
         force = min(max(wanted, -limit), limit)
         pipe = STIFFNESS * (y[0] - y[1]) + DAMPING * (y[2] - y[3])
         excess = (force - wanted) / kp if ki else 0.0

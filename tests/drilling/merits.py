@@ -6,7 +6,8 @@ import numpy as np
 
 import models
 from checks import expect
-from models import RPM, THETA_Z, W, near
+from agreement import near
+from models import RPM, THETA_Z, W
 from scenes import parts_deck
 
 

@@ -4,7 +4,6 @@ characteristic equations."""
 import math
 
 import numpy as np
-from checks import expect
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.optimize import brentq
@@ -16,11 +15,6 @@ BORE = 0.2  # radius of the hole [m]
 RPM = math.pi / 30
 THETA_Z, W = 5, 2  # components of a node
 DENSITY, YOUNG, SHEAR = 7850.0, 2.1e11, 2.1e11 / 2.6
-
-
-def near(what, found, truth, tolerance):
-    expect(f"{what}: {found:.6g}, true {truth:.6g} within {tolerance:.2g}",
-           abs(found - truth) <= tolerance)
 
 
 def polar(part):
@@ -44,8 +38,8 @@ def smoothed_sign(w, width):
 class Friction:
     """Torque of a bit that weakens with speed."""
     def __init__(self, static, dynamic, decay, viscous, width):
-        self.static, self.dynamic, self.decay, self.viscous, self.width = (static, dynamic, decay,
-                                                                           viscous, width)
+        self.static, self.dynamic, self.decay = static, dynamic, decay
+        self.viscous, self.width = viscous, width
 
     def torque(self, w):
         dry = self.dynamic + (self.static - self.dynamic) * np.exp(-np.abs(w) / self.decay)
@@ -161,8 +155,8 @@ class CuttingString:
             d = rates(t + step, y + step * c, known)
             y = y + step / 6 * (a + 2 * b + 2 * c + d)
             U[known], phi[known] = feed * (t + step) + y[m - 1], angle(t + step) + y[2 * m + n - 1]
-            found[i + 1] = y[m - 1], y[2 * m + n - 1], depth(t + step, y[m - 1], y[2 * m + n - 1],
-                                                             known + 1)
+            u, theta = y[m - 1], y[2 * m + n - 1]
+            found[i + 1] = u, theta, depth(t + step, u, theta, known + 1)
         return step * np.arange(steps + 1), found
 
 
@@ -362,8 +356,8 @@ class DrillerLoop:
     linear motion."""
     def __init__(self, part, line, slope, kp, ki, mass):
         k = YOUNG * area(part) / part["Length"]
-        M = DENSITY * area(part) * part["Length"] / 6 * np.array([[2.0, 1.0], [1.0, 2.0]
-                                                                  ]) + np.diag([mass, 0.0])
+        M = DENSITY * area(part) * part["Length"] / 6 * np.array([[2.0, 1.0], [1.0, 2.0]])
+        M[0, 0] += mass
         K = k * np.array([[1.0, -1.0], [-1.0, 1.0]])
         inverse = np.linalg.inv(M)
         # states: w_1, w_2, their rates, block x, integral e; forces f = -line (w_1 - x) and -D w_2'

@@ -50,8 +50,9 @@ def faults(text, inside):
         parts = [part.split() for part in match.group().split("/")]
         for before, behind in zip(parts, parts[1:]):
             outer = ends(before, inside)
-            if outer is not None and None not in inside[outer] and begins(behind,
-                                                                          inside[outer]) is None:
+            if outer is None or None in inside[outer]:
+                continue
+            if begins(behind, inside[outer]) is None:
                 found.append(f'{outer}/{" ".join(behind)}: "{outer}" has no such list or parameter')
     return found
 

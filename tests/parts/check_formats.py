@@ -117,10 +117,12 @@ def harwell_boeing(K, M, labels, _):
         n, count = len(A), lower.nnz
         (folder / f"{name}.hb").write_text(
             "\n".join([
-                "swept plate", f"{n + 1 + 2 * count} {n + 1} {count} {count}",
-                f"RSA {n} {n} {count} 0", "(1I14) (1I14) (1E25.16)",
-                *(f"{i + 1:14}" for i in (*lower.indptr, *lower.indices)), *(f"{x:25.16E}"
-                                                                             for x in lower.data)
+                "swept plate",
+                f"{n + 1 + 2 * count} {n + 1} {count} {count}",
+                f"RSA {n} {n} {count} 0",
+                "(1I14) (1I14) (1E25.16)",
+                *(f"{i + 1:14}" for i in (*lower.indptr, *lower.indices)),
+                *(f"{x:25.16E}" for x in lower.data),
             ]) + "\n", encoding="utf-8")
         rows = "".join(
             f"{i + 1} {labels[j][0]} {names[labels[j][1] - 1]}\n" for i, j in enumerate(order))

@@ -21,7 +21,7 @@ sys.path.insert(0, str(SOURCE / "tools"))
 import plot_results  # noqa: E402
 import plot_study  # noqa: E402
 import redraw_studies  # noqa: E402
-import scale  # noqa: E402
+import scale_blocks  # noqa: E402
 import scale_figures  # noqa: E402
 import strategies_figure  # noqa: E402
 
@@ -310,9 +310,8 @@ class Campbell(Style):
             }
             for name, values in rows.items():
                 file[f"campbell/{name}"] = values
-            file["excitations"], file["orders"], file["offsets"] = ["1x", "2x", "3x",
-                                                                    "blades"], [1.0, 2.0, 3.0,
-                                                                                5.0], np.zeros(4,)
+            file["excitations"] = ["1x", "2x", "3x", "blades"]
+            file["orders"], file["offsets"] = [1.0, 2.0, 3.0, 5.0], np.zeros(4)
             made = rotating.campbell_figure(file)
         self.check(made)
         return made.axes[0], [text.get_text() for text in made.axes[0].get_legend().get_texts()]
@@ -422,12 +421,13 @@ class Studies(Style):
         cut = scale_figures.table_with(scale_figures.tables(page), "largest estimate")
         lines = [(int(row["dofs"]), int(row["ranks"]), row["wall [s]"], "", "", "",
                   row["whole: wall [s]"]) for row in cut]
-        self.assertIn(scale.faster_from(lines), " ".join(page.split()))
+        self.assertIn(scale_blocks.faster_from(lines), " ".join(page.split()))
         lines = [(10, 1, "1", "", "", "", "2"), (20, 1, "3", "", "", "", "2"),
                  (30, 1, "1", "", "", "", "2"), (10, 2, "3", "", "", "", "2"),
                  (40, 2, "1", "", "", "", "")]
         self.assertEqual(
-            scale.faster_from(lines), "The parts take less time than the whole on 1 rank from 30 "
+            scale_blocks.faster_from(lines),
+            "The parts take less time than the whole on 1 rank from 30 "
             "dofs on, on 2 ranks at no size up to 10 dofs.")
 
     def test_profiles_of_the_static_state(self):

@@ -41,8 +41,8 @@ def typed(signature):
                      ("-> object", "-> Any"), ("numpy.dtype", "Any")):
         signature = signature.replace(old, new)
     arguments, result = signature.rsplit("->", 1)
-    return arguments.replace("numpy.ndarray", "ArrayLike").replace("list[",
-                                                                   "Iterable[") + "->" + result
+    arguments = arguments.replace("numpy.ndarray", "ArrayLike").replace("list[", "Iterable[")
+    return arguments + "->" + result
 
 
 def function(name, doc, indent=""):

@@ -189,8 +189,8 @@ def update(options, gold):
             norm["value"] = found
     norms = ",\n    ".join(
         f"{json.dumps(key)}: {json.dumps(norm)}" for key, norm in gold["norms"].items())
-    text = json.dumps({**gold, "norms": {}}, indent=2).replace('"norms": {}',
-                                                               f'"norms": {{\n    {norms}\n  }}')
+    text = json.dumps({**gold, "norms": {}}, indent=2)
+    text = text.replace('"norms": {}', f'"norms": {{\n    {norms}\n  }}')
     options.gold.write_text(text + "\n", encoding="utf-8")
     return 0
 

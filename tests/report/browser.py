@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 import time
 
+WRONG = ("error", "warning", "assert")  # kinds of console messages
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 OPTIONS = ("--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle",
            "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
@@ -113,10 +114,9 @@ class Browser:
         for event in self.events:
             method, what = event.get("method"), event.get("params", {})
             if method == "Runtime.exceptionThrown":
-                found.append(what["exceptionDetails"].get("exception",
-                                                          {}).get("description", "exception"))
-            elif method == "Runtime.consoleAPICalled" and what["type"] in ("error", "warning",
-                                                                           "assert"):
+                thrown = what["exceptionDetails"].get("exception", {})
+                found.append(thrown.get("description", "exception"))
+            elif method == "Runtime.consoleAPICalled" and what["type"] in WRONG:
                 found.append(" ".join(
                     str(argument.get("value", argument.get("description", "")))
                     for argument in what["args"]))

@@ -17,7 +17,7 @@ from scipy.linalg import eig
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from along import bending, excitations, window  # noqa: E402
 from growth import growth  # noqa: E402
-from rotors import anisotropic, damped, friswell, nelson  # noqa: E402
+from rotors import anisotropic, damped, friswell, nelson, reduction  # noqa: E402
 import states  # noqa: E402
 from scenes import (GYROSCOPIC, RPM, SHAFT, SHORTER, SOURCES, close, deck, estimates, expect, lists,
                     material, modes_at, part, run, table, tooljoint, values)  # noqa: E402
@@ -35,7 +35,7 @@ def laval():
         "laval", "laval.h5",
         lists(
             "Campbell",
-            values(Highest_Speed=1000.0, Points=11, Modes=2) +
+            values(Highest_Speed=1000.0, Points=11) +
             '<Parameter name="Orders" type="Array(double)" value="{1}"/>') + lists(
                 "Response",
                 values(Highest_Speed=1000.0, Points=101) +
@@ -46,6 +46,8 @@ def laval():
     done = run("response", scene, "laval_response")
     expect("laval: it is said that nothing follows the speed", 'law "Omega"'
            in done.stdout + done.stderr)
+    expect("laval: speeds are printed in rpm, a plain number is rad/s",
+           "amplitudes from 0 to 9549.3 rpm" in done.stdout, done.stdout)
     rows = table("laval_response", "response")
     w = rows["speed"]
     exact = moment * w**2 * np.exp(0.3j) / (k - m * w**2 + 1j * w * c)
@@ -73,19 +75,15 @@ def laval():
 
 
 def neighbours():
-    """Two narrow resonances between the points of the sweep: both are found, whatever the
-    points."""
+    """A wide and a narrow resonance between the points of the sweep, whose flanks meet: both are
+    found once, whatever the points."""
     K = np.array([[2.0e5, -1.2e4], [-1.2e4, 2.05e5]])
-
-    def size(frequency):
-        w = 2 * np.pi * frequency
-        return np.abs(np.linalg.inv(K - w**2 * np.eye(2) + 1j * w * 2e-5 * K)[0, 0])
-
-    exact = []
-    for f in np.sqrt(np.linalg.eigvalsh(K)) / (2 * np.pi):
-        fine = np.linspace(f - 0.5, f + 0.5, 100001)
-        exact.append(max(size(x) for x in fine[::10]))
-    part("neighbours.h5", ["u", "v"], np.eye(2), K, 2e-5 * K)
+    squares, shapes = np.linalg.eigh(K)
+    rates = 2 * np.pi * np.array([2.2, 0.1])  # half widths [rad/s] of 69 and 73.6 Hz
+    w = 2 * np.pi * np.linspace(20, 120, 400001)
+    size = np.abs(sum(shapes[0, k]**2 / (squares[k] - w**2 + 2j * rates[k] * w) for k in range(2)))
+    exact = size[1:-1][(size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])]
+    part("neighbours.h5", ["u", "v"], np.eye(2), K, shapes @ np.diag(2 * rates) @ shapes.T)
     for points in range(6, 40, 6):
         scene = deck(
             "neighbours", "neighbours.h5",
@@ -211,6 +209,28 @@ def transfer():
             1j * rows["node 1:at 3_phase"])
     close("harmonic loads add with their phases",
           loads["node 1_amplitude"] * np.exp(1j * loads["node 1_phase"]), sum_of, 1e-12)
+    # a free chain near 0 Hz moves as much as hides what few of its modes lack elsewhere
+    links = np.diff(np.eye(12), axis=0)
+    free = 1e12 * links.T @ np.diag(k * (1 + 0.3 * np.sin(range(1, 12)))) @ links
+    turn = np.array([[0.8, 0.6], [-0.6, 0.8]]) @ np.diag([1, 0.7]) @ np.array([[0.8, -0.6],
+                                                                               [0.6, 0.8]])
+    free = np.kron(free, turn)
+    part("free.h5", ["u", "v"], m * np.eye(24), free, 1e-9 * free)
+    one = lists("Loads", lists("at", values(Node=6, Component="u"))) + lists(
+        "Outputs", lists("o", values(Node=6, Component="u")))
+    sweep = values(Excitation="Transfer", Lowest_Frequency=2e5, Highest_Frequency=3e7, Points=31)
+    done = run("response", deck("free", "free.h5", lists("Response", sweep + one), "",
+                                reduction(4)), "free")
+    rows = table("free", "response")
+    poor = np.sum(rows["o:at_estimate"] > 0.2 * rows["o:at_amplitude"])
+    expect("free: errors between the resonances are warned of",
+           f"At {poor} of 31 points the estimated error" in done.stderr, f"{poor} {done.stderr}")
+    expect("free: rounding of its motions at rest does not grow", "unstable" not in done.stderr,
+           done.stderr)
+    done = tooljoint("response", "free.xml", "--without", "Reduction", "--set",
+                     "Response/Lowest Frequency=0", "--output", "free_at_rest")
+    expect("free: it has no response at 0 Hz", done.returncode == 3
+           and "(Response/Lowest Frequency)" in done.stderr, done.stderr)
 
 
 def motor():
@@ -306,8 +326,10 @@ def walls():
     expect("walls: the middle moves", ours["middle_amplitude"][-1] > 1e-7, ours["middle_amplitude"])
     close("walls: the circle of the middle and what it leaves are the clearance",
           ours["contact_margin"] + ours["middle_amplitude"], 0.9, 1e-12)
-    run("response", "walls.xml", "walls_resonant", "Response/Highest Speed=2000",
-        "Response/Points=8")
+    done = run("response", "walls.xml", "walls_resonant", "Response/Highest Speed=2000",
+               "Response/Points=8")
+    expect("walls: without damping the amplitude has no bound", "Modes have no damping: at 101 Hz"
+           in done.stderr, done.stderr)
     margins, peaks = table("walls_resonant", "margins"), table("walls_resonant", "peaks")
     close("walls: the least margin is that of the largest amplitude between the points",
           margins["margin"][margins["node"] == 21], 0.9 - peaks["amplitude"].max(), 1e-9)

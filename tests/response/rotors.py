@@ -8,6 +8,7 @@ E. T. Penny, S. D. Garvey and A. W. Lees, Dynamics of Rotating Machines (Cambrid
 them (R. Timbo et al., J. Open Source Softw. 5 (2020) 2120; docs/examples/example_05_09_01 and
 ross/tests/test_rotor_assembly of that project).
 """
+import h5py
 import numpy as np
 from scipy.linalg import eig
 
@@ -78,8 +79,8 @@ def shaft_matrices(x, inner, outer, young, density, shear=np.inf):
                                                    35 * p * p) * l, (6 + 14 * p + 7 * p * p) * l * l
         moved = density * area * l / (840 * (1 + p)**2) * symmetric(
             [near, a, far, -b, turned, b, -c, near, -a, turned])
-        d, turned, other = (3 - 15 * p) * l, (4 + 5 * p + 10 * p * p) * l * l, (5 * p * p - 5 * p -
-                                                                                1) * l * l
+        d, turned = (3 - 15 * p) * l, (4 + 5 * p + 10 * p * p) * l * l
+        other = (5 * p * p - 5 * p - 1) * l * l
         turn = density * inertia / (30 * l * (1 + p)**2) * symmetric(
             [36, d, -36, d, turned, -d, other, 36, -d, turned])
         M[span, span] += moved + turn
@@ -229,6 +230,20 @@ def anisotropic():
             close(
                 f"{name}: {output} at 150, 300, 450 rad/s {found} against the published amplitudes",
                 found / amplitudes, 1.0, 1e-8)
+
+    campbell = lists(
+        "Campbell",
+        values(Highest_Speed=450.0, Points=3, Modes=4) +
+        '<Parameter name="Orders" type="Array(double)" value="{1}"/>')
+    run("campbell", deck("anisotropic", "anisotropic.h5", campbell, GYROSCOPIC), "anisotropic")
+    with h5py.File("anisotropic.h5") as f:
+        K, M, G = f["stiffness/structure"][:], f["mass"][:], f["damping/gyroscopic"][:]
+    crossings = table("anisotropic", "crossings")
+    for w, whirl in zip(crossings["speed"], crossings["whirl"]):  # Q(i w) phi = 0 with Omega = w
+        phi = np.linalg.svd(K - w**2 * M + 1j * w**2 * G)[2][-1].conj()
+        u, v = phi[0::4], phi[1::4]
+        close(f"anisotropic: whirl at the critical speed {w:.2f} rad/s", whirl,
+              2 * np.sum(np.imag(u * v.conj())) / np.sum(abs(u)**2 + abs(v)**2), 1e-6)
 
 
 def damped():

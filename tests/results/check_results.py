@@ -258,8 +258,8 @@ def check_bending(figures, data):
     time = data["/transient/time"]
     window = time > 0.15 - 1e-9
     frames, d = data["/model/frame"], data["/transient/displacement"][window]
-    rigidity = data["/model/young_modulus"] * np.pi / 4 * (data["/model/outer_radius"]**4 -
-                                                           data["/model/inner_radius"]**4)
+    fourth = data["/model/outer_radius"]**4 - data["/model/inner_radius"]**4
+    rigidity = data["/model/young_modulus"] * np.pi / 4 * fourth
     axis = section_axes(data, rigidity)
     moved = axis + np.cross(np.einsum("nij,tnj->tni", frames, d[:, :, 3:]), axis)
     curvature = np.diff(moved, axis=1) / np.diff(data["/model/s"])[:, None]

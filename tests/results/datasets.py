@@ -55,8 +55,8 @@ def table(path, header):
 
 def rates(values, time):
     """Central differences of the samples in between."""
-    return (values[2:] - values[:-2]) / (time[2:] - time[:-2]).reshape((-1,) + (1,) *
-                                                                       (values.ndim - 1))
+    apart = time[2:] - time[:-2]
+    return (values[2:] - values[:-2]) / apart.reshape((-1,) + (1,) * (values.ndim - 1))
 
 
 def relative(found, expected):

@@ -87,9 +87,9 @@ def planned():
     expect("missing rows are named", done.returncode == 0
            and "9 of 13 runs are missing" in done.stderr, done.stderr[-300:])
     before = pathlib.Path("plan/study.csv").read_text(encoding="utf-8").count(",done,")
-    done = subprocess.run(["parallel", "--jobs", "2"], stdin=open("plan/rows.txt",
-                                                                  encoding="utf-8"),
-                          capture_output=True, text=True)
+    commands = pathlib.Path("plan/rows.txt").read_text(encoding="utf-8")
+    done = subprocess.run(["parallel", "--jobs", "2"], input=commands, capture_output=True,
+                          text=True)
     expect("GNU parallel takes the rows as they are", done.returncode == 0, done.stderr[-300:])
     done = tooljoint("study", DECK, "--collect", "plan", *common)
     wrong = same_errors(rows("one"), rows("plan"))

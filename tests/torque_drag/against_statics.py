@@ -111,11 +111,9 @@ def stiff(name, tension, torque):
 def weight_on_bit():
     """Weight on bit is that of the deck, whatever else acts on the bit: xml/first_run.xml has bit
     bounce too."""
-    table = {
-        row["operation"]: row
-        for row in run("first_run", "Torque and Drag/Count=1", deck=str(SOURCES /
-                                                                        "xml/first_run.xml"))
-    }
+    scene = str(SOURCES / "xml/first_run.xml")
+    found = run("first_run", "Torque and Drag/Count=1", deck=scene)
+    table = {row["operation"]: row for row in found}
     off, on = table["Rotate off bottom"], table["Drill rotating"]
     near("weight on bit of first_run", float(off["hook_load"]) - float(on["hook_load"]), 40e3, 0.01)
     said = " ".join(

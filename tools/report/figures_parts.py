@@ -84,9 +84,8 @@ def histories(run):
         reach = high[:, c] - low[:, c]
         if reach.max() > 0:
             node = int(reach.argmax())
-            yield c, name, unit, int(run.recorded[node]), run.file["/transient/displacement"][:,
-                                                                                              node,
-                                                                                              c]
+            history = run.file["/transient/displacement"][:, node, c]
+            yield c, name, unit, int(run.recorded[node]), history
 
 
 def movers(run):

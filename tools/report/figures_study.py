@@ -47,8 +47,8 @@ def draw_error_over_time(study):
         axes.set_title(name, color=study.colour[name], fontsize=9)
         axes.set_xlim(*study.window()), axes.set_ylim(floor / 2, max(positive) * 2)
         logarithmic(axes.yaxis, percent)
-        for run, below in ((runs[0], True), (runs[-1], False)) if len(runs) > 1 else ((runs[0],
-                                                                                       False),):
+        ends = [(runs[0], True), (runs[-1], False)]
+        for run, below in ends if len(runs) > 1 else [(runs[0], False)]:
             end = run.curve("eps_t")[-max(1, len(run.curve("eps_t")) // 4):]
             level = max(0.85 * end.min() if below else 1.15 * end.max(),
                         floor * (4 if below else 1))

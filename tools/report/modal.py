@@ -155,8 +155,8 @@ def headline(results):
     """Cards of the lowest frequency, the least damping and the largest error."""
     found = []
     for file, what in (("modes.csv", ""), ("damped_modes.csv", ", damped")):
-        rows = read_table(results.folder / file, "mode") if (results.folder /
-                                                             file).is_file() else []
+        path = results.folder / file
+        rows = read_table(path, "mode") if path.is_file() else []
         if not rows:
             continue
         kind = "full" if "full" in rows[0] else "coupled"

@@ -191,8 +191,8 @@ def internal_forces(run, displacement):
         return None
     E, G, S, J = (run.get(f"/model/{name}")
                   for name in ("young_modulus", "shear_modulus", "area", "torsion_constant"))
-    change = np.diff(displacement - run.get("/static/displacement"), axis=-2) / np.diff(run.s)[:,
-                                                                                               None]
+    change = np.diff(displacement - run.get("/static/displacement"), axis=-2)
+    change /= np.diff(run.s)[:, None]
     tension, torque = (beside_releases(run, values)
                        for values in (E * S * change[..., 2], G * J * change[..., 5]))
     return run.get("/static/axial_force") + tension, run.get("/static/torque") + torque

@@ -132,9 +132,9 @@ def broomsticks(folder, rows):
         for number, (operation, own) in enumerate(by_operation(broom).items()):
             for friction in frictions:
                 curve = [row for row in own if row["friction"] == friction]
-                axes.plot(thousandth(curve, value), numbers(curve,
-                                                            "bit_depth"), color=COLOURS[number],
-                          linewidth=1.0, linestyle=DASHES[frictions.index(friction) % len(DASHES)])
+                dashes = DASHES[frictions.index(friction) % len(DASHES)]
+                axes.plot(thousandth(curve, value), numbers(curve, "bit_depth"),
+                          color=COLOURS[number], linewidth=1.0, linestyle=dashes)
             axes.plot([], [], color=COLOURS[number], label=operation)
         for friction in frictions:
             axes.plot([], [], color="black", linewidth=1.0,

@@ -164,8 +164,8 @@ def overlaps(made: Any) -> list[str]:
                 or box.y1 > made.bbox.y1 + SHARED):
             faults.append(f"\"{text}\" is cut off")
     for (text, a), (other, b) in itertools.combinations(boxes, 2):
-        if min(a.x1, b.x1) - max(a.x0, b.x0) > SHARED and min(a.y1, b.y1) - max(a.y0,
-                                                                                b.y0) > SHARED:
+        across, down = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
+        if across > SHARED and down > SHARED:
             faults.append(f"\"{text}\" lies on \"{other}\"")
     return faults
 

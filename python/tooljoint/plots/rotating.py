@@ -256,9 +256,10 @@ def profile_figure(results: Any) -> Any:
     for (profile, picture), (name, group) in zip(grid, groups):
         depth = group["depth"]
         bending = name == "bending"
-        values, scale, said = (group["moments"], 1e-3, label(
-            "bending moment", "kN m")) if bending else (group["margins"], 1e3,
-                                                        label("distance to the wall", "mm"))
+        if bending:
+            values, scale, said = group["moments"], 1e-3, label("bending moment", "kN m")
+        else:
+            values, scale, said = group["margins"], 1e3, label("distance to the wall", "mm")
         profile.plot(scale * (group["moment"] if bending else group["margin"]), depth,
                      color=COLOURS[0], linewidth=1.1)
         if not bending:
@@ -280,6 +281,6 @@ def profile_figure(results: Any) -> Any:
 def over(rows: dict[str, Any]) -> tuple[Any, str]:
     """What a response is drawn over, and its label: the rotary speed, or the frequency at one
     speed."""
-    return (RPM * rows["speed"], label(
-        "rotary speed", "rpm")) if np.ptp(rows["speed"]) > 0 else (rows["frequency"],
-                                                                   label("frequency", "Hz"))
+    if np.ptp(rows["speed"]) > 0:
+        return RPM * rows["speed"], label("rotary speed", "rpm")
+    return rows["frequency"], label("frequency", "Hz")

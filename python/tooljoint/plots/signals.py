@@ -35,9 +35,8 @@ def stretches(depth: Any, values: Any, most: int = 240) -> tuple[Any, Any, Any]:
     edges = np.linspace(depth[0], depth[-1], most + 1)
     first = np.unique(np.searchsorted(depth, edges[:-1]))
     count = np.diff(np.append(first, len(depth)))
-    return np.add.reduceat(depth, first) / count, np.minimum.reduceat(values,
-                                                                      first), np.maximum.reduceat(
-                                                                          values, first)
+    least, largest = np.minimum.reduceat(values, first), np.maximum.reduceat(values, first)
+    return np.add.reduceat(depth, first) / count, least, largest
 
 
 def spectrum(values: Any, interval: float) -> tuple[Any, Any]:

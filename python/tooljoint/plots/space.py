@@ -20,9 +20,8 @@ def space_axes(made: Any, place: Any, names: tuple[str, str,
     """Three-dimensional axes at a place of a grid (or 111), in metres; an axis "depth" is drawn
     downwards by equal_axes()."""
     axes = made.add_subplot(place, projection="3d")
-    axes.set_xlabel(label(names[0],
-                          "m")), axes.set_ylabel(label(names[1],
-                                                       "m")), axes.set_zlabel(label(names[2], "m"))
+    x, y, z = (label(name, "m") for name in names)
+    axes.set_xlabel(x), axes.set_ylabel(y), axes.set_zlabel(z)
     axes.view_init(elev=18, azim=-150)
     axes.tick_params(labelsize=7, pad=0)
     axes.tick_params(axis="z", pad=9)

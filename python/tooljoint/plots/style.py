@@ -216,5 +216,5 @@ def error_band(axes: Any, x: Any, low: Any, high: Any, colour: str = GREY, text:
                sideways: bool = False) -> None:
     """What is uncertain about a curve, pale behind it: between `low` and `high` at each `x`;
     `sideways`: at each y, where the abscissa is uncertain."""
-    (axes.fill_betweenx if sideways else axes.fill_between)(x, low, high, color=colour, alpha=0.25,
-                                                            linewidth=0, zorder=0, label=text)
+    fill = axes.fill_betweenx if sideways else axes.fill_between
+    fill(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=0, label=text)

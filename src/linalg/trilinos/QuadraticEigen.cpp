@@ -9,8 +9,10 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Interrupt.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/DenseDecompositions.hpp"
+#include "linalg/DynamicStiffness.hpp"
 #include "linalg/GrowingKrylov.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/trilinos/ProportionalModes.hpp"
@@ -26,10 +28,16 @@ constexpr double converged = 1e-13, stagnant = 1e-7;
 /// Vectors of a space at most, or twelve times the number of modes: all there are of a model of 750
 /// dofs.
 constexpr int largestSpace = 1500;
+/// A search for more modes takes minutes and ends with a signal; after a shorter one the caller
+/// looks, which may have something to keep.
+constexpr std::size_t longSearch = 200;
 /// Values s -> infinity, nu = 1 / (s - sigma) -> 0, stand in Jordan chains where neither mass nor
 /// damping acts: rounding leaves their nu at the root of rounding, and an answer to the residual
 /// that has nothing of the vector. Below this part of the largest nu that is what they are.
 constexpr double noFiniteValue = 1e-6, noDigits = 0.5;
+/// Of the vector of a value that is zero: rounding tears the Jordan chains of rigid-body motions,
+/// and their shapes have half the digits of others.
+constexpr double chainError = 1e-6;
 /// Others have a nu of rounding.
 constexpr double noDigitsOfNu = 1e-13;
 
@@ -92,14 +100,39 @@ double infiniteNu(const RitzPairs& ritz, double shift) {
   return noFiniteValue * std::max(largestNu(ritz), 1.0 / shift);
 }
 
+/// Beyond this many times the fastest diagonal rate no value is finite.
+constexpr double beyondAll = 1e3;
+
+/// The number of finite values, the degree of det Q(s): log2 |det Q(2 R) / det Q(R)| at an R beyond
+/// all of them. Of a regular mass 2 n, and of one of which a Krylov space never holds all.
+int finiteValues(const ScaledPencil& pencil) {
+  const auto n = static_cast<int>(pencil.size());
+  if (!pencil.singularMass || 2 * n > largestSpace) return 2 * n;
+  const Vector k = pencil.K.diagonal().cwiseAbs(), c = pencil.C.diagonal().cwiseAbs(),
+               m = pencil.M.diagonal();
+  double fastest = 0.0;
+  for (int i = 0; i < n; ++i)
+    if (m[i] > 0.0)
+      fastest = std::max({fastest, std::sqrt(k[i] / m[i]), c[i] / m[i]});
+    else if (c[i] > 0.0)
+      fastest = std::max(fastest, k[i] / c[i]);
+  const auto size = [&](double s) { return DynamicStiffness(pencil.M, pencil.C, pencil.K, s); };
+  const double far = beyondAll * fastest;
+  const auto once = size(far), twice = size(2.0 * far);
+  if (!(fastest > 0.0) || once.singular() || twice.singular()) return 2 * n;
+  return static_cast<int>(
+      std::lround((twice.logDeterminant() - once.logDeterminant()) / std::log(2.0)));
+}
+
 /// Values with Im s >= 0 by |s|, and their columns of the Ritz vectors.
 struct Upper {
   std::vector<Complex> s;
   std::vector<Eigen::Index> column;
   std::vector<double> residual;
 
-  /// Without those whose nu is rounding, or below `infinite`.
-  Upper(const RitzPairs& ritz, double shift, double infinite = 0.0) {
+  /// The first `finite` ones, conjugates counted, without those whose nu is rounding, or below
+  /// `infinite`.
+  Upper(const RitzPairs& ritz, double shift, int finite, double infinite = 0.0) {
     const double largest = largestNu(ritz);
     std::vector<Eigen::Index> order;
     for (Eigen::Index j = 0; j < ritz.values.size();
@@ -111,6 +144,8 @@ struct Upper {
     std::stable_sort(order.begin(), order.end(),
                      [&](auto a, auto b) { return std::abs(value(a)) < std::abs(value(b)); });
     for (auto j : order) {
+      finite -= ritz.values[j].imag() < 0.0 ? 2 : 1;
+      if (finite < 0) break;
       s.push_back(value(j));
       column.push_back(j);
       residual.push_back(ritz.residuals[j]);
@@ -169,7 +204,7 @@ double besideValues(const Upper& found, double near) {
 /// values apart and Jordan chains at zero do not swamp them. Where all that is wanted are these, a
 /// shift as small as they are has no inverse, and the one before serves.
 std::unique_ptr<ShiftedInverse> goodInverse(const ScaledPencil& pencil, std::size_t wanted,
-                                            const DofNamer& name) {
+                                            int finite, const DofNamer& name) {
   double shift = firstShift(pencil);
   constexpr int rounds = 4;
   auto inverse = inverseNear(pencil, shift, name);
@@ -178,7 +213,7 @@ std::unique_ptr<ShiftedInverse> goodInverse(const ScaledPencil& pencil, std::siz
     space.start(startColumns, 11);
     space.grow(static_cast<int>(wanted) + 4 * startColumns);
     const RitzPairs ritz = space.ritz();
-    const Upper found(ritz, inverse->shift(),
+    const Upper found(ritz, inverse->shift(), finite,
                       pencil.singularMass ? infiniteNu(ritz, inverse->shift()) : 0.0);
     if (found.s.empty()) return inverse;
     const double far = farWanted(pencil, found, wanted);
@@ -279,8 +314,10 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
                          const RitzPairs& ritz, std::size_t wanted, const DofNamer& name) {
   DampedModes out;
   std::size_t zeros = 0;
+  const bool isLong = wanted > longSearch;
   const double farthest = 1.0 / infiniteNu(ritz, inverse.shift());
   for (std::size_t j = 0; j < std::min(wanted, found.s.size()); ++j) {
+    if (isLong) stopIfInterrupted();
     const ComplexVector phi = space.vector(ritz, found.column[j]).head(pencil.size());
     Complex s = found.s[j];
     ComplexVector better = inverse.again(s, phi);
@@ -288,13 +325,15 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
     if (pencil.singularMass && std::abs(s - inverse.shift()) >= farthest && !(error <= noDigits))
       continue;
     const double rounding = roundingOfValue(pencil, s - inverse.shift(), better);
-    const bool accurate = error <= acceptedError + rounding;
+    const double allowed =
+        std::max(acceptedError + rounding, isZero(pencil, s, better) ? chainError : 0.0);
+    const bool accurate = error <= allowed;
     const auto refined = accurate ? std::nullopt : refinedMode(pencil, s, better);
     if (!accurate && !refined)
       throw ConvergenceError(
           "Damped mode " + std::to_string(j + 1) + " (s = " + scientific(s.real()) + " + " +
           scientific(s.imag()) + " i) has a relative error of " + scientific(error) + " where " +
-          scientific(acceptedError + rounding) + " is allowed." + placeOf(pencil, s, better, name));
+          scientific(allowed) + " is allowed." + placeOf(pencil, s, better, name));
     if (refined) s = refined->s, better = refined->shape;
     if (const auto twofold = shapesOfTwofold(pencil, inverse, s, better)) {
       for (int k = 0; k < 2; ++k) {
@@ -316,7 +355,8 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
 DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& name) {
   const int all = 2 * static_cast<int>(pencil.size());
   auto wanted = static_cast<std::size_t>(count);
-  const auto inverse = goodInverse(pencil, wanted, name);
+  const int finite = finiteValues(pencil);
+  const auto inverse = goodInverse(pencil, wanted, finite, name);
   GrowingKrylov<double> space([&](const Matrix& z) { return (*inverse)(z); }, all);
   if (all <= 2 * denseBelow)
     space.startWhole();
@@ -328,9 +368,10 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
   double bound = -1;
   double before = std::numeric_limits<double>::infinity();  // largest residual in the smaller space
   for (;;) {
+    if (wanted > longSearch) stopIfInterrupted();
     space.grow(columns);
     const RitzPairs ritz = space.ritz();
-    const Upper found(ritz, inverse->shift());
+    const Upper found(ritz, inverse->shift(), finite);
     const bool whole = space.invariant();
     const double worst = found.worst(wanted);
     const bool settled =

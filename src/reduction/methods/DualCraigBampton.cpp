@@ -13,6 +13,10 @@ namespace tooljoint::reduction {
 
 namespace {
 
+/// Of the static answer to a force: less that the modes do not hold of it is rounding, and no
+/// flexibility of its own.
+constexpr double nothingLeft = 1e-12;
+
 /// D = Phi p + Psi g, Psi the residual flexibility of the interface dofs; with g = C' lambda
 /// (coupling::Assembly::Dual)
 ///
@@ -64,6 +68,7 @@ class DualCraigBampton : public ReductionMethod {
     B = Matrix(B(interior, Eigen::all));
     if (free.basis.modes() == sizeOf(interior)) return Matrix::Zero(B.rows(), B.cols());
     Matrix Psi = free.statics->solve(B);
+    const Vector size = Psi.cwiseAbs().colwise().maxCoeff();
     const Sparse W = modalColumns(free.basis), transposed = W.transpose();
     const Sparse K = block(part.stiffness(), interior, interior),
                  M = block(part.mass(), interior, interior), absolute = K.cwiseAbs();
@@ -72,14 +77,16 @@ class DualCraigBampton : public ReductionMethod {
       const Matrix inertial = transposed * Matrix(M * Psi);
       for (Eigen::Index k = 0; k < amplitudes.rows(); ++k) {
         const double omega2 = free.basis.eigenvalues[k];
-        const Vector size = Vector(W.col(k)).cwiseAbs();
-        if (std::abs(omega2) > 1e-12 * size.dot(absolute * size))
+        const Vector shape = Vector(W.col(k)).cwiseAbs();
+        if (std::abs(omega2) > 1e-12 * shape.dot(absolute * shape))
           amplitudes.row(k) /= omega2;
         else
           amplitudes.row(k) = inertial.row(k);  // a rigid-body motion
       }
       Psi -= W * amplitudes;
     }
+    for (Eigen::Index j = 0; j < Psi.cols(); ++j)
+      if (Psi.col(j).cwiseAbs().maxCoeff() <= nothingLeft * size[j]) Psi.col(j).setZero();
     return Psi;
   }
 

@@ -237,7 +237,9 @@ class Diagram {
     const auto found =
         root([&](double speed, Complex s) { return s.imag() - excitation.at(speed); }, from, early,
              late, guess);
-    return {line, found.at, found.refined};
+    Crossing there{line, found.at, found.refined};
+    if (there.refined && there.at.whirl != 0.0) there.at.whirl = shapes_.whirl(guess.shape);
+    return there;
   }
 
   /// Where modes that grow at one of two speeds do not at the other.

@@ -11,6 +11,7 @@
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
 #include "response/Columns.hpp"
+#include "response/SweepParameters.hpp"
 #include "response/campbell/Campbell.hpp"
 #include "response/campbell/ModeSearch.hpp"
 
@@ -58,14 +59,14 @@ Columns crossingTable(const CampbellDiagram& diagram, const CampbellSettings& se
        collect(rows, [](const auto& r) { return r.at.frequency(); })},
       {"damping", "1", "Damping ratio there",
        collect(rows, [](const auto& r) { return r.at.damping(); })},
-      {"whirl", "1", "Of the mode at the nearest speed of the diagram",
+      {"whirl", "1", "Of the mode there; without refinement at the next speed of the diagram",
        collect(rows, [](const auto& r) { return r.at.whirl; })},
       {"refined", "1", "0: by linear interpolation",
        collect(rows, [](const auto& r) { return r.refined ? 1.0 : 0.0; })},
   }};
   if (estimated)
     table.columns.push_back({"estimate", "1",
-                             "Estimated error of s at the nearest speed of the diagram",
+                             "Estimated error of s at the next speed of the diagram",
                              collect(rows, [](const auto& r) { return r.at.error; })});
   return table;
 }
@@ -118,7 +119,9 @@ void warnOfEmptiness(const CampbellDiagram& diagram) {
 }
 
 void print(const CampbellDiagram& diagram, const CampbellSettings& settings, bool estimated) {
-  log::info("critical speeds, where a mode has the frequency of an excitation:");
+  log::info(
+      fmt::format("critical speeds from {} rpm, where a mode has the frequency of an excitation:",
+                  rangeOf(settings.speeds, rpmPerRadianPerSecond)));
   if (diagram.crossings.empty()) log::info("  none in this range of speeds");
   if (!diagram.crossings.empty())
     log::info(fmt::format("  {:>7} {:>5} {:>12} {:>12} {:>11}  {:<9}{}", "with", "mode", "speed",
@@ -289,11 +292,14 @@ void summarise(const RotatingCase& rotating, const CampbellDiagram& diagram,
   }
 }
 
-void requireDofs(const cases::Case& one, const CampbellSettings& settings, int dofs) {
+/// As many modes as the model has, unless the deck wants more.
+void limitModes(const cases::Case& one, CampbellSettings& settings, int dofs) {
   if (settings.window || settings.modes <= dofs) return;
-  throw DeckError(one.deck().error("Campbell/Modes",
-                                   "is " + std::to_string(settings.modes) + ", but the model has " +
-                                       std::to_string(dofs) + " dofs. Give fewer modes."));
+  if (one.deck().gives("Campbell/Modes"))
+    throw DeckError(one.deck().error(
+        "Campbell/Modes", "is " + std::to_string(settings.modes) + ", but the model has " +
+                              std::to_string(dofs) + " dofs. Give fewer modes."));
+  settings.modes = dofs;
 }
 
 }  // namespace
@@ -302,7 +308,7 @@ void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) 
   if (!one.list().isSublist("Campbell"))
     throw DeckError(one.deck().file() +
                     ": the deck has no list Campbell. Add one with the Highest Speed.");
-  const auto settings = readCampbell(one.list().sublist("Campbell"));
+  auto settings = readCampbell(one.list().sublist("Campbell"));
   cases::AnalysisFiles files(one, folder, "campbell");
   CampbellDiagram diagram;
   std::unique_ptr<RotatingStates> states;
@@ -313,7 +319,7 @@ void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) 
                                                   settings.speeds.front());
         states->first().announceLaws();
         states->first().announceHeldStates();
-        requireDofs(one, settings, states->first().model().size());
+        limitModes(one, settings, states->first().model().size());
         diagram = campbell(*states, settings, {one, files.folder().folder(), fresh});
         print(diagram, settings, states->first().estimated());
         warnOfEmptiness(diagram);

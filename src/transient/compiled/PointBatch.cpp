@@ -104,7 +104,7 @@ model::PointLaw::Power PointBatch::power(double t, const double* q, const double
 model::PointLaw::Power PointBatch::meanPower(double t, double h, const double* q, const double* v,
                                              const double* dq, const double* dv,
                                              const std::vector<int>& points) {
-  static const double g = 1 / std::sqrt(12.0);
+  constexpr double gauss = 0.28867513459481287;
   gatherThese(points, q, v);
   rows_.gather(points, dq, dd_.data());
   rows_.gather(points, dv, dv_.data());
@@ -113,17 +113,17 @@ model::PointLaw::Power PointBatch::meanPower(double t, double h, const double* q
     for (std::size_t r = at(p * width_); r < at((p + 1) * width_); ++r) {
       const double chord = dd_[r], change = smooth * dv_[r];
       const double bow = smooth * (h * (2 * v_[r] - dv_[r]) - 2 * chord);
-      dd_[r] = g * (smooth * chord - bow / 6);
-      dv_[r] = g * change;
-      d_[r] -= 0.5 * chord + h * change / 12 + dd_[r];
+      dd_[r] = gauss * (smooth * chord - bow / 6);
+      dv_[r] = gauss * change;
+      d_[r] -= 0.5 * chord + gauss * gauss * h * change + dd_[r];
       v_[r] = chord / h - dv_[r];
     }
   }
-  model::PointLaw::Power mean = callPower(t - (0.5 + g) * h, points);
+  model::PointLaw::Power mean = callPower(t - (0.5 + gauss) * h, points);
   for (int p : points)
     for (std::size_t r = at(p * width_); r < at((p + 1) * width_); ++r)
       d_[r] += 2 * dd_[r], v_[r] += 2 * dv_[r];
-  const model::PointLaw::Power late = callPower(t - (0.5 - g) * h, points);
+  const model::PointLaw::Power late = callPower(t - (0.5 - gauss) * h, points);
   mean.stored = 0.5 * (mean.stored + late.stored);
   mean.damping = 0.5 * (mean.damping + late.damping);
   mean.friction = 0.5 * (mean.friction + late.friction);

@@ -85,9 +85,10 @@ def beyond_basis(program, short):
             yield judged(run, f"stop {stiffness:.0e} N/m", f"{modes} modes", said, factor(run),
                          easy=full)
             if run.done:
-                where, key = ("at the cut-off",
-                              "cut_off_energy") if modes > 0 else ("of missing modes",
-                                                                   "missing_energy")
+                if modes > 0:
+                    where, key = "at the cut-off", "cut_off_energy"
+                else:
+                    where, key = "of missing modes", "missing_energy"
                 error, share = points[-1][0], run.summary["transient"][key]
                 yield statement(f"stop {stiffness:.0e} N/m",
                                 f"{modes} modes: kinetic energy {where}",
@@ -135,8 +136,8 @@ def outside_basis(program, short):
                     misfit = run.summary["reduction"].get("start_misfit")
                     warned = any(
                         "does not represent the initial state" in w for w in run.warnings())
-                    good = misfit is not None and warned == (misfit > 0.01) and (not vectors
-                                                                                 or misfit < 1e-6)
+                    good = misfit is not None and warned == (misfit > 0.01)
+                    good = good and (not vectors or misfit < 1e-6)
                     yield statement(
                         variant, f"{modes} modes: the misfit",
                         "said above 1 %" if not vectors else "none",

@@ -383,8 +383,8 @@ def skew(program, short):
     S = stiffness * (2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
     M = np.eye(2 * n)
     for share in (0.5,) if short else (0.1, 0.3, 1.0):
-        K = np.kron(S, np.eye(2)) + share * stiffness * np.kron(np.eye(n),
-                                                                np.array([[0.0, 1.0], [-1.0, 0.0]]))
+        skew = np.kron(np.eye(n), np.array([[0.0, 1.0], [-1.0, 0.0]]))
+        K = np.kron(S, np.eye(2)) + share * stiffness * skew
         truth = rightmost(M, 0 * M, K).real
         file = program.part("chain", ["u", "v"], M, K, sets={"end": [n]})
         imported = {"chain": {"File": file, "Retained": ["6"]}}

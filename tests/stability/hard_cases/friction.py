@@ -257,8 +257,8 @@ def reversal(program, short):
             for model, more, without in ways:
                 run = program.run("c7", LYING, more, (*without, "Rotary Speed/Constant"))
                 variant = f"{model}, v_r {slip:g} m/s"
-                torque = lambda one: SHEAR * 2 * INERTIA / 2.0 * (one.nodes(THETA_Z)[:, 1] - one.
-                                                                  nodes(THETA_Z)[:, 0])
+                twist = lambda one: one.nodes(THETA_Z)[:, 1] - one.nodes(THETA_Z)[:, 0]
+                torque = lambda one: SHEAR * 2 * INERTIA / 2.0 * twist(one)
 
                 def mirrored():
                     found = torque(run)

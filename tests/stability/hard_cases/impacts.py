@@ -248,8 +248,8 @@ def grazing(program, short):
                 parts_deck(program, "c9", {"mass": file}, settings, Parts=starts, Coupling=stop))
 
             def measure():
-                force = lambda t, y: (y[1], -omega**2 * y[0] + (wall * (-gap - y[0])
-                                                                if y[0] < -gap else 0.0))
+                push = lambda y: wall * (-gap - y) if y < -gap else 0.0
+                force = lambda t, y: (y[1], -omega**2 * y[0] + push(y[0]))
                 exact = solve_ivp(force, (0, end), (amplitude, 0.0), "DOP853", run.time(),
                                   rtol=1e-11, atol=1e-13, max_step=5e-4).y[0]
                 free = amplitude * np.cos(omega * run.time())

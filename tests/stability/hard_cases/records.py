@@ -47,8 +47,8 @@ def interrupted(program, deck, settings, without, after, ranks):
 def farthest(run, whole):
     """Largest difference of the samples over their largest value."""
     worst = 0.0
-    with h5py.File(run.folder / "results.h5", "r") as a, h5py.File(whole.folder / "results.h5",
-                                                                   "r") as b:
+    own, other = (one.folder / "results.h5" for one in (run, whole))
+    with h5py.File(own, "r") as a, h5py.File(other, "r") as b:
         for name in ("transient/time", "transient/displacement", "transient/velocity"):
             x, y = a[name][()], b[name][()]
             if x.shape != y.shape:

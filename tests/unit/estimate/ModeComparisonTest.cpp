@@ -36,6 +36,23 @@ TEST(ModeComparison, WithAllModesShapesAreTheSame) {
   }
 }
 
+/// As many values as there are, and more than the forces between the parts leave finite: those of
+/// infinity, which rounding makes finite, are no modes, and no reason to refuse the others.
+TEST(ModeComparison, ForcesBetweenPartsAddNoDampedModes) {
+  coupling::CouplingOptions dual;
+  dual.assembly = coupling::Assembly::Dual;
+  for (const bool spinning : {false, true}) {
+    const auto parts = samples::loopFrame(3, spinning);
+    const auto full = coupling::couple(parts);
+    for (const char* basis : {"Craig-Bampton", "Rubin", "Dual Craig-Bampton"}) {
+      const auto synthesis = reduced(parts, 1000, basis, dual);
+      const auto modes = estimate::compareDampedModes(full, parts, synthesis, 2 * full.size(), 0.5);
+      EXPECT_EQ(modes.size(), full.size());
+      for (const auto& mode : modes) EXPECT_LT(mode.error, 1e-6) << basis << ", s " << mode.full;
+    }
+  }
+}
+
 /// A mass on a spring and a dashpot in series: x = F / (k i omega T/(1 + i omega T) - omega^2 m).
 TEST(Linearise, FollowsTheStatesOfPointLawsInHarmonicMotions) {
   const double m = 2, k = 300, c = 20;

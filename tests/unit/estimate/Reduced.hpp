@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Parts reduced by Craig and Bampton and coupled.
+/// Parts reduced, by Craig and Bampton unless another basis is named, and coupled.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
+#include <string>
 #include <vector>
 
 #include "coupling/assembly/Assembler.hpp"
@@ -11,13 +12,15 @@
 
 namespace tooljoint::estimate {
 
-/// `modes` fixed-interface modes of each part.
-inline coupling::Synthesis reduced(const std::vector<model::Substructure>& parts, int modes) {
+/// `modes` modes of each part.
+inline coupling::Synthesis reduced(const std::vector<model::Substructure>& parts, int modes,
+                                   const std::string& basis = "Craig-Bampton",
+                                   const coupling::CouplingOptions& coupling = {}) {
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
-  return coupling::synthesise(
-      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+  return coupling::synthesise(parts, *reduction::makeBasis(basis, Teuchos::ParameterList()),
+                              options, coupling);
 }
 
 }  // namespace tooljoint::estimate

@@ -6,6 +6,7 @@
 
 #include "Models.hpp"
 #include "common/Error.hpp"
+#include "common/Interrupt.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
 namespace tooljoint::linalg {
@@ -99,6 +100,20 @@ TEST(QuadraticModes, RepeatedRealValuesAreAllThere) {
     }
     EXPECT_GT(std::abs(modes.values[2 * rigid]), 1.0) << trial;
   }
+}
+
+/// A search for hundreds of modes ends with a signal.
+TEST(QuadraticModes, LongSearchIsInterrupted) {
+  const int n = 110;
+  const Vector stiffness = Vector::LinSpaced(n, 1.0, 9.0), damping = stiffness.cwiseSqrt() / 50.0;
+  const auto diagonal = [](const Vector& d) { return Sparse(Matrix(d.asDiagonal()).sparseView()); };
+  const auto search = [&] {
+    return lowestDampedModes(diagonal(Vector::Ones(n)), diagonal(damping), diagonal(stiffness),
+                             2 * n - 10);
+  };
+  requestInterrupt();
+  EXPECT_THROW(search(), InterruptedError);
+  requestInterrupt(false);
 }
 
 TEST(QuadraticModes, RefusesASingularMassMatrix) {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What signals do to a program that has asked for them.
+#include "common/Interrupt.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace InterruptTest {
+
+using namespace tooljoint;
+
+/// The first SIGTERM sets the flag, one at once after it is ignored, a later one ends what does not
+/// look at the flag.
+TEST(InterruptDeathTest, ALaterTermEndsTheProgram) {
+  EXPECT_EXIT(
+      {
+        installInterruptHandlers();
+        std::raise(SIGTERM);
+        std::raise(SIGTERM);
+        if (!interruptRequested()) std::exit(1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+        std::raise(SIGTERM);
+        std::exit(2);
+      },
+      testing::KilledBySignal(SIGTERM), "");
+}
+
+}  // namespace InterruptTest
