@@ -94,9 +94,8 @@ class Motions(unittest.TestCase):
                                           times, rtol=1e-10, atol=1e-14)
         exact = row @ truth.y[:len(model)]
         # Generalised-alpha is of second order: a quarter of the error with half of the step.
-        errors = [
-            abs(tip_motion(python, step=step) - exact).max() / size for step in (2e-4, 1e-4, 5e-5)
-        ]
+        coarser = (tip_motion(python, step=step) for step in (2e-4, 1e-4))
+        errors = [abs(each - exact).max() / size for each in (*coarser, other)]
         self.assertLess(errors[2], 2e-3, f"errors {errors}")
         for coarse, better in zip(errors, errors[1:]):
             self.assertTrue(3.0 < coarse / better < 5.0, f"errors {errors}: not of second order")
@@ -189,7 +188,7 @@ class Motions(unittest.TestCase):
         tj.point_law("Creep", states=1, start=relaxed, power=energy)(creep)
         given = dict(stiffness=LINEAR,
                      damping=0.1 * LINEAR * END)  # relaxes in a tenth of the motion
-        for integrator, step, same in (("Generalized-alpha", 1e-4, 1e-7), ("RK4", 2e-5, 1e-10)):
+        for integrator, step, same in (("Generalized-alpha", 2e-4, 1e-7), ("RK4", 4e-5, 1e-10)):
             reports, tips = zip(
                 *((motion.report["energy"], np.asarray(motion.at(25, "v")))
                   for motion in (tj.integrate(synthesis(law, push), END, sampling_interval=SAMPLING,
@@ -230,7 +229,7 @@ class Motions(unittest.TestCase):
                 mass.model.add_points(f"link {number}", law, [[1.0]])
             mass.model.set_start([0.0], [1.0])
             return np.asarray(
-                tj.integrate(mass, 1.0, sampling_interval=0.01, step=1e-4).displacement)
+                tj.integrate(mass, 0.3, sampling_interval=0.01, step=1e-4).displacement)
 
         cpp = motion(tj.law("Maxwell", stiffness=LINEAR, damping=0.1 * LINEAR),
                      tj.law("Maxwell", stiffness=2 * LINEAR, damping=0.4 * LINEAR))

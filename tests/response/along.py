@@ -15,11 +15,11 @@ def window():
     text = SHAFT.replace('name="Modes" type="int" value="4"',
                          'name="Modes" type="int" value="24"').replace('"{1}"', '"{1, 2}"')
     pathlib.Path("wide.xml").write_text(text, encoding="utf-8")
-    run("campbell", "wide.xml", "wide")
+    run("campbell", "wide.xml", "wide", "Campbell/Points=5")
     wide, critical = table("wide", "campbell"), table("wide", "crossings")
     low, high = 390.0, 840.0  # Hz: one mode enters and another leaves with the speed
-    run("campbell", "wide.xml", "window", f"Campbell/Lowest Frequency={low} Hz",
-        f"Campbell/Highest Frequency={high} Hz")
+    run("campbell", "wide.xml", "window", "Campbell/Points=5",
+        f"Campbell/Lowest Frequency={low} Hz", f"Campbell/Highest Frequency={high} Hz")
     shown, met = table("window", "campbell"), table("window", "crossings")
     inside = (wide["frequency"] >= low) & (wide["frequency"] <= high) & (np.abs(wide["growth"]) <=
                                                                          np.pi * (high - low))
@@ -32,7 +32,8 @@ def window():
     expect("window: it has critical speeds", np.sum(inside) >= 2)
     close("window: its critical speeds", np.sort(met["speed"]), np.sort(critical["speed"][inside]),
           1e-8)
-    run("campbell", "wide.xml", "target", "Campbell/Target Frequency=900 Hz", "Campbell/Modes=3")
+    run("campbell", "wide.xml", "target", "Campbell/Points=3", "Campbell/Target Frequency=900 Hz",
+        "Campbell/Modes=3")
     near = table("target", "campbell")
     for speed in (0.0, 2000.0):
         all_modes = modes_at(wide, speed)["frequency"]

@@ -43,7 +43,7 @@ def bit():
         'name="Lowest Speed" type="double" value="4"/><Parameter name="Highest Speed"')
     pathlib.Path("states_bit.xml").write_text(
         text[:text.rindex("</ParameterList>")] + loads + law + "</ParameterList>", encoding="utf-8")
-    run("campbell", "states_bit.xml", "states_bit", EACH)
+    run("campbell", "states_bit.xml", "states_bit", EACH, "Campbell/Points=5")
     young, nu, rho = material()
     area, inertia, shear = np.pi * radius**2, np.pi * radius**4 / 4, young / (2 * (1 + nu))
     rows, states, met = table("states_bit",

@@ -167,7 +167,7 @@ def other_ranks():
                       [*LONG, "--set", "Transient/Ranks=Divide"], ranks=(2, 3, 2), tolerance=1e-6)
     # two ranks find its static state to other last digits than one
     options = [
-        "--set", "Transient/End Time=24", "--set", "Transient/Checkpoint Interval=0.4", "--set",
+        "--set", "Transient/End Time=12", "--set", "Transient/Checkpoint Interval=0.4", "--set",
         "Transient/Progress=false", "--set", "Transient/Ranks=Divide"
     ]
     interrupted_twice("string with a law of the bit divided among 2, 4 and 1 ranks",
