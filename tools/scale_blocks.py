@@ -20,7 +20,6 @@ BLOCKS = (8, 4, 2), (24, 6, 3), (40, 10, 5), (56, 14, 7), (80, 20, 10), (116, 29
 MODES, JOINED = 50, 100
 CUT_PARTS, CUT_BLOCKS = 16, ((24, 6, 3), (56, 14, 7), (100, 25, 12), (170, 43, 21))
 CUT_RANKS = 1, 2  # the largest block on two alone
-CUT_CUBE = (54, 54, 54)  # a cube, cut on two ranks
 
 
 def solid(options, counts):
@@ -53,9 +52,8 @@ def block_of(options, counts, joined):
     folder.mkdir(parents=True, exist_ok=True)
     made = folder / "made.txt"
     if not made.exists():
-        size = "--size 0.2 0.2 0.2" if len(set(counts)) == 1 else ""
         text = os.popen(f"{sys.executable} {BLOCK}/make_block.py {' '.join(map(str, counts))} "
-                        f"{size} --joined {joined} --out {folder}/block.h5").read()
+                        f"--joined {joined} --out {folder}/block.h5").read()
         made.write_text(text, encoding="utf-8")
     return folder, *map(
         int,
@@ -87,8 +85,8 @@ def rival(options, folder, count):
     return row
 
 
-def cut_row(options, counts, ranks, beside=True):
-    """A line of the table of cut blocks, `beside` the whole."""
+def cut_row(options, counts, ranks):
+    """A line of the table of cut blocks."""
     folder, dofs, _ = block_of(options, counts, -1)
     text = re.sub(r".*\"Retained\".*\n", "", (BLOCK / "deck.xml").read_text(encoding="utf-8"))
     (folder / "deck.xml").write_text(text, encoding="utf-8")
@@ -106,7 +104,7 @@ def cut_row(options, counts, ranks, beside=True):
         modes = list(csv.DictReader(file))
     estimate = max(float(mode["estimate"]) for mode in modes)
     own = dofs, ranks, seconds(row["wall_s"]), f"{row['memory_mb']:.0f}"
-    whole = rival(options, folder, MODES) if beside else {"hertz": []}
+    whole = rival(options, folder, MODES)
     if len(whole["hertz"]) < MODES:
         return (*own, "", f"{estimate:.1e}", "", "")
     hertz = [float(mode["coupled [Hz]"]) for mode in modes]
@@ -136,13 +134,9 @@ def cuts(options):
         cut_row(options, counts, ranks) for counts in (chosen[:1] if options.short else chosen)
         for ranks in CUT_RANKS if ranks > 1 or counts != CUT_BLOCKS[-1]
     ]
-    said = ""
-    if not options.short and 3 * math.prod(n + 1 for n in CUT_CUBE) <= options.most:
-        lines.append(cut_row(options, CUT_CUBE, 2, beside=False))
-        said = "The last row is a cube. "
-    said += faster_from(lines)
+    said = faster_from(lines)
     if not all(line[-1] for line in lines):
-        said += " Where its columns are empty, the whole\nwas not solved."
+        said += " Where its columns are empty, the memory did not\nhold the whole."
     return chapter(
         options, "Large parts cut into substructures", "The same blocks, clamped at one end, "
         f"without kept dofs: {MODES} coupled modes by `Basis` = `Multilevel` with\n"

@@ -17,6 +17,7 @@
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "model/DofNames.hpp"
 #include "reduction/CollectiveMethod.hpp"
+#include "reduction/MasslessDofs.hpp"
 #include "reduction/methods/WholePart.hpp"
 #include "reduction/project/BasisChecks.hpp"
 #include "reduction/project/Distribution.hpp"
@@ -168,34 +169,6 @@ void refuseLostLoads(const model::Substructure& part) {
                        "Retain or fix the dof, give it mass or stiffness, or remove the load.");
 }
 
-/// Interior dofs without mass follow the others through springs and dampers, a motion of first
-/// order that modes of mass and stiffness do not hold; where C = alpha K in the rows of all of
-/// them, their static answer is exact.
-void warnOfDampedMassless(const model::Substructure& part) {
-  const auto& model = part.model;
-  const auto rowSizes = [](const Sparse& A) {
-    return Vector(A.cwiseAbs() * Vector::Ones(A.cols()));
-  };
-  const Sparse C = model.dampingAt(0.0), K = model.stiffnessAt(0.0);
-  const Vector mass = rowSizes(model.mass), damping = rowSizes(C);
-  std::vector<int> damped;
-  for (const int i : part.interior())
-    if (mass[i] == 0.0 && damping[i] > 0.0) damped.push_back(i);
-  if (damped.empty()) return;
-  const int first = damped.front();
-  const double stiffness = K.coeff(first, first);
-  const double alpha = stiffness != 0.0 ? C.coeff(first, first) / stiffness : 0.0;
-  constexpr double rounding = 1e-12;
-  const Vector apart = rowSizes(Sparse(C - alpha * K));
-  if (std::all_of(damped.begin(), damped.end(),
-                  [&](int i) { return apart[i] <= rounding * damping[i]; }))
-    return;
-  log::warn(
-      "Part \"" + part.name + "\" has " + std::to_string(damped.size()) +
-      " interior dofs with damping but no mass (first " + model::dofName(model, first) +
-      "). No basis holds how they creep, not even all modes. Retain them, or give them mass.");
-}
-
 /// checkPart for the first of identical parts; of the others what may differ from it.
 void checkParts(const std::vector<model::Substructure>& parts, const std::vector<int>& classes) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -279,7 +252,10 @@ class Team {
     exchange();
     remember();
     for (std::size_t p = 0; p < parts_.size(); ++p)
-      if (first(p) && !isWhole(cores_[p]->basis)) warnOfDampedMassless(parts_[p]);
+      if (first(p) && !isWhole(cores_[p]->basis)) {
+        warnOfDampedMassless(parts_[p]);
+        warnOfUnsymmetricMassless(parts_[p]);
+      }
     std::vector<ReducedSubstructure> reduced;
     std::map<std::size_t, ReducedModels> models;
     parallel::agree([&] {

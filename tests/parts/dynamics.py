@@ -65,7 +65,8 @@ def floating_beams():
 
 
 def creeping_dofs():
-    """Massless interior dofs with dampers are in no basis, and that is said."""
+    """Massless interior dofs with dampers, or that follow through an unsymmetric stiffness, are in
+    no basis, and that is said."""
     deck = bars("creep",
                 Reduction={"Basis": "Craig-Bampton", "Mode Selection": {"All Modes": True}})
     part = json.loads(pathlib.Path("bar10.json").read_text(encoding="utf-8"))
@@ -85,6 +86,15 @@ def creeping_dofs():
         "damping in proportion to the stiffness is none of it", full.returncode == 0
         and done.returncode == 0
         and "with damping but no mass" not in " ".join(done.stderr.split()), done.stderr[-300:])
+    expect("no word of a stiffness that is symmetric", "not symmetric" not in done.stderr,
+           done.stderr[-300:])
+    part["stiffness"][4][5] *= 0.5
+    part["damping"] = np.zeros((11, 11)).tolist()
+    pathlib.Path("bar10.json").write_text(json.dumps(part), encoding="utf-8")
+    words = "1 interior dofs without mass whose stiffness is not symmetric (first u of node 5"
+    said = " ".join(tooljoint("run", deck, "--output", "creep").stderr.split())
+    expect("dofs without mass that follow through an unsymmetric stiffness are warned of", words
+           in said, said[-500:])
 
 
 def unstable_equilibria():
