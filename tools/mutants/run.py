@@ -189,6 +189,11 @@ class Tree:
         environment.pop("GTEST_FILTER", None)
         if filters:
             environment["GTEST_FILTER"] = filters
+        # analyses go on with the rows that another mutant has left
+        scratch = self.build_folder / "tests/scratch" / test
+        if scratch.is_dir():
+            shutil.rmtree(scratch)
+            scratch.mkdir()
         done = subprocess.run(
             ["ctest", "--test-dir", self.build_folder, "-R", f"^{re.escape(test)}$", "--verbose"],
             env=environment, capture_output=True, text=True, errors="replace")
