@@ -15,20 +15,25 @@ def springs_in_a_row(count, stiffness):
     return np.diag([0.5, *[1.0] * (count - 2), 0.5]), K
 
 
-def bars(name, parts=None, **lists):
-    """Two bars of 10 springs of 1e6 N/m in a row, held on the left; the second one's free end is
-    retained."""
-    count = 11
-    M, K = springs_in_a_row(count, 1e6)
-    pathlib.Path("bar10.json").write_text(
+def write_bar(file, M, K, **more):
+    """A bar of springs in a row as a part with sets of both ends; `more` matrices by name."""
+    count = len(M)
+    pathlib.Path(file).write_text(
         json.dumps({
             "format": "tooljoint part 1",
             "components": ["u"],
             "dofs": [[i + 1, "u"] for i in range(count)],
             "mass": M.tolist(),
             "stiffness": K.tolist(),
+            **{key: matrix.tolist() for key, matrix in more.items()},
             "interfaces": {"left": [[1, "u"]], "right": [[count, "u"]]},
         }), encoding="utf-8")
+
+
+def bars(name, parts=None, **lists):
+    """Two bars of 10 springs of 1e6 N/m in a row, held on the left; the second one's free end is
+    retained."""
+    write_bar("bar10.json", *springs_in_a_row(11, 1e6))
     imported = {
         "a": {"File": "bar10.json", "Fixed": ["left"]},
         "b": {"File": "bar10.json", "Retained": ["right"]},

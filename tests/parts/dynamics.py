@@ -9,7 +9,7 @@ import pathlib
 import h5py
 import numpy as np
 
-from bars import bars, springs_in_a_row
+from bars import bars, springs_in_a_row, write_bar
 from checks import expect, tooljoint
 from frequencies import ROOT
 from program import parameter_list
@@ -152,18 +152,8 @@ def unstable_equilibria():
 def motion_tolerance_of_fast_parts():
     """Modes chosen by the motion keep their tolerance where the samples of the results are far
     apart: here 5 ms, for vibrations of up to 1 kHz."""
-    count = 31
-    M, K = springs_in_a_row(count, 1e7)
-    pathlib.Path("fast.json").write_text(
-        json.dumps({
-            "format": "tooljoint part 1",
-            "components": ["u"],
-            "dofs": [[i + 1, "u"] for i in range(count)],
-            "mass": M.tolist(),
-            "damping": (2e-6 * K + 2 * M).tolist(),
-            "stiffness": K.tolist(),
-            "interfaces": {"left": [[1, "u"]], "right": [[count, "u"]]},
-        }), encoding="utf-8")
+    M, K = springs_in_a_row(31, 1e7)
+    write_bar("fast.json", M, K, damping=2e-6 * K + 2 * M)
     parts = {
         "Imported": {"a": {"File": "fast.json", "Fixed": ["left"]}, "b": {"File": "fast.json"}},
         "Joints": ["a:right = b:left"],
