@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A real sparse matrix times a complex vector or complex columns.
+/// A real matrix, sparse or dense, times a complex vector or complex columns.
 #pragma once
 
 #include <complex>
@@ -11,9 +11,9 @@ namespace tooljoint::linalg {
 
 /// A x, by two real products: a product of mixed types would copy A as complex. As many columns as
 /// x has.
-template <class Columns>
+template <class Real2D, class Columns>
 Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Columns::ColsAtCompileTime> times(
-    const Sparse& A, const Eigen::MatrixBase<Columns>& x) {
+    const Real2D& A, const Eigen::MatrixBase<Columns>& x) {
   using Real = Eigen::Matrix<double, Eigen::Dynamic, Columns::ColsAtCompileTime>;
   Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Columns::ColsAtCompileTime> y(A.rows(),
                                                                                     x.cols());

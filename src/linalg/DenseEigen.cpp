@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "common/Error.hpp"
+#include "linalg/ComplexProduct.hpp"
 #include "linalg/DenseDecompositions.hpp"
 #include "linalg/GeneralEigen.hpp"
 #include "linalg/Scientific.hpp"
@@ -54,14 +55,6 @@ bool comesFirst(const std::complex<double>& a, const std::complex<double>& b, do
 /// this much; refinements of one that has more.
 constexpr double mostResidual = 1e-8;
 constexpr int mostIterations = 3;
-
-/// A x, by two real products: one of mixed types would copy A as complex.
-Eigen::VectorXcd times(const Matrix& A, const Eigen::VectorXcd& x) {
-  Eigen::VectorXcd y(A.rows());
-  y.real() = A * Vector(x.real());
-  y.imag() = A * Vector(x.imag());
-  return y;
-}
 
 struct QuadraticPencil {
   QuadraticPencil(const Matrix& mass, const Matrix& damping, const Matrix& stiffness)

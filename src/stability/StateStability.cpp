@@ -21,6 +21,7 @@
 #include "coupling/CoupledModes.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "estimate/ModeComparison.hpp"
+#include "linalg/ComplexProduct.hpp"
 #include "linalg/DynamicStiffness.hpp"
 #include "linalg/trilinos/DividedModes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
@@ -258,7 +259,7 @@ class Release {
 bool isRigidMotion(const estimate::Linearised& tangent, const linalg::DampedMode& mode) {
   const Vector size = mode.shape.cwiseAbs();
   const Sparse absolute = tangent.stiffness.cwiseAbs();
-  return std::norm(mode.s) * std::abs(mode.shape.dot(tangent.mass.cast<Complex>() * mode.shape)) <=
+  return std::norm(mode.s) * std::abs(mode.shape.dot(linalg::times(tangent.mass, mode.shape))) <=
          linalg::roundingOf(tangent.stiffness) * size.dot(absolute * size);
 }
 

@@ -116,10 +116,11 @@ int finiteValues(const ScaledPencil& pencil) {
       fastest = std::max({fastest, std::sqrt(k[i] / m[i]), c[i] / m[i]});
     else if (c[i] > 0.0)
       fastest = std::max(fastest, k[i] / c[i]);
-  const auto size = [&](double s) { return DynamicStiffness(pencil.M, pencil.C, pencil.K, s); };
+  if (!(fastest > 0.0)) return 2 * n;
   const double far = beyondAll * fastest;
-  const auto once = size(far), twice = size(2.0 * far);
-  if (!(fastest > 0.0) || once.singular() || twice.singular()) return 2 * n;
+  const DynamicStiffness once(pencil.M, pencil.C, pencil.K, far),
+      twice(pencil.M, pencil.C, pencil.K, 2.0 * far);
+  if (once.singular() || twice.singular()) return 2 * n;
   return static_cast<int>(
       std::lround((twice.logDeterminant() - once.logDeterminant()) / std::log(2.0)));
 }

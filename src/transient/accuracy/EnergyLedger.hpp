@@ -2,8 +2,8 @@
 /// \file
 /// Where the energy went: kinetic + strain + contact energy at the end equals what was there at the
 /// start plus the work of loads and drive, minus every dissipation; what is missing is the
-/// numerical dissipation of the integrator and the error of these sums, which are trapezoidal over
-/// the steps.
+/// numerical dissipation of the integrator and the error of these sums: trapezoidal over the steps,
+/// of point laws by Gauss' rule (PointBatch::meanPower()).
 #pragma once
 
 #include <string>
