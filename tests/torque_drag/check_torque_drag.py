@@ -208,7 +208,8 @@ def grouped():
              float(one["surface_torque"]), 1e-12)
     joints = {
         row["operation"]: float(row["surface_torque"])
-        for row in run("stands", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None")
+        for row in run("stands", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None",
+                       "Torque and Drag/Yield Strength=1e14")
     }["Rotate off bottom"]
     turned = {row["operation"]: float(row["surface_torque"]) for row in found[1]
               }["Rotate off bottom"]

@@ -33,13 +33,17 @@ std::string text(double value, const char* usual, int digits) {
   const deck::PrintedUnit unit(usual);
   return std::isfinite(value) ? text(unit(value), digits) + " " + unit.name() : "-";
 }
+/// A margin; what is beyond any load has no digits that say something.
+std::string inColumn(const Margin& margin) {
+  return std::isfinite(margin.factor) && margin.factor > 999.0 ? ">999" : text(margin.factor, 2);
+}
 
 void print(const TorqueDragRow& row) {
   log::info(fmt::format("{:<18}{:>13}{:>15}{:>9}{:>14}{:>8}{:>8}{:>8}", row.operation,
                         text(row.hookLoad, "kN", 1), text(row.surfaceTorque, "kN m", 2),
                         text(row.twist / constants::twoPi, 2),
-                        text(row.largestSideForce, "kN/m", 2), text(row.yield.factor, 2),
-                        text(row.sinusoidal.factor, 2), text(row.helical.factor, 2)));
+                        text(row.largestSideForce, "kN/m", 2), inColumn(row.yield),
+                        inColumn(row.sinusoidal), inColumn(row.helical)));
   if (row.lockUpDepth >= 0.0)
     log::warn(
         fmt::format("{} with the bit at {}: the string locks up at {}. No force from the surface "
@@ -88,7 +92,7 @@ void printStiff(const Scene& scene, const TorqueDragProfile& profile,
       "{:<18}{:>13}{:>9}{:>15}{:>9}{:>9}{:>14}{:>8}", row.operation, text(hookLoad, "kN", 1),
       beside(hookLoad, row.hookLoad), text(stiff.surfaceTorque, "kN m", 2),
       beside(stiff.surfaceTorque, row.surfaceTorque), text(stiff.twist / constants::twoPi, 2),
-      text(largestContact(stiff).factor, "kN", 2), text(stiff.yield.factor, 2)));
+      text(largestContact(stiff).factor, "kN", 2), inColumn(stiff.yield)));
   if (stiff.torqueDefect > worthAWarning && prestressRemark(scene).empty())
     log::warn(
         fmt::format("{} with the bit at {}: the torque of the stiff string is out of balance by "
