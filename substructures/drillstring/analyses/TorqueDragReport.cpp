@@ -63,16 +63,22 @@ std::string beside(double stiff, double soft) {
   return (text == "-0.0" || text == "+0.0" ? "0.0" : text) + " %";
 }
 
+/// Why there is no buckled state, and what may help: nothing where the soft string locks up.
+std::string withAdvice(const std::string& why, const TorqueDragRow& row, const StiffLoads& stiff) {
+  return row.lockUpDepth >= 0.0 || stiff.advice.empty() ? why : why + " " + stiff.advice;
+}
+
 /// Why the stiff string has no result, with what the soft one shows of it.
 std::string reason(const TorqueDragRow& row, const StiffLoads& stiff) {
+  const std::string failure = withAdvice(stiff.failure, row, stiff);
   const auto buckled = [&](const Margin& margin, const char* limit) {
     return fmt::format("Its compression at {} is {:.1f} times the {} limit (soft string). {}",
-                       text(margin.depth, "m", 0), 1.0 / margin.factor, limit, stiff.failure);
+                       text(margin.depth, "m", 0), 1.0 / margin.factor, limit, failure);
   };
-  if (row.lockUpDepth >= 0.0) return "The soft string locks up. " + stiff.failure;
+  if (row.lockUpDepth >= 0.0) return "The soft string locks up. " + failure;
   if (row.helical.factor < 1.0) return buckled(row.helical, "helical");
   if (row.sinusoidal.factor < 1.0) return buckled(row.sinusoidal, "sinusoidal");
-  return stiff.failure;
+  return failure;
 }
 
 void printStiff(const Scene& scene, const TorqueDragProfile& profile,
@@ -121,7 +127,7 @@ void warnOfBuckling(const std::vector<TorqueDragProfile>& profiles) {
         "{} of {} states of the stiff string are unstable ({} with the bit at {} first): there its "
         "contact and torque are larger than these. {}",
         unstable, all, first->row.operation, text(first->row.bit, "m", 0),
-        first->stiff->unsettled));
+        withAdvice(first->stiff->unsettled, first->row, *first->stiff)));
 }
 
 /// A part of the string whose strength nothing gives has no margin to yield.
