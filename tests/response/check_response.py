@@ -352,7 +352,8 @@ def walls():
 
 
 def turning():
-    """A response at 0 rpm of a shaft that turns is warned of, one at a given speed is not."""
+    """A response at 0 rpm of a shaft that turns is warned of, one at a given speed is not. Along
+    the shaft nothing bends, and no moment is said."""
     loads = lists("Loads", lists("middle", values(Node=21, Component="u")))
     response = lists(
         "Response",
@@ -360,11 +361,14 @@ def turning():
         lists("Outputs", lists("middle", values(Node=21, Component="u"))))
     pathlib.Path("still.xml").write_text(
         SHAFT[:SHAFT.rindex("</ParameterList>")] + response + "</ParameterList>", encoding="utf-8")
-    for name, speed in (("still", []), ("turning", ["Response/Rotary Speed=120 rpm"])):
+    along = [f"Response/{role}/middle/Component=w" for role in ("Loads", "Outputs")]
+    for name, speed in (("still", []), ("turning", ["Response/Rotary Speed=120 rpm", *along])):
         done = run("response", "still.xml", name, *speed)
         expect(f"{name}: a response at 0 rpm of a shaft that turns is warned of",
                ("is that of 0 rpm" in " ".join(
                    (done.stdout + done.stderr).split())) == (not speed), done.stdout[-600:])
+        expect(f"{name}: the bending moment is said where there is one",
+               ("bending moment" in done.stdout) == (name == "still"), done.stdout[-600:])
 
 
 def critical_speeds(reduced, settings):
