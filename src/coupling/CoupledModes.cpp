@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/report/StageTimes.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "model/DofNames.hpp"
@@ -34,13 +35,19 @@ Sparse normalStiffness(const model::SecondOrderModel& model, std::size_t first) 
       smooth.pointStiffness(0.0, model.initialDisplacement, model.initialVelocity));
 }
 
-Sparse undampedStiffness(const model::SecondOrderModel& model) {
+model::SharedSparse undampedStiffness(const model::SecondOrderModel& model) {
+  if (model.points.empty() && model.stiffness.size() == 1) {
+    const auto& only = model.stiffness.front();
+    if (model.laws[static_cast<std::size_t>(only.law)].isOne() &&
+        linalg::isExactlySymmetric(only.matrix))
+      return only.matrix;
+  }
   return reduction::symmetricPart(model.stiffnessAt(0.0)) + normalStiffness(model);
 }
 
 linalg::EigenPairs lowestModes(const model::SecondOrderModel& model, int count) {
   const Stage stage("undamped modes");
-  const Sparse K = undampedStiffness(model);
+  const model::SharedSparse K = undampedStiffness(model);
   const Sparse M = reduction::symmetricPart(model.mass);
   linalg::EigenOptions options;
   options.name = model::namer(model);

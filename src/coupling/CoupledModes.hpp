@@ -14,8 +14,8 @@ namespace tooljoint::coupling {
 /// Symmetric part of the stiffness at t = 0 about the initial state: closed contacts linear,
 /// without friction. Friction couples the normal force of a sliding contact into the tangential
 /// direction and not vice versa, so the symmetric part with friction would be indefinite for any
-/// structure.
-Sparse undampedStiffness(const model::SecondOrderModel& model);
+/// structure. A single constant, symmetric term is returned as it is, without a copy.
+model::SharedSparse undampedStiffness(const model::SecondOrderModel& model);
 
 /// What the point sets from number `first` on contribute to it.
 Sparse normalStiffness(const model::SecondOrderModel& model, std::size_t first = 0);

@@ -56,22 +56,22 @@ Truncated truncatedPart(const model::Substructure& part, const reduction::Basis&
   const Columns columns(basis);
   const auto& interior = basis.partition.interior;
   if (columns.modes.size() >= interior.size()) return {};
-  const Sparse A =
+  const model::SharedSparse A =
       undampedStiffness(part.model) - bound * reduction::symmetricPart(part.model.mass);
-  const auto inner = [&] { return reduction::block(A, interior, interior); };
+  const model::SharedSparse inner = reduction::interiorOf(basis.partition, A);
   const auto rows = [&](const Sparse& all, const std::vector<int>& wanted) {
     return Matrix(reduction::block(all, interior, wanted));
   };
   const Matrix W = rows(basis.vectors, columns.modes);
-  const Matrix half = W.transpose() * (inner() * W), projected = 0.5 * (half + half.transpose());
+  const Matrix half = W.transpose() * (inner * W), projected = 0.5 * (half + half.transpose());
   Truncated result;
-  result.negative = counted(inner(), bound, ranks);
+  result.negative = counted(inner, bound, ranks);
   if (W.cols() > 0) result.negative -= counted(Sparse(projected.sparseView()), bound);
   if (columns.others.empty()) return result;
   const Matrix r = rows(Sparse(A * basis.vectors), columns.others);
   linalg::DirectSolverOptions options;
   options.ranks = ranks;
-  Matrix flexible = linalg::DirectSolver(inner(), linalg::DofNamer(), options).solve(r);
+  Matrix flexible = linalg::DirectSolver(inner, linalg::DofNamer(), options).solve(r);
   if (W.cols() > 0) flexible -= W * projected.partialPivLu().solve(W.transpose() * r);
   const Matrix correction = r.transpose() * flexible;
   result.correction = 0.5 * (correction + correction.transpose());

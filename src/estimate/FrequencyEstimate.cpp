@@ -50,7 +50,7 @@ struct Share {
 std::vector<Share> shares(const model::Substructure& part, const reduction::Basis& basis,
                           const Matrix& shapes, const Vector& eigenvalues, parallel::Ranks ranks) {
   const Stage stage("errors of the coupled modes");
-  const Sparse K = coupling::undampedStiffness(part.model);
+  const model::SharedSparse K = coupling::undampedStiffness(part.model);
   const ResidualFlexibility flexibility(part, basis, K, ranks);
   const Matrix inertia = part.model.mass * shapes;
   const Matrix residual = K * shapes - inertia * eigenvalues.asDiagonal();

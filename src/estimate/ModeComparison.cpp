@@ -186,8 +186,8 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full,
                                          const std::vector<model::Substructure>& parts,
                                          const coupling::Synthesis& synthesis,
                                          const std::vector<Sparse>& maps) {
-  const Sparse mass = reduction::symmetricPart(full.mass),
-               stiffness = coupling::undampedStiffness(full);
+  const Sparse mass = reduction::symmetricPart(full.mass);
+  const model::SharedSparse stiffness = coupling::undampedStiffness(full);
   const auto& coupled = synthesis.coupled.model;
   const int looked = std::min(exact.count() + moreModes, coupled.size());
   const auto pairs = coupling::lowestPhysicalModes(coupled, looked);

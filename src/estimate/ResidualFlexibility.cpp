@@ -39,7 +39,8 @@ double lowestVibration(const reduction::Basis& basis) {
 }  // namespace
 
 ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
-                                         const reduction::Basis& basis, const Sparse& stiffness,
+                                         const reduction::Basis& basis,
+                                         const model::SharedSparse& stiffness,
                                          parallel::Ranks ranks)
     : interior_(basis.partition.interior) {
   const int size = static_cast<int>(interior_.size());
@@ -49,8 +50,8 @@ ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
       columns.push_back(static_cast<int>(basis.partition.boundary.size()) + k);
   truncated_ = std::max(0, size - static_cast<int>(columns.size()));
   if (truncated_ == 0) return;
-  stiffness_ = reduction::block(stiffness, interior_, interior_);
-  mass_ = reduction::block(part.model.mass, interior_, interior_);
+  stiffness_ = reduction::interiorOf(basis.partition, stiffness);
+  mass_ = reduction::interiorOf(basis.partition, part.model.mass);
   modes_ = reduction::block(basis.vectors, interior_, columns);
   factor(part, basis, ranks);
 }

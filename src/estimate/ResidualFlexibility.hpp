@@ -24,7 +24,8 @@ class ResidualFlexibility {
   /// \param ranks All: they divide the factors of a large part, and solve together
   /// Throws ModelError naming the part when its interior is a mechanism but for modes of the basis.
   ResidualFlexibility(const model::Substructure& part, const reduction::Basis& basis,
-                      const Sparse& stiffness, parallel::Ranks ranks = parallel::Ranks::Own);
+                      const model::SharedSparse& stiffness,
+                      parallel::Ranks ranks = parallel::Ranks::Own);
 
   /// Positions in the part of the rows of all vectors here.
   const std::vector<int>& interior() const { return interior_; }
@@ -61,8 +62,7 @@ class ResidualFlexibility {
 
   std::vector<int> interior_;
   int truncated_ = 0;
-  Sparse mass_;
-  Sparse stiffness_;
+  model::SharedSparse mass_, stiffness_;  ///< M_II, K_II
   std::unique_ptr<linalg::DirectSolver> solver_;
   Matrix modes_;                 ///< W
   linalg::DenseLu modalFactor_;  ///< of W' K_II W

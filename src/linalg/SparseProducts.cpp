@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 #include "common/Index.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
@@ -103,6 +104,26 @@ bool isZero(const Sparse& A) { return A.cwiseAbs().sum() == 0.0; }
 
 Matrix product(const Sparse& A, const Matrix& X) {
   return multiplied(A, X, [](double value, const auto& x) { return value * x; });
+}
+
+bool isExactlySymmetric(const Sparse& A) {
+  if (A.rows() != A.cols() || !A.isCompressed()) return false;
+  const int *begin = A.outerIndexPtr(), *column = A.innerIndexPtr();
+  const double* value = A.valuePtr();
+  // Entries (i, j) with j < i, row by row, are those right of the diagonal of row j in turn.
+  std::vector<int> next(begin, begin + A.rows());
+  for (int i = 0; i < A.rows(); ++i) {
+    int k = begin[i];
+    for (; k < begin[i + 1] && column[k] < i; ++k) {
+      const int j = column[k], mirrored = next[at(j)]++;
+      if (mirrored == begin[j + 1] || column[mirrored] != i || value[mirrored] != value[k])
+        return false;
+    }
+    next[at(i)] = k < begin[i + 1] && column[k] == i ? k + 1 : k;
+  }
+  for (int i = 0; i < A.rows(); ++i)
+    if (next[at(i)] != begin[i + 1]) return false;
+  return true;
 }
 
 Matrix absoluteProduct(const Sparse& A, const Matrix& X) {

@@ -10,6 +10,8 @@ namespace tooljoint::linalg {
 
 /// All entries are zero, or there are none.
 bool isZero(const Sparse& A);
+/// a_ij = a_ji for all entries, to the last bit.
+bool isExactlySymmetric(const Sparse& A);
 /// A X, with the sums of each row in the order of its entries, as A * X.
 Matrix product(const Sparse& A, const Matrix& X);
 /// |A| |X|, by absolute values of the entries.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <malloc.h>
 #include <string>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -48,6 +49,7 @@ std::optional<long> freeOfGroup() {
 }  // namespace
 
 std::optional<long> freeMegabytes() {
+  malloc_trim(0);
   std::optional<long> least;
   for (const auto& free : {freeOfMachine(), freeAddresses(), freeOfGroup()})
     if (free) least = least ? std::min(*least, *free) : *free;

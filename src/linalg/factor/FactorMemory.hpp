@@ -17,7 +17,8 @@ struct MemoryError : ModelError {
 
 /// Memory that this process may still take [MB]: the least of what Linux says is free, what the
 /// limit of its address space leaves (ulimit -v), and what its control group leaves; none where
-/// nothing tells.
+/// nothing tells. Memory that was freed, and that the C library keeps for later, is given back
+/// before.
 std::optional<long> freeMegabytes();
 
 /// Throws MemoryError: the factors of a matrix with so many rows need more than there is.

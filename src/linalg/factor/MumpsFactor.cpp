@@ -189,24 +189,4 @@ bool isDefinite(const Sparse& A, double tolerance) {
   return MumpsFactor().factor(lowered, MumpsFactor::Symmetry::Definite);
 }
 
-bool isExactlySymmetric(const Sparse& A) {
-  if (A.rows() != A.cols() || !A.isCompressed()) return false;
-  const int *begin = A.outerIndexPtr(), *column = A.innerIndexPtr();
-  const double* value = A.valuePtr();
-  // Entries (i, j) with j < i, row by row, are those right of the diagonal of row j in turn.
-  std::vector<int> next(begin, begin + A.rows());
-  for (int i = 0; i < A.rows(); ++i) {
-    int k = begin[i];
-    for (; k < begin[i + 1] && column[k] < i; ++k) {
-      const int j = column[k], mirrored = next[at(j)]++;
-      if (mirrored == begin[j + 1] || column[mirrored] != i || value[mirrored] != value[k])
-        return false;
-    }
-    next[at(i)] = k < begin[i + 1] && column[k] == i ? k + 1 : k;
-  }
-  for (int i = 0; i < A.rows(); ++i)
-    if (next[at(i)] != begin[i + 1]) return false;
-  return true;
-}
-
 }  // namespace tooljoint::linalg

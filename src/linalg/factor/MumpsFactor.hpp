@@ -50,7 +50,4 @@ bool suitsMumps(const Sparse& A);
 /// A is below that part of its diagonal.
 bool isDefinite(const Sparse& A, double tolerance);
 
-/// a_ij = a_ji for all entries, to the last bit.
-bool isExactlySymmetric(const Sparse& A);
-
 }  // namespace tooljoint::linalg

@@ -6,6 +6,7 @@
 
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "linalg/factor/FactorMemory.hpp"
 #include "linalg/factor/MumpsFactor.hpp"
 #include "model/DofNames.hpp"
@@ -34,12 +35,6 @@ class Lazy {
 /// A stiffness whose skew part is below this, relative to its diagonal, is symmetric but for the
 /// rounding of its assembly.
 constexpr double roundingOfAssembly = 1e-14;
-
-/// A_II; A itself where there is no boundary.
-model::SharedSparse interiorOf(const Partition& partition, const model::SharedSparse& A) {
-  if (sizeOf(partition.interior) == partition.size) return A;
-  return block(A, partition.interior, partition.interior);
-}
 
 }  // namespace
 

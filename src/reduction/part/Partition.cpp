@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "model/DofNames.hpp"
 
 namespace tooljoint::reduction {
@@ -136,6 +138,7 @@ Sparse constantStiffness(const model::SecondOrderModel& model) {
 }
 
 Sparse symmetricPart(const Sparse& A) {
+  if (linalg::isExactlySymmetric(A)) return A;
   const Sparse transposed = A.transpose();
   return 0.5 * (A + transposed);
 }
@@ -161,12 +164,30 @@ bool nearlySymmetric(const Sparse& A, double tolerance) {
 
 Sparse block(const Sparse& A, const std::vector<int>& rows, const std::vector<int>& columns) {
   const std::vector<int> columnIndex = inverse(columns, static_cast<int>(A.cols()));
-  Triplets entries;
-  for (int i = 0; i < sizeOf(rows); ++i)
+  const auto forEachKept = [&](int i, const auto& visit) {
     forEachInRow(A, rows[at(i)], [&](int column, double value) {
-      if (const int j = columnIndex[at(column)]; j >= 0) entries.emplace_back(i, j, value);
+      if (const int j = columnIndex[at(column)]; j >= 0) visit(j, value);
     });
-  return sparse(sizeOf(rows), sizeOf(columns), entries);
+  };
+  Eigen::Index entries = 0;
+  for (int i = 0; i < sizeOf(rows); ++i) forEachKept(i, [&](int, double) { ++entries; });
+  Sparse found(sizeOf(rows), sizeOf(columns));
+  found.reserve(entries);
+  std::vector<std::pair<int, double>> row;
+  for (int i = 0; i < sizeOf(rows); ++i) {
+    row.clear();
+    forEachKept(i, [&](int j, double value) { row.emplace_back(j, value); });
+    std::sort(row.begin(), row.end());
+    found.startVec(i);
+    for (const auto& [j, value] : row) found.insertBack(i, j) = value;
+  }
+  found.finalize();
+  return found;
+}
+
+model::SharedSparse interiorOf(const Partition& partition, const model::SharedSparse& A) {
+  if (sizeOf(partition.interior) == partition.size) return A;
+  return block(A, partition.interior, partition.interior);
 }
 
 }  // namespace tooljoint::reduction

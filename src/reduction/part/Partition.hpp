@@ -55,4 +55,7 @@ double largestEntry(const Sparse& A);
 /// A(rows, columns) as a new sparse matrix; both lists without repetition.
 Sparse block(const Sparse& A, const std::vector<int>& rows, const std::vector<int>& columns);
 
+/// A_II; A itself where there is no boundary.
+model::SharedSparse interiorOf(const Partition& partition, const model::SharedSparse& A);
+
 }  // namespace tooljoint::reduction

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes docs/hard-cases.md, its figures and its tables from the rows of the cases."""
+import collections
 import csv
 import math
 import pathlib
@@ -12,7 +13,7 @@ from rows import CASES
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
 import plots  # noqa: E402
 
-ORDER = ("met", "warned", "off", "refused", "WRONG", "open")
+ORDER = ("met", "warned", "off", "refused", "WRONG")
 PARTS = {
     "short": "This is the short version: a few points of the range, near its easy end.",
     "stopped": "The case was stopped before its end: the last points of the range are not there."
@@ -35,8 +36,9 @@ not and the run says so (error up to 50 %), *off* where nothing says so and the 
 is below 20 %, *refused* where the program ends with exit code 2, 3 or 4 and a sentence instead of a
 number, and WRONG where none of these holds. The command fails when a row is WRONG, or when a row
 that must be met is refused. Each chapter shows the rows that are not met and names the table of all
-its rows. Costs are CPU times over those of the easy variant that is named; counters are those of
-`summary.json`, per step where they grow with the steps. `ctest -R hard_cases` runs a short version.
+its rows. The overview counts rows. Costs are CPU times over those of the easy variant that is
+named; counters are those of `summary.json` over its steps. `ctest -R hard_cases` runs a short
+version.
 
 """
 
@@ -69,21 +71,16 @@ def span(values, digits=2):
     return low if low == high else f"{low} to {high}"
 
 
-def happened(rows):
-    counts = {verdict: [row for row in rows if row.verdict == verdict] for verdict in ORDER}
-    parts = []
-    for verdict, found in counts.items():
-        if not found:
-            continue
-        where = ("" if verdict in ("met", "open") else " (" +
-                 "; ".join(dict.fromkeys(f"{row.variant}: {row.parameter}" for row in found[:4])) +
-                 ("; ..." if len(found) > 4 else "") + ")")
-        parts.append(f"{len(found)} {verdict}{where}")
-    return ", ".join(parts)
+def overview_line(case, rows):
+    """A case, how many of its rows have each verdict, and what it costs."""
+    anchor = re.sub(r"[^a-z0-9 -]", "", f"{case.number}. {case.title}".lower()).replace(" ", "-")
+    counts = [sum(row.verdict == verdict for row in rows) for verdict in ORDER]
+    return line((case.number, f"[{case.title}](#{anchor})", *(count or "" for count in counts),
+                 span([row.cost for row in rows])))
 
 
 def strategies(rows):
-    """Iterations and factorisations per step, and the totals of what happens now and then."""
+    """A sentence: iterations, factorisations and what else happens, per step."""
     used = [row.counters for row in rows if row.counters.get("steps")]
     texts = []
     for name in dict.fromkeys(key for counters in used for key in counters):
@@ -92,7 +89,7 @@ def strategies(rows):
         rates = [(counters.get(name) or 0) / counters["steps"] for counters in used]
         if any(rates):
             texts.append(f"{name.replace('_', ' ')} {span(rates)}")
-    return "per step: " + ", ".join(texts) if texts else ""
+    return "Per step: " + ", ".join(texts) + "." if texts else ""
 
 
 def number(value):
@@ -106,8 +103,9 @@ def cells_of(row):
             row.verdict, number(row.cost), without_folders(row.note))
 
 
-def chapter(case, rows, drawn, part):
-    """Of rows of texts: the figures, the rows that are not met, and where all rows are."""
+def chapter(case, rows, drawn, part, counters):
+    """Of rows of texts: the figures, the rows that are not met, where all rows are, and the
+    sentence of the counters."""
     unmet = [(*row[:-1], shortened(row[-1])) for row in rows if row[VERDICT] != "met"]
     keep = [i for i in range(len(COLUMNS)) if i < 2 or any(row[i] != "" for row in unmet)]
     pictures = "".join(f"\n![{title}](figures/hard_{name}.svg)\n" for name, title in drawn)
@@ -117,11 +115,22 @@ def chapter(case, rows, drawn, part):
             f"{case.sweep}." + (f" Easy variant: {case.easy}." if case.easy else "") +
             (f" {PARTS[part]}" if part else "") + "\n" + pictures + f"\n{said}\n" +
             ("\n" + table([COLUMNS[i] for i in keep], [[row[i] for i in keep]
-                                                       for row in unmet]) if unmet else ""))
+                                                       for row in unmet]) if unmet else "") +
+            (f"\n{counters}\n" if counters else ""))
 
 
 def csv_name(case):
     return f"hard_{case.number:02d}.csv"
+
+
+def in_all(folder, cases):
+    """A sentence: how many rows of the tables of these cases have each verdict."""
+    counts = collections.Counter()
+    for case in cases:
+        with open(folder / csv_name(case), newline="", encoding="utf-8") as table_of_case:
+            counts.update(row[VERDICT] for row in list(csv.reader(table_of_case))[1:])
+    each = ", ".join(f"{counts[verdict]} {verdict}" for verdict in ORDER if counts[verdict])
+    return f"{sum(counts.values())} rows in all: {each}."
 
 
 def tabulate(path, rows):
@@ -179,13 +188,13 @@ def write(path, results):
     for n, (rows, drawn, part) in results.items():
         case, texts = CASES[n], [cells_of(row) for row in rows]
         tabulate(tables / csv_name(case), texts)
-        anchor = re.sub(r"[^a-z0-9 -]", "", f"{n}. {case.title}".lower()).replace(" ", "-")
-        cases[n] = (line((n, f"[{case.title}](#{anchor})", case.sweep, case.must, happened(rows),
-                          span([row.cost for row in rows]), strategies(rows))),
-                    chapter(case, texts, [(plot.name, plot.title) for plot in drawn], part))
+        cases[n] = (overview_line(case, rows),
+                    chapter(case, texts, [(plot.name, plot.title) for plot in drawn], part,
+                            strategies(rows)))
     text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n## Overview\n\n"
     text += table(
-        ("case", "", "range", "must happen", "what happened", "cost over the easy variant",
-         "strategies used"), []) + "".join(cases[n][0] for n in sorted(cases))
+        ("case", "", *ORDER, "cost over the easy variant"), []) + "".join(cases[n][0]
+                                                                          for n in sorted(cases))
+    text += f"\n{in_all(tables, [CASES[n] for n in sorted(cases)])}\n"
     text += "".join("\n" + cases[n][1] for n in sorted(cases))
     path.write_text(text, encoding="utf-8")

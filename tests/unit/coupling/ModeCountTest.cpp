@@ -56,6 +56,22 @@ void expectSameCounts(const std::vector<model::Substructure>& parts,
   EXPECT_GE(counted, 6) << what;
 }
 
+/// A large part has its stiffness once; one that is not symmetric, or a sum, is averaged.
+TEST(UndampedStiffness, IsTheOnlyTermItselfWhereThatIsSymmetric) {
+  auto model = samples::bar("bar", 1, 9, 100.0, 0.2).model;
+  const model::MatrixTerm only = model.stiffness[0];
+  const Matrix K = only.matrix.sparse();
+  model.stiffness = {only};
+  EXPECT_TRUE(coupling::undampedStiffness(model).sharesWith(only.matrix));
+  Matrix skewed = K;
+  skewed(0, 1) += 1.0;
+  model.stiffness = {{only.name, Sparse(skewed.sparseView()), only.law}};
+  EXPECT_EQ(Matrix(coupling::undampedStiffness(model).sparse()),
+            Matrix(0.5 * (skewed + skewed.transpose())));
+  model.stiffness = {only, only};
+  EXPECT_EQ(Matrix(coupling::undampedStiffness(model).sparse()), Matrix(2.0 * K));
+}
+
 TEST(ModeCount, IsThatOfTheFullModelWhateverTheBasis) {
   for (const std::string method : {"Craig-Bampton", "Guyan", "Rubin", "Craig-Chang", "Krylov"})
     for (const int modes : {1, 3, 1000})

@@ -20,6 +20,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "linalg/Deterministic.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "linalg/factor/FactorMemory.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
@@ -141,6 +142,22 @@ TEST(FactorMemory, IsWhatTheLimitOfTheProcessLeaves) {
   ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
   EXPECT_LE(limited.value_or(0), left);
   EXPECT_GE(limited.value_or(0), left - 10);
+}
+
+/// The C library keeps blocks that were freed below one that is in use.
+TEST(FactorMemory, GivesBackWhatWasFreedBefore) {
+  const auto taken = [] {
+    long size = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> size >> resident;
+    return resident * sysconf(_SC_PAGESIZE) / (1024 * 1024);
+  };
+  std::vector<std::vector<char>> blocks;
+  for (int i = 0; i < 2000; ++i) blocks.emplace_back(100000, 'x');
+  const std::vector<char> above(1000, 'x');
+  const long before = taken();
+  blocks.clear();
+  ASSERT_TRUE(freeMegabytes());
+  EXPECT_LT(taken(), before - 150) << above.size();
 }
 
 TEST(FactorMemory, IsNotSaidToBeFreeWhereItIsEnough) {

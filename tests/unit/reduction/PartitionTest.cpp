@@ -3,6 +3,7 @@
 /// Sorting the dofs of a part, and the sentences for what cannot be sorted.
 #include "reduction/part/Partition.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
@@ -88,10 +89,29 @@ TEST(Partition, RefusesWrongStatesAndMasses) {
 TEST(Partition, BlockPicksRowsAndColumns) {
   Sparse A = Matrix(Matrix::Random(5, 5)).sparseView();
   const Matrix dense = A;
-  const Matrix picked = block(A, {3, 0}, {4, 2, 1});
-  for (int i = 0; i < 2; ++i)
+  const Sparse entries = block(A, {3, 0}, {4, 2, 1});
+  const Matrix picked = entries;
+  for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 3; ++j)
       EXPECT_EQ(picked(i, j), dense(i == 0 ? 3 : 0, j == 0 ? 4 : j == 1 ? 2 : 1));
+    const int* row = entries.innerIndexPtr() + entries.outerIndexPtr()[i];
+    EXPECT_TRUE(
+        std::is_sorted(row, row + entries.outerIndexPtr()[i + 1] - entries.outerIndexPtr()[i]));
+  }
+}
+
+/// A large part without boundary has each of its matrices once.
+TEST(Partition, TheInteriorOfAPartWithoutBoundaryIsTheMatrixItself) {
+  const model::SharedSparse A = Sparse(Matrix(Matrix::Random(3, 3)).sparseView());
+  Partition whole;
+  whole.size = 3;
+  whole.interior = {0, 1, 2};
+  EXPECT_TRUE(interiorOf(whole, A).sharesWith(A));
+  whole.boundary = {1};
+  whole.interior = {0, 2};
+  const Matrix inner = interiorOf(whole, A).sparse();
+  EXPECT_EQ(inner.rows(), 2);
+  EXPECT_EQ(inner(1, 0), Matrix(A.sparse())(2, 0));
 }
 
 }  // namespace PartitionTest
