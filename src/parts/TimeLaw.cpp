@@ -14,6 +14,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "common/Types.hpp"
 #include "model/SpeedLaw.hpp"
 
 namespace tooljoint::parts {

@@ -10,6 +10,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
 #include "deck/PrintedUnits.hpp"

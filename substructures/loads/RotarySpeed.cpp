@@ -6,6 +6,7 @@
 #include <map>
 
 #include "common/Error.hpp"
+#include "common/Types.hpp"
 #include "model/SpeedLaw.hpp"
 
 namespace tooljoint::loads {

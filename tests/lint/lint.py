@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Holds the rules of the source tree that a compiler does not: who may include whom, names that
-stay out, licence lines, sizes, code that stands twice.
+stay out, licence lines, sizes, code that stands twice, names without their headers.
 
     lint.py PROJECT         prints file:line: what is wrong, exit code 1 if anything is
     lint.py --self-test     shows that each rule catches what it is for
@@ -17,6 +17,7 @@ import sys
 import tempfile
 
 import planted
+import reach
 import repeats
 import rooms
 import sizes
@@ -169,13 +170,15 @@ def strangers(root):
                f"git (git rm -r --cached {room})")
 
 
-def standing_twice(root, files):
-    """Complaints about code that stands twice in product code, the Python package or tools."""
-    known = [path for path in files if path.suffix in (".cpp", ".hpp", ".py")]
-    return repeats.of_texts({
+def of_all_sources(root, files):
+    """Complaints about code that stands twice in product code, the Python package or tools, and
+    about names without their headers."""
+    texts = {
         path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace")
-        for path in known
-    })
+        for path in files if path.suffix in (".cpp", ".hpp", ".py")
+    }
+    yield from repeats.of_texts(texts)
+    yield from reach.complaints(texts)
 
 
 def lint(root):
@@ -191,7 +194,7 @@ def lint(root):
     ]
     complaints += [
         *modes(root), *house(root), *size_table(root), *strangers(root),
-        *standing_twice(root, files),
+        *of_all_sources(root, files),
         *sizes.of_folders(path.relative_to(root).as_posix() for path in files)
     ]
     return complaints, len(files)
