@@ -61,9 +61,10 @@ const ResponsePoint* StringReport::firstTouch() const {
 const ResponsePoint* StringReport::mostBent() const {
   if (response_.elements.empty()) return nullptr;
   const auto points = everyPoint(response_);
-  return *std::max_element(points.begin(), points.end(), [](const auto* a, const auto* b) {
+  const auto* most = *std::max_element(points.begin(), points.end(), [](auto* a, auto* b) {
     return a->along.moment->value < b->along.moment->value;
   });
+  return most->along.moment->value > 0.0 ? most : nullptr;
 }
 
 void StringReport::print() const {

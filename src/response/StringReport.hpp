@@ -30,7 +30,7 @@ class StringReport {
 
  private:
   const ResponsePoint* firstTouch() const;
-  /// The point of the largest moment; null without elements.
+  /// The point of the largest moment; null without elements, or where nothing bends.
   const ResponsePoint* mostBent() const;
   Columns bendingTable() const;
   Columns marginTable() const;

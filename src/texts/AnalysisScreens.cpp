@@ -146,13 +146,16 @@ void ofCampbell(const screen::Json& summary) {
 }
 
 void ofResponse(const screen::Json& summary) {
-  const auto peak = extreme(summary.at("/response/peaks"_json_pointer), "amplitude", larger);
+  std::map<std::string, screen::Json> peaks;  // metres and radians do not compare
+  for (const auto& peak : summary.at("/response/peaks"_json_pointer))
+    peaks.try_emplace(text(peak, "unit"), screen::Json::array()).first->second.push_back(peak);
   line("points", fixed(*number(summary, "/response/points"), 0),
        fixed(*number(summary, "/response/dofs"), 0) + " dofs");
-  if (peak.row != nullptr)
-    line("largest peak", inUnit({peak.value}, text(*peak.row, "unit"), 4),
-         text(*peak.row, "output") + " at " + fixed(peak.row->at("speed_rpm"), 1) + " rpm, " +
-             fixed(peak.row->at("hz"), 3) + " Hz");
+  for (const auto& [unit, rows] : peaks)
+    if (const auto peak = extreme(rows, "amplitude", larger); peak.row != nullptr)
+      line("largest peak", inUnit({peak.value}, unit, 4),
+           text(*peak.row, "output") + " at " + fixed(peak.row->at("speed_rpm"), 1) + " rpm, " +
+               fixed(peak.row->at("hz"), 3) + " Hz");
   if (const auto moment = number(summary, "/response/bending_moment"))
     line("bending moment", quantity(*moment, "kN m", 3),
          "amplitude at a measured depth of " +

@@ -44,7 +44,7 @@ constexpr char magic[] = "Tooljoint checkpoint";
 constexpr std::size_t magicLength = sizeof magic - 1;
 /// Counts up whenever the body or anything that an integrator, a point batch or a ledger saves
 /// changes.
-constexpr std::uint32_t layout = 25;
+constexpr std::uint32_t layout = 26;
 constexpr std::size_t digestLength = 64;  ///< hexadecimal digits
 constexpr std::size_t headerLength =
     magicLength + sizeof layout + sizeof(std::uint64_t) + digestLength;

@@ -133,6 +133,9 @@ class Integrator {
   /// damping, iterations that end later, impacts in steps of half the length.
   virtual void sharpen() {}
 
+  /// Called when the motion has ended: warns of what its own steps were too long for. Collective.
+  virtual void judge() {}
+
   /// Append / take back everything beyond State that the next steps depend on, so that a run goes
   /// on with the same numbers.
   virtual void save(std::vector<double>& memory) const = 0;

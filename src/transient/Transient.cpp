@@ -56,10 +56,9 @@ void checkFinite(const CompiledModel& model, const Integrator& integrator, const
   const bool velocity = std::isfinite(to.q[q]) && !std::isfinite(to.v[v]);
   const int worst = velocity ? v : q;
   const double reached = velocity ? to.v[worst] : to.q[worst];
-  std::ostringstream where;
+  std::ostringstream where, text;
   where << model.dofName(worst) << " reached " << reached
         << (velocity ? " (m/s, rad/s)" : " (m, rad)");
-  std::ostringstream text;
   text << "The motion blew up in the step from t = " << from.t << " s to " << to.t
        << " s: " << model.cut().ofLargest(std::abs(reached), where.str()) << ". "
        << integrator.advice()
@@ -385,6 +384,7 @@ class Run {
     if (!judgeSteps()) return stopHere();
     judgeLaws(model_.source(), *integrator_, {options_.start, state_.t, options_.stepErrorLimit});
     if (laws_) laws_->judge(*integrator_, options_.stepErrorLimit);
+    integrator_->judge();
     return false;
   }
 

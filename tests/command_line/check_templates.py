@@ -74,7 +74,7 @@ def wells():
     depth, vertical, length = stations[-3] * FOOT, tvd(
         stations) * FOOT, 8 * 9.45 + 0.35  # collars and bit
     for wanted in (f"bit at MD {depth:.1f} m, TVD {vertical:.1f} m",
-                   f"BHA {length:.2f} m below the last 5 in stand"):
+                   f"{length:.2f} m of string below the last 5 in stand"):
         expect(f"check of a well: {wanted}", wanted in said, said[:500])
     moved = alone.get("transient", {}).get("figures", {})
     expect("template well: the bit sticks and slips",

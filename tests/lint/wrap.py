@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds the width of prose in pages of Markdown: 100 columns.
+"""Holds the width of prose in pages of Markdown: 100 columns. A page has no tab either: that of a
+formula is a \\t whose backslash was lost.
 
-    wrap.py PAGE...            names the pages with wider paragraphs, exit code 1 if there are any
+    wrap.py PAGE...            names the pages with wider paragraphs or tabs, exit code 1 if there
+                               are any
     wrap.py --update PAGE...   fills those paragraphs anew; code, tables, headings, formulas and
                                pictures stay as they are
     wrap.py --self-test        shows that it catches what it is for
@@ -19,6 +21,7 @@ ITEM = re.compile(r"(\s*(?:[-*+]|\d+[.)])\s+)(.*)$")
 STANDS = re.compile(
     r"\s*(#|\||<|>|!\[|\(.*\)=$|---|===|\[\^?[^\]]+\]:)")  # begins a line that stays as it is
 FENCE = re.compile(r"\s*(```+|~~~+|\$\$|<!--)")
+CONTROL = re.compile(r"[\x00-\x09\x0b-\x1f]")
 MARKUP = re.compile(
     r"([-+*#>|=:]|\d+[.)])(\s|$)|~|<")  # would mean something at the start of a line
 
@@ -104,6 +107,8 @@ def self_test():
     ]
     marked = wrapped("a " * 49 + "word - and more of it " * 3 + "`code of words` " * 9)
     faults += [line for line in marked.split("\n") if MARKUP.match(line) or line.count("`") % 2]
+    faults += [page for page in ("$$\n\text{x}\n$$\n", "\frac") if not CONTROL.search(page)]
+    faults += [page for page in cases if CONTROL.search(page)]
     print("\n".join(faults) or "all caught")
     return 1 if faults else 0
 
@@ -113,9 +118,12 @@ def main():
     if arguments == ["--self-test"]:
         return self_test()
     update = arguments[:1] == ["--update"]
-    wide = []
+    wide, spoilt = [], False
     for path in map(pathlib.Path, arguments[update:]):
         text = path.read_text(encoding="utf-8")
+        for found in CONTROL.finditer(text):
+            print(f"{path}:{text.count(chr(10), 0, found.start()) + 1}: has {found[0]!r}")
+            spoilt = True
         if wrapped(text) == text:
             continue
         wide.append(path)
@@ -124,7 +132,7 @@ def main():
     for path in wide:
         advice = f"has prose of more than {WIDTH} columns: tests/lint/wrap.py --update {path}"
         print(f"{path}: {'wrapped' if update else advice}")
-    return 1 if wide and not update else 0
+    return 1 if spoilt or (wide and not update) else 0
 
 
 if __name__ == "__main__":

@@ -24,7 +24,8 @@ def _largest(values):
 
 
 def _numbers(analysis, summary):
-    """Name on the screen -> number in the unit that is printed; None: the name is not there."""
+    """Name on the screen, or name and unit where a name stands there with several -> number in the
+    unit that is printed; None: the name is not there."""
     group = summary[analysis]
     if analysis == "torque_drag":
         rows = group["rows"]
@@ -58,9 +59,14 @@ def _numbers(analysis, summary):
             "growing from": _extreme(group["stability_limits"], "speed_rpm", min),
         }
     if analysis == "response":
+        peaks = group["peaks"] or []
+        units = {peak["unit"] for peak in peaks}
+        largest = {("largest peak",
+                    unit): _extreme([peak
+                                     for peak in peaks if peak["unit"] == unit], "amplitude", max)
+                   for unit in units} if units else {"largest peak": None}
         return {
-            "points": group["points"], "largest peak": _extreme(group["peaks"], "amplitude", max),
-            "wall reached from": group["contact_speed_rpm"]
+            "points": group["points"], "wall reached from": group["contact_speed_rpm"], **largest
         }
     if analysis == "modes":
         return {
@@ -86,7 +92,10 @@ def expect_screen(done, folder, analysis):
     said = re.sub(r"\x1b\[\d+m", "", done.stdout)
     screen = said[said.rfind("\n\n", 0, max(said.rfind("\nopen "), said.rfind("\nreport ")) - 1):]
     for name, wanted in _numbers(analysis, summary).items():
-        found = re.search(rf"^{re.escape(name)} +(-?\d[\d.e+-]*)", screen, re.M)
+        name, unit = name if isinstance(name, tuple) else (name, "")
+        found = re.search(
+            rf"^{re.escape(name)} +(-?\d[\d.e+-]*){unit and ' ' + re.escape(unit) + ' '}", screen,
+            re.M)
         same = found is None if wanted is None else found is not None and _rounds(wanted, found[1])
         if not same:
             expect(f"{folder}: the last screen of {analysis}: {name} is {wanted}", False,

@@ -208,7 +208,8 @@ def grouped():
              float(one["surface_torque"]), 1e-12)
     joints = {
         row["operation"]: float(row["surface_torque"])
-        for row in run("stands", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None")
+        for row in run("stands", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None",
+                       "Torque and Drag/Yield Strength=1e14")
     }["Rotate off bottom"]
     turned = {row["operation"]: float(row["surface_torque"]) for row in found[1]
               }["Rotate off bottom"]
@@ -233,6 +234,8 @@ def locked():
         '<ParameterList name="Components">', '<ParameterList name="Components">' + pipe)
     pathlib.Path("fine.xml").write_text(text, encoding="utf-8")
     for weight, deck, reason in (
+        ("900 kN", "fine.xml", "are larger than these. It buckles and does not come to rest within "
+         "60 iterations."),
         ("600 kN", DECK, "has no result. The soft string locks up. It buckles, and its elements of "
          "9 m are too long for the half waves of a helix"),
         ("200 kN", DECK,
@@ -243,10 +246,15 @@ def locked():
             "--set", "Drillstring/Assembly={pipe}", "--set", "Contact/Friction/Static=0.5", "--set",
             "Contact/Friction/Dynamic=0.5"
         ] if deck != DECK else []
+        if weight == "900 kN":
+            fine += ["--set", "Static/Max Iterations=10"]
         done = tooljoint(words[0], deck, *words[2:], *fine, "--output", "locked " + weight, "--set",
                          f"Loads/Weight On Bit={weight}")
         expect(f"{weight}: why the stiff string has no result", done.returncode == 0
                and reason in " ".join(done.stderr.split()), done.stderr)
+        if weight == "900 kN":
+            expect("more iterations are not advised where the soft string locks up", "Raise"
+                   not in done.stderr, done.stderr)
         if weight == "600 kN":
             expect("its last screen counts one row that is locked up",
                    "\nlocked up           1 row  " in done.stdout, done.stdout[-600:])

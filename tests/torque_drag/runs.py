@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+import re
 import sys
 
 from checks import expect, tooljoint
@@ -23,6 +24,12 @@ def run(folder, *settings, ranks=1, deck=DECK):
     done = tooljoint("torque-drag", deck, "--output", folder, *arguments, ranks=ranks)
     expect(f"torque-drag ends well {settings}", done.returncode == 0, done.stderr)
     expect_screen(done, folder, "torque_drag")
+    margins = [
+        line.split()[-3:] for line in done.stdout.partition("soft string")[2].splitlines()
+        if line.startswith(("Trip ", "Rotate ", "Drill ", "Back-ream ", "Ream "))
+    ]
+    expect(f"{folder}: three margins end a line of the table", margins
+           and all(re.fullmatch(r"-|>999|\d{1,3}\.\d\d", one) for one in margins[0]), margins)
     return rows(folder)
 
 

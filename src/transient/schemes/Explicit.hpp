@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/Integrator.hpp"
@@ -73,13 +74,42 @@ class ExplicitRightHandSide {
   linalg::BlockFactor mass_;
 };
 
+/// Where a law without a wall, such as that of a bit, is too steep for the steps, a force that is
+/// bounded keeps the motion from growing without bound: it swings about its value from stage to
+/// stage, and what should stick slides. The mean of the stages is then not that of both ends.
+class ForceSwings {
+ public:
+  /// With the forces at the start.
+  void bind(const CompiledModel& model);
+  /// The forces at the second, third or fourth stage of a step; the first is the end of the last.
+  void addStage(const CompiledModel& model, int stage);
+  /// After the step, with the forces at its end, where the next one begins.
+  void endStep(const CompiledModel& model);
+  /// Part of the steps in which a force swings, the largest of all ranks. Collective.
+  double share(const CompiledModel& model) const;
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  struct Seen {
+    double atEnd = 0, mean = 0, largest = 0;
+    int steps = 0;  ///< in a row whose mean is another
+  };
+  template <class Each>
+  void forEach(const CompiledModel& model, const Each& each);
+
+  std::vector<Seen> seen_;  ///< per coordinate of the points
+  double steps_ = 0, swinging_ = 0;
+};
+
 /// Stages of one classical Runge-Kutta step (Nguyen et al. 2020, (B.1)-(B.5), with k41, k42 where
 /// (B.4) prints k31, k32).
 class RungeKuttaStep {
  public:
   void resize(const State& like);
   /// q, v and x of `to` a time h after `from`, which is complete.
-  void take(ExplicitRightHandSide& rhs, const State& from, double h, State& to);
+  void take(ExplicitRightHandSide& rhs, const State& from, double h, State& to,
+            ForceSwings* swings = nullptr);
 
  private:
   Vector qi_, vi_, vj_, a2_, a3_, a4_;

@@ -3,7 +3,11 @@
 /// `RK4`: classical Runge-Kutta with a fixed step.
 #include <algorithm>
 #include <string>
+#include <vector>
 
+#include "common/Text.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/Percent.hpp"
 #include "transient/schemes/Explicit.hpp"
 #include "transient/schemes/FixedStepIntegrator.hpp"
 
@@ -37,6 +41,25 @@ class RungeKutta4 final : public FixedStepIntegrator {
     return "Reduce Transient/Step, or use the integrator \"Generalized-alpha\"";
   }
 
+  void judge() override {
+    const double share = swings_.share(rhs_.model());
+    if (share > 0)
+      log::warn(
+          "The time step (" + formatNumber(equalStep()) +
+          " s) is too large for RK4 where a point law, such as that of a bit, is steep: in " +
+          percent(share) +
+          " of the steps its force swings about its value, and what should stick may slide. " +
+          advice() + ".");
+  }
+  void save(std::vector<double>& memory) const override {
+    FixedStepIntegrator::save(memory);
+    swings_.save(memory);
+  }
+  void restore(const double*& memory) override {
+    FixedStepIntegrator::restore(memory);
+    swings_.restore(memory);
+  }
+
  protected:
   void start(CompiledModel& model, State& state) override {
     rhs_.bind(model, "RK4", counters_);
@@ -44,6 +67,7 @@ class RungeKutta4 final : public FixedStepIntegrator {
     stage_.resize(state);
     rhs_.look(state.t, 0.0, state.q.data());
     rhs_.complete(state);
+    swings_.bind(model);
   }
   double usualStep(const Window& window, const State& start) override {
     const auto rates = rhs_.largestRates(start, window.end);
@@ -56,14 +80,16 @@ class RungeKutta4 final : public FixedStepIntegrator {
     const double h = to.t - from.t;
     rhs_.look(from.t, h, from.q.data());
     do {
-      stage_.take(rhs_, from, h, to);
+      stage_.take(rhs_, from, h, to, &swings_);
     } while (rhs_.missed(to.q.data()));
     rhs_.accept(to);
+    swings_.endStep(rhs_.model());
   }
 
  private:
   double safety_;
   ExplicitRightHandSide rhs_;
+  ForceSwings swings_;
   RungeKuttaStep stage_;
 };
 

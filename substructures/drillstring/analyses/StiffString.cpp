@@ -41,6 +41,7 @@ StiffLoads StiffString::under(const softstring::Operation& operation) const {
   loads.buckled = found.buckled;
   loads.locksUp = found.locksUp;
   loads.unsettled = found.unsettled;
+  loads.advice = found.advice;
   if (!found.rest) loads.failure = loads.unsettled;
   if (!loads.found()) return loads;
   loads.negativePivots = found.rest->negativePivots;

@@ -28,6 +28,7 @@ struct StiffLoads {
   std::string failure;                          ///< why there is no equilibrium; empty: there is
   bool locksUp = false;                         ///< that is why
   std::string unsettled;                        ///< why no buckled state was found
+  std::string advice;                           ///< what may help then; a sentence, or empty
   double hookLoad = 0.0, surfaceTorque = 0.0;   ///< without block weight [N, N m]
   double twist = 0.0;                           ///< of the surface ahead of the bit [rad]
   double stretch = 0.0;                         ///< by effective tension [m]
@@ -46,7 +47,7 @@ struct StiffLoads {
   bool found() const { return failure.empty(); }
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(failure, locksUp, unsettled, buckled, hookLoad, surfaceTorque, twist, stretch,
+    archive(failure, locksUp, unsettled, advice, buckled, hookLoad, surfaceTorque, twist, stretch,
             torqueDefect, iterations, negativePivots, depth, contactForce, tension, torque, moment);
   }
 };

@@ -33,13 +33,17 @@ std::string text(double value, const char* usual, int digits) {
   const deck::PrintedUnit unit(usual);
   return std::isfinite(value) ? text(unit(value), digits) + " " + unit.name() : "-";
 }
+/// A margin; what is beyond any load has no digits that say something.
+std::string inColumn(const Margin& margin) {
+  return std::isfinite(margin.factor) && margin.factor > 999.0 ? ">999" : text(margin.factor, 2);
+}
 
 void print(const TorqueDragRow& row) {
   log::info(fmt::format("{:<18}{:>13}{:>15}{:>9}{:>14}{:>8}{:>8}{:>8}", row.operation,
                         text(row.hookLoad, "kN", 1), text(row.surfaceTorque, "kN m", 2),
                         text(row.twist / constants::twoPi, 2),
-                        text(row.largestSideForce, "kN/m", 2), text(row.yield.factor, 2),
-                        text(row.sinusoidal.factor, 2), text(row.helical.factor, 2)));
+                        text(row.largestSideForce, "kN/m", 2), inColumn(row.yield),
+                        inColumn(row.sinusoidal), inColumn(row.helical)));
   if (row.lockUpDepth >= 0.0)
     log::warn(
         fmt::format("{} with the bit at {}: the string locks up at {}. No force from the surface "
@@ -59,16 +63,22 @@ std::string beside(double stiff, double soft) {
   return (text == "-0.0" || text == "+0.0" ? "0.0" : text) + " %";
 }
 
+/// Why there is no buckled state, and what may help: nothing where the soft string locks up.
+std::string withAdvice(const std::string& why, const TorqueDragRow& row, const StiffLoads& stiff) {
+  return row.lockUpDepth >= 0.0 || stiff.advice.empty() ? why : why + " " + stiff.advice;
+}
+
 /// Why the stiff string has no result, with what the soft one shows of it.
 std::string reason(const TorqueDragRow& row, const StiffLoads& stiff) {
+  const std::string failure = withAdvice(stiff.failure, row, stiff);
   const auto buckled = [&](const Margin& margin, const char* limit) {
     return fmt::format("Its compression at {} is {:.1f} times the {} limit (soft string). {}",
-                       text(margin.depth, "m", 0), 1.0 / margin.factor, limit, stiff.failure);
+                       text(margin.depth, "m", 0), 1.0 / margin.factor, limit, failure);
   };
-  if (row.lockUpDepth >= 0.0) return "The soft string locks up. " + stiff.failure;
+  if (row.lockUpDepth >= 0.0) return "The soft string locks up. " + failure;
   if (row.helical.factor < 1.0) return buckled(row.helical, "helical");
   if (row.sinusoidal.factor < 1.0) return buckled(row.sinusoidal, "sinusoidal");
-  return stiff.failure;
+  return failure;
 }
 
 void printStiff(const Scene& scene, const TorqueDragProfile& profile,
@@ -88,7 +98,7 @@ void printStiff(const Scene& scene, const TorqueDragProfile& profile,
       "{:<18}{:>13}{:>9}{:>15}{:>9}{:>9}{:>14}{:>8}", row.operation, text(hookLoad, "kN", 1),
       beside(hookLoad, row.hookLoad), text(stiff.surfaceTorque, "kN m", 2),
       beside(stiff.surfaceTorque, row.surfaceTorque), text(stiff.twist / constants::twoPi, 2),
-      text(largestContact(stiff).factor, "kN", 2), text(stiff.yield.factor, 2)));
+      text(largestContact(stiff).factor, "kN", 2), inColumn(stiff.yield)));
   if (stiff.torqueDefect > worthAWarning && prestressRemark(scene).empty())
     log::warn(
         fmt::format("{} with the bit at {}: the torque of the stiff string is out of balance by "
@@ -117,7 +127,7 @@ void warnOfBuckling(const std::vector<TorqueDragProfile>& profiles) {
         "{} of {} states of the stiff string are unstable ({} with the bit at {} first): there its "
         "contact and torque are larger than these. {}",
         unstable, all, first->row.operation, text(first->row.bit, "m", 0),
-        first->stiff->unsettled));
+        withAdvice(first->stiff->unsettled, first->row, *first->stiff)));
 }
 
 /// A part of the string whose strength nothing gives has no margin to yield.

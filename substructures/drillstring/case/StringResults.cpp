@@ -319,8 +319,8 @@ std::string describeString(const Scene& scene) {
     if (instance.component == uppermost) below = 0.0;
   }
   const double gravity = loads::acceleration(scene.loads).norm();
-  std::string text = "            longest element " + deck::printed(longest, "m", 3) + "; BHA " +
-                     deck::printed(below, "m", 4) + " below the last " + uppermost;
+  std::string text = "            longest element " + deck::printed(longest, "m", 3) + "; " +
+                     deck::printed(below, "m", 4) + " of string below the last " + uppermost;
   if (gravity == 0.0) return text + "; no weight";
   text += "; weight " + deck::printed(mass * gravity, "kN", 4) + " in air";
   if (mud > 0.0) text += ", " + deck::printed((mass - displaced) * gravity, "kN", 4) + " in mud";

@@ -24,13 +24,19 @@ Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) 
 /// Halvings of a stage before a string slides to rest.
 constexpr int halvingsBeforeSliding = 1;
 
+/// Why a string slides to no state of rest.
+struct Unsettled {
+  std::string why;      ///< a sentence; empty where that is not known
+  bool driven = false;  ///< friction drives it round the hole: there is none
+};
+
 /// The state that the string slides to, as where it buckles in a stage of its static state; none
-/// where there is none, with `why` where that is known.
+/// where there is none.
 std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
                                                     const equilibrium::StaticInput& input,
                                                     const Vector& mass,
                                                     const model::NonlinearSolver& solver,
-                                                    std::string& why) try {
+                                                    Unsettled& unsettled) try {
   const auto problem = [&](double share) {
     auto part = input;
     const auto bit = kNodeDofs * (part.nodes - 1);
@@ -40,14 +46,17 @@ std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
   const SlidingRest string(scene.string, scene.statics, mass, problem);
   const auto slid = string.from(withoutFriction(problem(0.0), scene.statics, solver, mass));
   if (!slid.rest) {
-    why = "The string does not come to rest. " + slid.unsettled +
-          (slid.driven ? " Static/Friction \"None\" gives the state without friction." : "");
+    unsettled.driven = slid.driven;
+    unsettled.why =
+        "The string does not come to rest. " + slid.unsettled +
+        (slid.advice.empty() ? "" : " " + slid.advice) +
+        (slid.driven ? " Static/Friction \"None\" gives the state without friction." : "");
     return std::nullopt;
   }
   if (!(input.contact->largestPull() > 0.0)) return slid.rest->state;
   auto pulled = string.withPull(slid.rest->state);
   if (!pulled)
-    why =
+    unsettled.why =
         "The string buckles, and rests only without the attraction of open points to the wall. "
         "Set Contact/Law to \"Clamped\", which has none.";
   return pulled;
@@ -138,17 +147,18 @@ equilibrium::StaticState solveAtRest(const Scene& scene, const equilibrium::Stat
   if (scene.statics.recipe != equilibrium::Recipe::Continuation || !input.contact ||
       input.contact->size() == 0)
     return equilibrium::solveStatic(input, scene.statics, solver);
-  std::string why;
+  Unsettled unsettled;
   try {
     return equilibrium::solveStatic(input, scene.statics, solver, halvingsBeforeSliding);
   } catch (const ConvergenceError&) {
-    if (auto slid = slideToRest(scene, input, mass, solver, why)) return *slid;
+    if (auto slid = slideToRest(scene, input, mass, solver, unsettled)) return *slid;
   }
+  if (unsettled.driven) throw ConvergenceError(unsettled.why);
   try {
     return equilibrium::solveStatic(input, scene.statics, solver);
   } catch (const ConvergenceError& error) {
-    if (why.empty()) throw;
-    throw ConvergenceError(why + " (" + error.what() + ")");
+    if (unsettled.why.empty()) throw;
+    throw ConvergenceError(unsettled.why + " (" + error.what() + ")");
   }
 }
 

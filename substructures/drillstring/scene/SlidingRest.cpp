@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -37,6 +38,38 @@ constexpr int slidingEffort = 6;
 constexpr double helixSize = 0.05, helixPitch = 25.0;
 /// Elements a half wave of a helix needs.
 constexpr double elementsPerHalfWave = 3.0;
+/// Times that a point goes round the hole, the way friction acts on it, on its way to no rest: a
+/// string that winds into a helix and rests turns its points by half of this at most.
+constexpr double roundsWithoutRest = 3.0;
+/// Points nearer to the axis than this part of the clearance have no angle that says something.
+constexpr double aside = 0.5;
+
+/// How far the points of a string have gone round the hole since the first look.
+class Rounds {
+ public:
+  explicit Rounds(const contact::ContactPoints& points)
+      : points_(points), last_(points.node.size()), turned_(points.node.size(), 0.0) {}
+
+  /// The turns of the point that went farthest from x to y, or the other way, as `sense` says.
+  double farthest(const Vector& displacement, double sense) {
+    double most = 0.0;
+    for (std::size_t p = 0; p < turned_.size(); ++p) {
+      const int first = perNode * (points_.node[p] - 1);
+      const double x = displacement(first + u), y = displacement(first + v);
+      if (std::hypot(x, y) < aside * points_.clearance[p]) continue;
+      const double angle = std::atan2(y, x);
+      if (last_[p]) turned_[p] += std::remainder(angle - *last_[p], constants::twoPi);
+      last_[p] = angle;
+      most = std::max(most, sense * turned_[p] / constants::twoPi);
+    }
+    return most;
+  }
+
+ private:
+  const contact::ContactPoints& points_;
+  std::vector<std::optional<double>> last_;
+  std::vector<double> turned_;  ///< [rad]
+};
 
 }  // namespace
 
@@ -120,9 +153,13 @@ std::optional<SlidingRest::Rest> SlidingRest::slide(const Vector& start, Found& 
     const equilibrium::StaticProblem problem(input);
     auto asked = request(share, step < slidingSteps ? slidingTolerance : options_.tolerance);
     asked.mostIterations = left;
+    Rounds rounds(input.contact->points());
+    const double against = -input.sliding.rotarySpeed;  // friction
     asked.stop = [&](const Vector& full) {
       why.locksUp = compressed(problem, full);
-      return why.locksUp || interruptRequested();
+      why.driven =
+          against != 0.0 && rounds.farthest(full, against > 0.0 ? 1.0 : -1.0) > roundsWithoutRest;
+      return why.locksUp || why.driven || interruptRequested();
     };
     auto slid = equilibrium::slideStatic(input, options_, asked, withHelix(input, x));
     if (interruptRequested()) throw InterruptedError("Interrupted.");
@@ -130,18 +167,17 @@ std::optional<SlidingRest::Rest> SlidingRest::slide(const Vector& start, Found& 
       const double atBit = input.load(input.load.size() - perNode + w);
       why.unsettled = tooLong(Vector::Constant(string_.elementCount(), atBit));
       if (!why.unsettled.empty())
-        why.locksUp = false;
+        why.locksUp = why.driven = false;
       else if (why.locksUp)
         why.unsettled = "It locks up.";
+      else if (why.driven)
+        why.unsettled =
+            "It buckles while it turns, and friction drives it round the hole: there is no state "
+            "of rest.";
       else {
-        const auto most = std::to_string(slidingEffort * options_.maxIterations) + " iterations";
-        why.driven = input.sliding.rotarySpeed != 0.0;
-        why.unsettled = why.driven
-                            ? "It buckles while it turns, and friction drives it round the hole: "
-                              "no state of rest within " +
-                                  most + "."
-                            : "It buckles and does not come to rest within " + most +
-                                  ". Raise Static/Max Iterations.";
+        why.unsettled = "It buckles and does not come to rest within " +
+                        std::to_string(slidingEffort * options_.maxIterations) + " iterations.";
+        why.advice = "Raise Static/Max Iterations.";
       }
       return std::nullopt;
     }

@@ -39,6 +39,7 @@ class SlidingRest {
     bool locksUp = false;   ///< why it found no buckled state
     bool driven = false;    ///< likewise: friction drives it round the hole
     std::string unsettled;  ///< the same as a sentence; empty where it found one, or needed none
+    std::string advice;     ///< what may help then; a sentence, or empty
   };
 
   SlidingRest(const DrillString& string, const equilibrium::StaticOptions& options, Vector mass,

@@ -103,7 +103,7 @@ TEST(Checkpoints, sayWhatIsWrongWithAFile) {
   EXPECT_TRUE(says(said(""), "is not a checkpoint"));
   EXPECT_TRUE(says(said(std::string("\x16\0\0\0\0\0\0\0", 8) + "Tooljoint checkpoint 5" +
                         std::string(200, '\0')),
-                   "has the layout 5 of another version of the program; this one reads layout 25"));
+                   "has the layout 5 of another version of the program; this one reads layout 26"));
   auto changed = bytes;
   changed[20] = 99;  // the layout follows the magic
   EXPECT_TRUE(says(said(changed), "has the layout 99 of another version")) << said(changed);

@@ -8,6 +8,7 @@
 #include "StatefulModels.hpp"
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "common/report/Log.hpp"
 #include "tests/support/ErrorText.hpp"
 
 namespace tooljoint::transient::testing {
@@ -385,6 +386,24 @@ TEST(Integrators, theDefaultStepOfRungeKuttaKnowsSkewStiffness) {
   EXPECT_LE(report.counters.maxStep, 0.9 * 2.78 / bound);
   EXPECT_GT(report.counters.maxStep, 0.8 * 2.78 / bound);
   EXPECT_LT(std::abs(report.energy.residual()), 0.02);
+}
+
+/// Dry friction of 1 N that is full from 1 mm/s on damps 1 kg by 1500 1/s where it sticks, but not
+/// at the start, so that the sampling interval is the default step.
+TEST(Integrators, RungeKuttaWarnsOfStepsTooLongForALawThatSticks) {
+  auto model = oscillator(1.0, 0, 10.0, 0, 1.0);
+  Teuchos::ParameterList own;
+  own.set("Static Force", 1.0).set("Dynamic Force", 1.0).set("Decay Velocity", 1.0);
+  own.set("Viscous Damping", 0.0).set("Slip Velocity", 1e-3);
+  addLaw(model, "Stribeck", own);
+  const auto said = [&model](double step) {
+    log::clearWarnings();
+    Keep samples;
+    integrate(model, options("RK4", 3.0, step, 0.01), samples);
+    return log::warnings().empty() ? std::string() : log::warnings().back();
+  };
+  EXPECT_NE(said(0).find("too large for RK4"), std::string::npos) << said(0);
+  EXPECT_EQ(said(1e-3), "");
 }
 
 /// A dashpot that relaxes in 10 us behind its spring: its state bounds the step, not the frequency
