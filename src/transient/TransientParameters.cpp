@@ -7,6 +7,37 @@
 
 namespace tooljoint::transient {
 
+namespace {
+
+/// Of the errors of a motion.
+void addLimits(deck::ListSpec& spec) {
+  const TransientOptions usual;
+  spec.real("Step Error Warning", "", usual.stepErrorWarning, deck::Range::positive(),
+            "Of equal steps: a step error above this is a warning. The step error is an estimate "
+            "of the error of the vibration after 3 s or the whole motion, whichever is shorter.")
+      .expert()
+      .real(
+          "Step Error Limit", "", usual.stepErrorLimit, deck::Range::positive(),
+          "Of equal steps: a run with a step error above this fails. Where the estimate is above "
+          "half of this, or contact rests on walls too stiff for the step, the first 3 s of the "
+          "motion are integrated again in half the step, or in shorter ones that resolve such "
+          "contact. The step error is then the difference of both motions, or, where the motion is "
+          "chaotic, that of their speeds over 2.5. A limit of 1 and more compares nothing: it is "
+          "one of the estimate.")
+      .formerly("Generalized-alpha/Accept Coarse Steps")
+      .expert()
+      .real("Energy Residual Warning", "", usual.energyResidualWarning, deck::Range::positive(),
+            "With the energy ledger: an energy residual of larger size at the end of the motion is "
+            "a warning.")
+      .expert()
+      .real("Energy Residual Limit", "", usual.energyResidualLimit, deck::Range::positive(),
+            "With the energy ledger: a run fails when the energy residual is larger in size at the "
+            "end of the motion, or for ten samples in a row that are a tenth of all.")
+      .expert();
+}
+
+}  // namespace
+
 deck::ListSpec parameters() {
   const auto& registry = IntegratorRegistry::instance();
   deck::ListSpec spec("Transient",
@@ -42,29 +73,7 @@ deck::ListSpec parameters() {
               "same (Alike). Automatic divides models of 1500 dofs and more. The integrators of "
               "SUNDIALS do not divide a motion and refuse Divide.")
       .expert();
-  const TransientOptions usual;
-  spec.real("Step Error Warning", "", usual.stepErrorWarning, deck::Range::positive(),
-            "Of equal steps: a step error above this is a warning. The step error is an estimate "
-            "of the error of the vibration after 3 s or the whole motion, whichever is shorter.")
-      .expert()
-      .real(
-          "Step Error Limit", "", usual.stepErrorLimit, deck::Range::positive(),
-          "Of equal steps: a run with a step error above this fails. Where the estimate is above "
-          "half of this, or contact rests on walls too stiff for the step, the first 3 s of the "
-          "motion are integrated again in half the step, or in shorter ones that resolve such "
-          "contact. The step error is then the difference of both motions, or, where the motion is "
-          "chaotic, that of their speeds over 2.5. A limit of 1 and more compares nothing: it is "
-          "one of the estimate.")
-      .formerly("Generalized-alpha/Accept Coarse Steps")
-      .expert()
-      .real("Energy Residual Warning", "", usual.energyResidualWarning, deck::Range::positive(),
-            "With the energy ledger: an energy residual of larger size at the end of the motion is "
-            "a warning.")
-      .expert()
-      .real("Energy Residual Limit", "", usual.energyResidualLimit, deck::Range::positive(),
-            "With the energy ledger: a run fails when the energy residual is larger in size at the "
-            "end of the motion, or for ten samples in a row that are a tenth of all.")
-      .expert();
+  addLimits(spec);
   for (const auto& [name, entry] : registry.entries()) {
     deck::ListSpec own(name, entry.doc);
     own.merge(entry.parameters);

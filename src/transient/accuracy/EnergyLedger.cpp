@@ -118,20 +118,9 @@ void EnergyLedger::formWorks(const CompiledModel& model, const State& to, double
   model.cut().reduce(nullptr, 0, sums_.data(), static_cast<int>(sums_.size()));
 }
 
-void EnergyLedger::enter(CompiledModel& model, const State& to) {
-  skipped_ = 0;
-  const double h = to.t - time_;
-  const double begin = time_;
-  const bool jumps = model.setMean(begin, to.t);
-  const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
-  double fed = 0;  // by damping that is negative
-  time_ = to.t;
-  double exchanged = 0;
-  const auto entry = [&exchanged](double& account, double work) {
-    account += work;
-    exchanged += std::abs(work);
-  };
-  // loads: (F_n + F_{n+1}) / 2 . dq
+/// (F_n + F_{n+1}) / 2 . dq
+double EnergyLedger::workOfLoads(CompiledModel& model, double begin, const State& to, bool jumps) {
+  const double h = to.t - begin;
   const double* load = model.load();
   double loads = 0;
   for (int i = 0; i < step_.size(); ++i) {
@@ -147,7 +136,23 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     model.setTime(to.t);
     load_ = Eigen::Map<const Vector>(model.load(), model.size());
   }
-  formWorks(model, to, loads);
+  return loads;
+}
+
+void EnergyLedger::enter(CompiledModel& model, const State& to) {
+  skipped_ = 0;
+  const double h = to.t - time_;
+  const double begin = time_;
+  const bool jumps = model.setMean(begin, to.t);
+  const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
+  double fed = 0;  // by damping that is negative
+  time_ = to.t;
+  double exchanged = 0;
+  const auto entry = [&exchanged](double& account, double work) {
+    account += work;
+    exchanged += std::abs(work);
+  };
+  formWorks(model, to, workOfLoads(model, begin, to, jumps));
   entry(account_.loads, sums_[0]);
   const double strain = sums_[1], work = conservative_ ? strain - strain_ : sums_[2];
   entry(account_.circulatory, work - (strain - strain_));

@@ -68,6 +68,7 @@ class EnergyLedger {
     double stored = 0, damping = 0, friction = 0, drive = 0;
   };
   void allocate(CompiledModel& model);
+  double workOfLoads(CompiledModel& model, double begin, const State& to, bool jumps);
   void formWorks(const CompiledModel& model, const State& to, double loads);
   /// `sum` of this rank and power(batch) over all batches.
   template <class Power>

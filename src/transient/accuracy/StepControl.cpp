@@ -41,8 +41,10 @@ void MassNorm::bind(const CompiledModel& model) {
   double sums[2] = {moved, mass};
   model.cut().reduce(nullptr, 0, sums, 2);
   moved = sums[0], mass = sums[1];
-  if (components > 0 && source.recovery.rows() > 0)
-    moved /= static_cast<double>(source.recovery.rows() / components);
+  if (components > 0 && source.recovery.rows() > 0) {
+    const auto nodes = source.recovery.rows() / components;
+    moved /= static_cast<double>(nodes);
+  }
   mass_ = moved > 0 ? mass / moved : mass;
 }
 

@@ -259,13 +259,14 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
       if (met_.frequency() * counted_ * h <= Tuned::resolved) continue;
       const double reversal = 2 * std::abs(met_.along(to.v));
       measureBy(b, impactSpeed(0.5 * reversal));
-      needed = std::max(
-          needed, losesMuch(met_, reversal, h) ? unbounded : constants::pi / met_.frequency());
+      needed = std::max(needed, constants::pi / met_.frequency());
+      if (losesMuch(met_, reversal, h)) needed = unbounded;
       sum += misplaced(met_, reversal, h);
     }
   }
   model_->cut().reduce(&needed, 1, &sum, 1);
-  return sum > mostMisplaced() ? unbounded : needed;
+  if (sum > mostMisplaced()) return unbounded;
+  return needed;
 }
 
 int ImpactResolution::nextLevel(const State& to, double h, const StepGrid& grid) {
