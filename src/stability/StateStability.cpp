@@ -23,6 +23,7 @@
 #include "estimate/ModeComparison.hpp"
 #include "linalg/ComplexProduct.hpp"
 #include "linalg/DynamicStiffness.hpp"
+#include "linalg/SparseProducts.hpp"
 #include "linalg/trilinos/DividedModes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
@@ -62,6 +63,8 @@ constexpr double vibrating = 0.05;
 constexpr double alone = 0.1;
 /// Skew stiffness below this part of the rows is rounding.
 constexpr double skewRounding = 1e-12;
+/// Beyond the rates of all motions with mass [1/s].
+constexpr double fast = 1e8;
 /// Smallest part of the largest displacement that counts as a deflection of its own.
 constexpr double deflection = 0.05;
 
@@ -76,12 +79,21 @@ Vector largestOfRows(const Sparse& K) {
   return rows;
 }
 
-/// K has a skew part, friction acts at the points or a dof is damped negatively: a motion can grow
+/// The damping feeds some motion: C + 2 slowestGrowth (M + K/fast^2), sym, has a negative
+/// eigenvalue. The part of K, which adds to none of the rates, is for dofs without mass.
+bool feeds(const estimate::Linearised& tangent, const Sparse& symmetricStiffness) {
+  const Sparse C = reduction::symmetricPart(tangent.damping);
+  if (linalg::isZero(C)) return false;
+  const Sparse inertia = tangent.mass + 1.0 / (fast * fast) * symmetricStiffness;
+  return linalg::negativeEigenvalues(Sparse(C + 2.0 * slowestGrowth * inertia)).value_or(1) > 0;
+}
+
+/// K has a skew part, friction acts at the points or the damping feeds a motion: it can grow
 /// without negative pivots.
 bool canFlutter(const model::SecondOrderModel& model, const estimate::Linearised& tangent,
-                double t) {
+                const Sparse& symmetricStiffness, double t) {
   if (Sparse(tangent.damping - model.dampingAt(t)).squaredNorm() > 0.0) return true;
-  if (tangent.damping.diagonal().minCoeff() < 0.0) return true;
+  if (feeds(tangent, symmetricStiffness)) return true;
   const Sparse transposed = tangent.stiffness.transpose(), skew = tangent.stiffness - transposed;
   const Vector rows = largestOfRows(tangent.stiffness);
   for (int i = 0; i < skew.outerSize(); ++i)
@@ -396,7 +408,7 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
       reduction::symmetricPart(model.stiffnessAt(t)) + coupling::normalStiffness(model);
   found.negativePivots =
       linalg::eigenvaluesBelow(symmetric, tangent.mass, -slowestGrowth * slowestGrowth);
-  const bool flutters = canFlutter(model, tangent, t);
+  const bool flutters = canFlutter(model, tangent, symmetric, t);
   if (found.negativePivots == 0 && !flutters) return found;
   linalg::EigenOptions options;
   options.tolerance = basisAccuracy;
