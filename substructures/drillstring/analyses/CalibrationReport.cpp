@@ -57,7 +57,9 @@ void print(const Calibration& fit) {
                     "uncertainties in the deck say: values may be wrong, or the model lacks "
                     "something.",
                     fit.scatter));
-  log::info("in a deck, where measurements do not separate static from dynamic friction");
+  log::info(
+      "These settings take the fit into the deck, whose own coefficients the loads below have. "
+      "Measurements do not separate static from dynamic friction.");
   for (const auto& setting : settings) log::info("  " + setting);
 }
 
