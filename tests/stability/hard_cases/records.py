@@ -109,7 +109,7 @@ WHIRLING = "stress_170m", "inclined_1000m", "vertical_1000m"
 def tolerances(program, short):
     """20 s of shipped scenes for tolerances of Newton's method: what it leaves over makes no
     energy. Steps of 1 ms make some of their own in a string that whirls, 0.1 to 1 % at any
-    tolerance: there steps of 0.25 ms, which make 0.02 % at most, and those of 1 ms once, at a tenth
+    tolerance: there steps of 0.25 ms, which make 0.07 % at most, and those of 1 ms once, at a tenth
     of what a run warns of."""
     end = 1.0 if short else 20.0
 
