@@ -79,8 +79,8 @@ Vector largestOfRows(const Sparse& K) {
   return rows;
 }
 
-/// The damping feeds some motion: C + 2 slowestGrowth (M + K/fast^2), sym, has a negative
-/// eigenvalue. The part of K, which adds to none of the rates, is for dofs without mass.
+/// The damping feeds some motion with energy: the symmetric part of C + 2 slowestGrowth (M +
+/// K/fast^2) has a negative eigenvalue. K stands for the mass where a dof has none.
 bool feeds(const estimate::Linearised& tangent, const Sparse& symmetricStiffness) {
   const Sparse C = reduction::symmetricPart(tangent.damping);
   if (linalg::isZero(C)) return false;
