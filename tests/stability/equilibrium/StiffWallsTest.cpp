@@ -22,8 +22,6 @@ equilibrium::StaticState settled(const std::string& deck,
 }
 
 constexpr double tolerance = 1e-9;
-/// Iterations are the cost: soft or stiff, no stage circles about its solution.
-constexpr int most = 250;
 
 /// Nodes with more than a thousandth of all contact force, which is what a wall of 1e8 N/m leaves
 /// open: nodes that graze the wall touch or not by micrometres.
@@ -33,10 +31,9 @@ int carrying(const equilibrium::StaticState& state) {
 
 TEST(StiffWalls, AKilometreOfStringComesToRest) {
   const auto soft = settled("vertical_1000m", {"Contact/Stiffness=1e8"});
-  for (const char* stiffness : {"1e10", "1e11"}) {
+  for (const char* stiffness : {"1e9", "1e10", "1e11"}) {
     const auto stiff = settled("vertical_1000m", {std::string("Contact/Stiffness=") + stiffness});
     EXPECT_LE(stiff.report.residual, tolerance) << stiffness;
-    EXPECT_LT(stiff.report.iterations, most) << stiffness;
     EXPECT_EQ(carrying(stiff), carrying(soft)) << stiffness;
     // a wall of 1e8 N/m yields 0.03 mm, a thousandth of the clearance: about as much of the forces
     EXPECT_NEAR(stiff.totalNormalForce, soft.totalNormalForce, 1e-2 * soft.totalNormalForce)
@@ -49,11 +46,12 @@ TEST(StiffWalls, AKilometreOfStringComesToRest) {
   }
 }
 
+/// Iterations are the cost: soft or stiff, no stage circles about its solution.
 TEST(StiffWalls, TakeAboutAsManyIterationsAsSoftOnes) {
-  for (const char* deck : {"inclined_1000m", "helical_170m"})
+  for (const char* deck : {"vertical_1000m", "inclined_1000m", "helical_170m"})
     for (const char* stiffness : {"1e7", "1e10"})
       EXPECT_LT(settled(deck, {std::string("Contact/Stiffness=") + stiffness}).report.iterations,
-                most)
+                200)
           << deck << ' ' << stiffness;
 }
 
@@ -75,7 +73,7 @@ TEST(StiffWalls, AHangingStringThatIsPulledAndTurnedIsReported) {
   auto little = pulled, much = pulled;
   little.push_back("Contact/Friction/Static=0.1");
   EXPECT_LE(settled("vertical_1000m", little).report.residual, tolerance);
-  much.push_back("Static/Max Iterations=30");
+  much.push_back("Static/Max Iterations=60");
   try {
     settled("vertical_1000m", much);
     FAIL() << "it rests";

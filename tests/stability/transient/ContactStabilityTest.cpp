@@ -4,7 +4,6 @@
 /// clearance, everything at once. A step is never kept unconverged in silence; what ends as a
 /// result is right.
 #include <gtest/gtest.h>
-#include <utility>
 
 #include "../../unit/transient/Models.hpp"
 #include "common/Constants.hpp"
@@ -132,7 +131,7 @@ constexpr double lifts[] = {1.0, 0.97, 1.03, 0.9};
 /// Contact frequencies of 1 to 11 rad per step, resolved by shorter steps: no energy is made with
 /// strong numerical damping. Between impacts steps of 1 ms are too long for what rebounds leave.
 TEST(ContactStability, stiffWalls) {
-  for (double stiffness : {1e8, 1e10}) {
+  for (double stiffness : {1e8, 1e9, 1e10}) {
     Bores data;
     data.stiffness = stiffness;
     Keep samples;
@@ -148,18 +147,18 @@ TEST(ContactStability, stiffWalls) {
 /// With the default damping 3 to 4 % of the energy exchanged are lost in impacts, whatever the wall
 /// and the start. Steps of 1 ms are refused where the wall is stiff: step error 150 %.
 TEST(ContactStability, wallsTooStiffForTheStepAreBalanced) {
-  for (const auto& [stiffness, lift] :
-       {std::pair{1e8, lifts[0]}, {1e9, lifts[1]}, {1e10, lifts[2]}, {1e10, lifts[3]}}) {
-    Bores data;
-    data.stiffness = stiffness;
-    data.lift = lift;
-    Keep samples;
-    const auto report = run(data, samples, 5e-4);
-    EXPECT_GT(report.energy.residual(), -0.02) << stiffness << " " << lift;
-    EXPECT_LT(report.energy.residual(), 0.1) << stiffness << " " << lift;
-    EXPECT_EQ(report.counters.unconvergedSteps, 0) << stiffness << " " << lift;
-    expectInside(samples, 0.011);
-  }
+  for (double stiffness : {1e8, 1e9, 1e10})
+    for (double lift : lifts) {
+      Bores data;
+      data.stiffness = stiffness;
+      data.lift = lift;
+      Keep samples;
+      const auto report = run(data, samples, 5e-4);
+      EXPECT_GT(report.energy.residual(), -0.02) << stiffness << " " << lift;
+      EXPECT_LT(report.energy.residual(), 0.1) << stiffness << " " << lift;
+      EXPECT_EQ(report.counters.unconvergedSteps, 0) << stiffness << " " << lift;
+      expectInside(samples, 0.011);
+    }
 }
 
 /// A mass on a spring that meets a wall whose contact takes 2 rad per step, too few for a force and
