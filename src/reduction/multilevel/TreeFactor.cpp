@@ -250,20 +250,6 @@ Matrix TreeFactor::solve(const Matrix& B) const {
   return X;
 }
 
-double TreeFactor::entries() const {
-  double sum = 0.0;
-  for (int i = 0; i < sizeOf(pieces_); ++i) {
-    const auto& piece = tree_->pieces[at(i)];
-    const bool counted = piece.owner == parallel::rank() ||
-                         (piece.owner == SubstructureTree::everyRank && parallel::rank() == 0);
-    if (!counted) continue;
-    const double n = sizeOf(piece.dofs);
-    sum += piece.leaf ? static_cast<double>(pieces_[at(i)].sparse.entries())
-                      : n * (0.5 * n + sizeOf(piece.boundary));
-  }
-  return parallel::sum(sum);
-}
-
 void TreeFactor::gather(Matrix& X) const {
   if (parallel::size() == 1) return;
   for (int rank = 0; rank < parallel::size(); ++rank) {

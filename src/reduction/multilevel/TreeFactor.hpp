@@ -50,8 +50,6 @@ class TreeFactor {
 
   /// (K + shift M)^-1 B; every rank passes and gets all rows. Collective.
   Matrix solve(const Matrix& B) const;
-  /// Entries of the factors on all ranks. Collective.
-  double entries() const;
 
   /// Rows of X at the dofs of a piece, from those ranks that own them, for all ranks. Collective.
   void gather(Matrix& X) const;
