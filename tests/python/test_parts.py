@@ -224,6 +224,25 @@ class Reduction(unittest.TestCase):
         self.assertTrue(synthesis.rounds)
         self.assertLess(len(synthesis.model), len(self.left) + len(self.right) - 10)
 
+    def test_damping_that_a_basis_leaves_out_is_warned_of(self):
+        K = 1e4 * (2 * np.eye(4) - np.eye(4, k=1) - np.eye(4, k=-1))
+        ends, light = np.diag([0.0, 0.0, 0.0, 30.0]), np.diag([1.0, 1.0, 1.0, 0.0])
+        parts = [
+            tj.part("bar", light, K, damping=ends, nodes=[1, 2, 3, 4], interface=[3]),
+            tj.part("load", np.eye(2), K[:2, :2], nodes=[4, 5], interface=[0])
+        ]
+        for method, left_out in (("MacNeal", True), ("Dual Craig-Bampton", True), ("Rubin", False)):
+            coupled = tj.synthesise(parts, method, all_modes=True)
+            said = "1 boundary dofs with damping but no mass (first u of node 4)"
+            self.assertEqual(said in " ".join(tj.warnings()), left_out, method)
+            damping = [tj.damped_modes(each, 1).damping[0] for each in (coupled, tj.couple(parts))]
+            self.assertEqual(abs(damping[0] - damping[1]) > 0.1 * damping[1], left_out, damping)
+        K[0, 1] *= 0.5
+        skew = tj.part("skew", np.eye(4), K, nodes=[1, 2, 3, 4], interface=[3])
+        remarks = tj.synthesise([skew, parts[1]], "Dual Craig-Bampton", modes=1).parts[0].remarks
+        self.assertRegex(remarks[0],
+                         r"loads on boundary dofs is not exact: .* difference [\d.]+ %$")
+
     def test_springs_between_parts_of_the_list_coupling(self):
         # A spring to the ground at the tip is a term on the diagonal of K.
         stiffness = 5e4
