@@ -76,6 +76,21 @@ def laws_on_joints():
         expect(f"a {name} spring on a joint of Dual Craig-Bampton is refused", done.returncode == 3
                and words in said and 'Choose "Rubin"' in said, f"{done.returncode} {said[-400:]}")
         expect(f"and taken by Rubin ({name})", reduced(deck, "Rubin").returncode == 0)
+    motor = {
+        "Point Laws": {
+            "m": {
+                "Type": "Speed Control", "First": "a:5", "Component": "u",
+                "Speed Control": {"Speed": 0.3, "Proportional Gain": 40.0}
+            }
+        }
+    }
+    done = tooljoint(
+        "run",
+        bars("motor", Coupling=motor,
+             Reduction={"Basis": "Dual Craig-Bampton", "Mode Selection": {"All Modes": True}}),
+        "--output", "motor")
+    expect("a start at rest under a force is in balance to rounding", done.returncode == 0
+           and "into balance" not in " ".join(done.stderr.split()), done.stderr[-400:])
     soft = bars("soft", Coupling=spring(1e3), Reduction=few)
     expect(
         "a soft spring is warned of", "act where the forces between parts move the dofs"

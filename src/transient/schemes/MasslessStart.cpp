@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "linalg/blocks/BlockFactor.hpp"
@@ -21,13 +22,16 @@ constexpr double stillOfSeveral = 1e-10;
 constexpr double stillAccelerations = 1e-8;
 /// Change of the state below this part of it that is rounding.
 constexpr double inBalance = 1e-10;
+/// The same of forces between parts, which only accelerations determine: divided by tau^2.
+constexpr double roundingOfForces = 0.01;
 /// The same of rates, where rounding of what is in balance is divided by tau.
 constexpr double ratesInBalance = 1e-6;
 /// Changes of Newton's method that differ by less than this part of them are those of dofs with
 /// damping: each is tau over their time constant of the way to balance, and is not theirs to make.
 constexpr double creeping = 0.1;
-/// Newton iterations: laws with a gap open and close on the way.
-constexpr int mostIterations = 60;
+/// Newton iterations after which such forces are left; most of them: laws with a gap open and close
+/// on the way.
+constexpr int fewIterations = 3, mostIterations = 60;
 
 /// tau [s], tau^2 this part of the smallest M_ii / K_ii; 0 where nothing has mass and stiffness.
 double shortTime(const CompiledModel& model, double part) {
@@ -62,27 +66,45 @@ class Balance {
 
   /// A change of the displacements.
   bool isRounding(const Vector& change) const {
-    return model_.largest(change) <= inBalance * std::max(model_.largest(state_.q), reference_);
+    return model_.largest(change) <= inBalance * scale();
+  }
+
+  /// A change that is rounding but for forces between parts, whose own is divided by tau^2: they
+  /// follow from accelerations where nothing else determines them.
+  bool isRoundingOfForces(const Vector& change) const {
+    double displacement = 0.0;
+    const auto& dofs = model_.pattern().partition().dof;
+    for (int i = 0; i < model_.size(); ++i)
+      if (model_.source().dofs[at(dofs[at(i)])].force == 0)
+        displacement = std::max(displacement, std::abs(change[i]));
+    return model_.cut().largest(displacement) <= inBalance * scale() &&
+           model_.largest(change) <= roundingOfForces * scale();
   }
 
   /// Newton's method for F - C v - K q + R'f = 0 where there is neither mass nor damping; false
   /// where it does not converge.
   bool positions(Vector& moved) {
-    moved = state_.q;
+    const Vector given = state_.q;
     Vector before = Vector::Zero(model_.size());
+    double first = 0.0;
     int alike = 0;  // changes in a row
     for (int i = 0; i < mostIterations; ++i) {
       if (!factor()) return false;
-      const Vector change = solve(tau_ * tau_ * force());
+      const Vector unbalanced = force();
+      if (i == 0) reference_ = std::max(reference_, deflection(unbalanced));
+      const Vector change = solve(tau_ * tau_ * unbalanced);
       if (!change.allFinite()) return false;
       state_.q += change;
       const double size = model_.largest(change);
+      if (i == 0) first = size;
       alike = model_.largest(change - before) <= creeping * size ? alike + 1 : 0;
       before = change;
       const bool onlyCreeps = alike == 2;
+      const bool onlyForces = i >= fewIterations && isRoundingOfForces(change);
       if (onlyCreeps) state_.q -= (i + 1.0) * change;
-      if (onlyCreeps || isRounding(change)) {
-        moved = state_.q - moved;
+      if (onlyForces && first <= 10.0 * size) state_.q = given;
+      if (onlyCreeps || onlyForces || isRounding(change)) {
+        moved = state_.q - given;
         return true;
       }
     }
@@ -142,6 +164,18 @@ class Balance {
     return factor_.factor() < 0;
   }
 
+  double scale() const { return std::max(model_.largest(state_.q), reference_); }
+
+  /// The largest force over the stiffness of its dof.
+  double deflection(const Vector& force) const {
+    Vector stiffness(model_.size());
+    model_.diagonal(0.0, 0.0, 1.0, stiffness.data());
+    double largest = 0.0;
+    for (int i = 0; i < model_.size(); ++i)
+      if (stiffness[i] != 0.0) largest = std::max(largest, std::abs(force[i] / stiffness[i]));
+    return model_.cut().largest(largest);
+  }
+
   /// Newton change for (K - R'f_d R) v = 0, after factor().
   Vector velocityChange(const Vector& v) {
     Vector out = Vector::Zero(model_.size());
@@ -179,7 +213,7 @@ class Balance {
   const MassFactor& mass_;
   State& state_;
   linalg::BlockFactor factor_;
-  double reference_;  ///< size of the state that displacements count from
+  double reference_;  ///< displacement beside which a change may be rounding
   double tau_;
 };
 
