@@ -28,9 +28,16 @@ std::string shapeOf(const py::array& array) {
   return text.empty() ? "one number" : text;
 }
 
+void refuseMasked(const py::object& values, const std::string& what) {
+  if (py::module_::import("numpy").attr("ma").attr("is_masked")(values).cast<bool>())
+    throw ModelError(what +
+                     " has masked entries. Give every entry a number: filled(0.0), for one.");
+}
+
 }  // namespace
 
 Vector toVector(const Numbers& values, Eigen::Index size, const std::string& what) {
+  refuseMasked(values, what);
   using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
   const auto given = py::array::ensure(values);
   const bool isReal = given && given.dtype().kind() != 'c';
@@ -57,8 +64,11 @@ CsrMatrix toScipy(const model::SharedSparse& matrix) {
 }
 
 Sparse toSparse(const py::object& matrix, const std::string& what) {
+  refuseMasked(matrix, "The " + what);
   py::object csr;
   try {
+    // arrays of a matrix may have been changed since it was made; what reads them trusts them
+    if (py::hasattr(matrix, "check_format")) matrix.attr("check_format")(true);
     csr = scipySparse().attr("csr_matrix")(matrix);
     if (csr.attr("dtype").attr("kind").cast<std::string>() == "c")
       throw ModelError("The " + what +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Models.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <pybind11/stl.h>
@@ -12,6 +13,7 @@
 #include "Calls.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Text.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "reduction/part/Partition.hpp"
 
@@ -44,6 +46,17 @@ void recoverAll(SecondOrderModel& model) {
   model.recoveryNodes = nodes;
 }
 
+/// Every dof has a label of its own, and every component a name.
+void requireOwnNames(const SecondOrderModel& model) {
+  std::map<std::string, std::size_t> position;
+  for (std::size_t i = 0; i < model.dofs.size(); ++i)
+    if (const auto [it, isNew] = position.emplace(describe(model.dofs[i], model.componentNames), i);
+        !isNew)
+      throw ModelError("Dofs " + std::to_string(it->second) + " and " + std::to_string(i) +
+                       " are both " + it->first +
+                       ". Give every dof a node and a component of its own.");
+}
+
 ModelPointer makeModel(const py::object& mass, const py::object& stiffness, const Nodes& nodes,
                        const Components& components, const std::vector<std::string>& names) {
   auto model = std::make_shared<SecondOrderModel>();
@@ -64,6 +77,7 @@ ModelPointer makeModel(const py::object& mass, const py::object& stiffness, cons
       throw ModelError("The mass of dof " + std::to_string(i) + " is negative.");
     model->dofs.push_back(model::DofLabel::physical(nodes[i], components[i]));
   }
+  requireOwnNames(*model);
   model->initialDisplacement = model->initialVelocity = Vector::Zero(model->size());
   recoverAll(*model);
   model->validate();
@@ -153,8 +167,14 @@ void bindMatrices(py::class_<SecondOrderModel, ModelPointer>& type) {
       .def(
           "load", [](const SecondOrderModel& m, double t) { return m.loadAt(t); },
           py::arg("t") = 0.0, "F(t), dofs [N].")
-      .def("point_force", &SecondOrderModel::pointForce, py::arg("t"), py::arg("q"), py::arg("v"),
-           "Forces of the point laws on the dofs at this state [N].")
+      .def(
+          "point_force",
+          [](const SecondOrderModel& m, double t, const Numbers& q, const Numbers& v) {
+            return m.pointForce(t, toVector(q, m.size(), "The displacement"),
+                                toVector(v, m.size(), "The velocity"));
+          },
+          py::arg("t"), py::arg("q"), py::arg("v"),
+          "Forces of the point laws on the dofs at this state [N].")
       .def_property_readonly(
           "stiffness_terms", [](const SecondOrderModel& m) { return terms(m.stiffness); },
           "Constant matrices of the stiffness by name.")
@@ -265,9 +285,12 @@ model::ScalarLaw lawOfTime(const std::string& name, const py::object& function) 
                      ", which cannot be called. Give a function of the time.");
   const Kept kept(function);
   return {name, [kept, name](double t) {
+            const std::string who = "The law of time \"" + name + "\"";
             double value = 0;
-            fromPython("The law of time \"" + name + "\"",
-                       [&] { value = (*kept)(t).cast<double>(); });
+            fromPython(who, [&] { value = (*kept)(t).cast<double>(); });
+            if (!std::isfinite(value))
+              throw ModelError(who + " returned " + formatNumber(value) +
+                               " at t = " + formatNumber(t) + " s; expected are finite numbers.");
             return value;
           }};
 }

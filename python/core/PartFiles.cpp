@@ -45,6 +45,10 @@ void write(const PartPointer& part, const std::string& path, const Sets& interfa
   for (const auto& [name, dofs] : interfaces)
     content.interfaces.push_back(interfaceSet(part->model, name, dofs));
   for (const auto& [node, position] : positions) {
+    if (std::none_of(part->model.dofs.begin(), part->model.dofs.end(),
+                     [n = node](const auto& dof) { return dof.entity == n; }))
+      throw ModelError("A position is given for node " + std::to_string(node) + ", which part \"" +
+                       part->name + "\" does not have.");
     if (position.size() != 3)
       throw ModelError("The position of node " + std::to_string(node) + " has " +
                        std::to_string(position.size()) + " coordinates; expected are three.");

@@ -3,6 +3,7 @@
 what is expected."""
 from __future__ import annotations
 
+import math
 import numbers
 from typing import Any
 
@@ -32,9 +33,11 @@ def whole(value: Any, call: str, name: str) -> int:
 
 
 def real(value: Any, call: str, name: str) -> float:
-    """A real number."""
+    """A real number that is finite."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise UsageError(f"{call}(): {name} is {value!r}; expected is a number.")
+    if not math.isfinite(value):
+        raise UsageError(f"{call}(): {name} is {value!r}; expected is a finite number.")
     return float(value)
 
 

@@ -86,6 +86,8 @@ def mac(a: ArrayLike, b: ArrayLike, mass: MatrixLike) -> np.ndarray:
         shapes = []
     if len(shapes) < 2 or any(each.ndim != 2 for each in shapes):
         raise UsageError("mac(): expected are two arrays of shapes, dofs x modes.")
+    if not all(np.isfinite(each).all() for each in shapes):
+        raise UsageError("mac(): a shape has an entry that is not finite.")
     return _core.modal_assurance(mass, *shapes)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _core
 from .arguments import model_of
-from .errors import ModelError
+from .errors import ModelError, UsageError
 from .lists import checked, describe, placed
 from .quantity import Quantity
 
@@ -35,6 +35,9 @@ class Motion:
         of a reduced part too. what: "displacement", "velocity" or "acceleration". ModelError for a
         node that the model does not recover.
         """
+        orders = ("displacement", "velocity", "acceleration")
+        if what not in orders:
+            raise UsageError(f"at(): what is {what!r}; expected is one of {', '.join(orders)}.")
         numbers, names = self.model.recovery_nodes, self.model.component_names
         place = np.flatnonzero(numbers == node)
         if not len(place) or component not in names:
@@ -44,7 +47,7 @@ class Motion:
         values = np.asarray(history) @ self.model.recovery[row].toarray().ravel()
         if what == "displacement":
             values = values + self.model.recovery_offset[row]
-        order = ("displacement", "velocity", "acceleration").index(what)
+        order = orders.index(what)
         unit = _rate(self.model.component_units[names.index(component)], order)
         return Quantity(values, unit, f"{history.long_name} {component} of node {node}")
 

@@ -46,7 +46,11 @@ def part(
     >>> bar.model.dof_names[2]
     'u of node 3'
     """
+    if not isinstance(name, str):
+        raise UsageError(f"part(): name is {name!r}; expected is a text.")
     size, width = (np.shape(mass) or (0,))[0], len(component_names)
+    if width == 0:
+        raise UsageError("part(): component_names is empty; expected is a name or more.")
     if nodes is None:
         nodes = np.arange(size) // width + 1
     nodes = _whole(nodes, "nodes")
@@ -69,7 +73,9 @@ def _whole(values: Any, what: str) -> list[int]:
     values = list(values) if np.iterable(values) else [values]
     for value in values:
         if isinstance(value, (bool, np.bool_)) or not isinstance(
-                value, (int, float, np.integer, np.floating)) or not float(value).is_integer():
+                value,
+            (int, float, np.integer, np.floating)) or not float(value).is_integer() or abs(
+                float(value)) >= 2**63:
             raise ModelError(f"{what} has {value!r}; expected are whole numbers.")
     return [int(value) for value in values]
 

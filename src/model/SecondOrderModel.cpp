@@ -171,6 +171,8 @@ void SecondOrderModel::validate() const {
     const auto coordinates = static_cast<Eigen::Index>(set.law->size()) * set.law->width();
     if (set.rows.rows() != coordinates || set.rows.cols() != n || set.offset.size() != coordinates)
       inconsistent("the point set \"" + set.name + "\" has rows that do not match its law.");
+    if (!finite(set.rows) || !set.offset.allFinite())
+      inconsistent("the point set \"" + set.name + "\" has a row or an offset that is not finite.");
   }
   if (initialDisplacement.size() != n || initialVelocity.size() != n)
     inconsistent("the initial state has another size than the mass matrix.");

@@ -17,6 +17,16 @@ Vector rowSizes(const Sparse& A) { return A.cwiseAbs() * Vector::Ones(A.cols());
 /// Of what is relative to the rows of a matrix, rounding.
 constexpr double roundingOfRows = 1e-12;
 
+/// Dofs of a part without mass, but with damping.
+std::vector<int> dampedMassless(const model::SecondOrderModel& model,
+                                const std::vector<int>& among) {
+  const Vector mass = rowSizes(model.mass), damping = rowSizes(model.dampingAt(0.0));
+  std::vector<int> found;
+  for (const int i : among)
+    if (mass[i] == 0.0 && damping[i] > 0.0) found.push_back(i);
+  return found;
+}
+
 }  // namespace
 
 void warnOfUnsymmetricMassless(const model::Substructure& part) {
@@ -38,15 +48,12 @@ void warnOfUnsymmetricMassless(const model::Substructure& part) {
 void warnOfDampedMassless(const model::Substructure& part) {
   const auto& model = part.model;
   const Sparse C = model.dampingAt(0.0), K = model.stiffnessAt(0.0);
-  const Vector mass = rowSizes(model.mass), damping = rowSizes(C);
-  std::vector<int> damped;
-  for (const int i : part.interior())
-    if (mass[i] == 0.0 && damping[i] > 0.0) damped.push_back(i);
+  const auto damped = dampedMassless(model, part.interior());
   if (damped.empty()) return;
   const int first = damped.front();
   const double stiffness = K.coeff(first, first);
   const double alpha = stiffness != 0.0 ? C.coeff(first, first) / stiffness : 0.0;
-  const Vector apart = rowSizes(Sparse(C - alpha * K));
+  const Vector damping = rowSizes(C), apart = rowSizes(Sparse(C - alpha * K));
   if (std::all_of(damped.begin(), damped.end(),
                   [&](int i) { return apart[i] <= roundingOfRows * damping[i]; }))
     return;
@@ -54,6 +61,19 @@ void warnOfDampedMassless(const model::Substructure& part) {
       "Part \"" + part.name + "\" has " + std::to_string(damped.size()) +
       " interior dofs with damping but no mass (first " + model::dofName(model, first) +
       "). No basis holds how they creep, not even all modes. Retain them, or give them mass.");
+}
+
+void warnOfDampedMasslessBoundary(const model::Substructure& part) {
+  auto boundary = part.interface;
+  boundary.insert(boundary.end(), part.retained.begin(), part.retained.end());
+  const auto damped = dampedMassless(part.model, boundary);
+  if (!damped.empty())
+    log::warn(
+        "Part \"" + part.name + "\" has " + std::to_string(damped.size()) +
+        " boundary dofs with damping but no mass (first " +
+        model::dofName(part.model, damped.front()) +
+        "). This basis damps its modes alone and leaves that out, with all modes, too. Choose "
+        "\"Rubin\", which has the same modes, or give them mass.");
 }
 
 }  // namespace tooljoint::reduction

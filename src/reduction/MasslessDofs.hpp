@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Interior dofs without mass whose motion no basis of constraint modes and modes holds.
+/// Dofs without mass whose motion or damping a basis does not hold.
 #pragma once
 
 #include "model/Substructure.hpp"
@@ -15,5 +15,9 @@ void warnOfUnsymmetricMassless(const model::Substructure& part);
 /// order that modes of mass and stiffness do not hold; where C = alpha K in the rows of all of
 /// them, their static answer is exact.
 void warnOfDampedMassless(const model::Substructure& part);
+
+/// The flexibility of dofs without mass is in no mode; bases whose residual coordinates have no
+/// damping lose what damps them.
+void warnOfDampedMasslessBoundary(const model::Substructure& part);
 
 }  // namespace tooljoint::reduction

@@ -255,6 +255,7 @@ class Team {
       if (first(p) && !isWhole(cores_[p]->basis)) {
         warnOfDampedMassless(parts_[p]);
         warnOfUnsymmetricMassless(parts_[p]);
+        if (!basis_.traits().ownMass) warnOfDampedMasslessBoundary(parts_[p]);
       }
     std::vector<ReducedSubstructure> reduced;
     std::map<std::size_t, ReducedModels> models;

@@ -322,6 +322,13 @@ class Motions(unittest.TestCase):
                     tj.ModelError,
                     'The law of time "load" returned something else than the real numbers'):
                 tj.integrate(mass, 0.1, step="1 ms")
+        mass = tj.part("mass", [[1.0]], [[1.0]])
+        mass.model.add_load([1.0], "gap", lambda t: np.nan if t > 0.05 else 1.0)
+        with self.assertRaisesRegex(
+                tj.ModelError,
+                r'^The law of time "gap" returned nan at t = 0\.05\S* s; expected are '
+                'finite numbers'):
+            tj.integrate(mass, 0.1, step="1 ms")
         with self.assertRaisesRegex(
                 tj.ModelError,
                 r'^The point law "None" returned None at t = 0\.05\S* s; expected are \d+ forces'):

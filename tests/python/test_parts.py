@@ -65,6 +65,19 @@ class Matrices(unittest.TestCase):
         with self.assertRaisesRegex(tj.ModelError, "2 rows, but 3 nodes"):
             tj.part("bad", np.eye(2), np.eye(2), nodes=[1, 2, 3], components=[0, 0, 0])
 
+    def test_matrices_whose_arrays_were_changed_are_refused(self):
+        for name, place, value in (("indices", 0, 99), ("indices", 0, -1), ("indptr", 2, 99)):
+            for kind in ("csr", "csc"):
+                matrix = sparse.random(4, 4, 0.9, kind, random_state=1)
+                getattr(matrix, name)[place] = value
+                with self.assertRaisesRegex(tj.ModelError, "stiffness matrix is no matrix"):
+                    tj.part("changed", np.eye(4), matrix)
+        masked = np.ma.masked_array(np.eye(4), mask=np.eye(4) < 1)
+        with self.assertRaisesRegex(tj.ModelError, "The mass matrix has masked entries"):
+            tj.part("masked", masked, np.eye(4))
+        with self.assertRaisesRegex(tj.ModelError, "load.* has masked entries"):
+            tj.part("masked", np.eye(4), np.eye(4), load=masked[0])
+
     def test_positions_that_are_none_are_refused(self):
         for name, wrong in {
                 "nodes": ["a", "b"], "components": [0.5, 0], "interface": [2], "retained": [-1]
@@ -78,6 +91,29 @@ class Matrices(unittest.TestCase):
             tj.part("bad", np.eye(2), np.eye(2), nodes=[0, 1])
         with self.assertRaisesRegex(tj.ModelError, "whole numbers"):
             tj.part("mask", np.eye(2), np.eye(2), interface=[True, False])
+        with self.assertRaisesRegex(tj.ModelError, "whole numbers"):
+            tj.part("huge", np.eye(2), np.eye(2), nodes=[1, 2**70])
+        for wrong in ({"nodes": [1, 1], "components": [0, 0]}, {"component_names": ["u", "u"]}):
+            with self.assertRaisesRegex(tj.ModelError, "Dofs 0 and 1 are both u of node 1"):
+                tj.part("twice", np.eye(2), np.eye(2), **wrong)
+        for wrong, sentence in (((5, {}), "name is 5"), (("a", {"component_names": []}),
+                                                         "is empty")):
+            with self.assertRaisesRegex(tj.UsageError, sentence):
+                tj.part(wrong[0], np.eye(2), np.eye(2), **wrong[1])
+        with self.assertRaisesRegex(tj.ModelError, "given for node 7, which part \"a\" does not"):
+            tj.write_part(tj.part("a", [[1]], [[1]]), "a.h5", positions={7: [0, 0, 0]})
+
+    def test_points_that_are_none_are_refused(self):
+        model = tj.part("pair", np.eye(2), np.eye(2)).model
+        spring = tj.law("Spring", stiffness=1.0)
+        for rows, offset in (([[np.nan, 0]], [0.0]), ([[1, 0]], [np.inf])):
+            with self.assertRaisesRegex(tj.ModelError, "a row or an offset that is not finite"):
+                model.add_points("s", spring, rows, offset)
+        model.add_points("s", spring, [[1, 0]])
+        self.assertEqual(model.point_force(0, [2, 5], [0, 0]).tolist(), [-2, 0])
+        for q, v in (([2], [0, 0]), ([2, 5], [0, 0, 0])):
+            with self.assertRaisesRegex(tj.ModelError, "expected are 2 entries"):
+                model.point_force(0, q, v)
 
     def test_vectors_that_do_not_fit_are_refused(self):
         part = tj.part("chain", np.eye(3), np.eye(3))
@@ -110,6 +146,13 @@ class Matrices(unittest.TestCase):
                 lambda: tj.modes(part, 2.5): "modes(): count is 2.5; expected is a whole number.",
                 lambda: tj.modes(3, 2): "modes(): of is 3; expected is a Part or a ReducedPart or "
                 "a Synthesis or a Model.",
+                lambda: tj.damped_modes(part, 2, np.nan): "damped_modes(): t is nan; expected is a "
+                "finite number.",
+                lambda: tj.mac(np.eye(2),
+                               np.eye(2) * np.nan, np.eye(2)): "mac(): a shape has an "
+                "entry that is not finite.",
+                lambda: tj.integrate(part, 0.01).at(1, "u", "speed"): "at(): what is 'speed'; "
+                "expected is one of displacement, velocity, acceleration.",
                 lambda: tj.damped_modes(part, 2, "1 s"): "damped_modes(): t is '1 s'; expected is "
                 "a number.",
                 lambda: tj.compare_modes(part, 2): "compare_modes(): synthesis is <Part",
@@ -223,6 +266,25 @@ class Reduction(unittest.TestCase):
         self.assertTrue(0 <= error.max() < 1e-5, f"{error}")
         self.assertTrue(synthesis.rounds)
         self.assertLess(len(synthesis.model), len(self.left) + len(self.right) - 10)
+
+    def test_damping_that_a_basis_leaves_out_is_warned_of(self):
+        K = 1e4 * (2 * np.eye(4) - np.eye(4, k=1) - np.eye(4, k=-1))
+        ends, light = np.diag([0.0, 0.0, 0.0, 30.0]), np.diag([1.0, 1.0, 1.0, 0.0])
+        parts = [
+            tj.part("bar", light, K, damping=ends, nodes=[1, 2, 3, 4], interface=[3]),
+            tj.part("load", np.eye(2), K[:2, :2], nodes=[4, 5], interface=[0])
+        ]
+        for method, left_out in (("MacNeal", True), ("Dual Craig-Bampton", True), ("Rubin", False)):
+            coupled = tj.synthesise(parts, method, all_modes=True)
+            said = "1 boundary dofs with damping but no mass (first u of node 4)"
+            self.assertEqual(said in " ".join(tj.warnings()), left_out, method)
+            damping = [tj.damped_modes(each, 1).damping[0] for each in (coupled, tj.couple(parts))]
+            self.assertEqual(abs(damping[0] - damping[1]) > 0.1 * damping[1], left_out, damping)
+        K[0, 1] *= 0.5
+        skew = tj.part("skew", np.eye(4), K, nodes=[1, 2, 3, 4], interface=[3])
+        remarks = tj.synthesise([skew, parts[1]], "Dual Craig-Bampton", modes=1).parts[0].remarks
+        self.assertRegex(remarks[0],
+                         r"loads on boundary dofs is not exact: .* difference [\d.]+ %$")
 
     def test_springs_between_parts_of_the_list_coupling(self):
         # A spring to the ground at the tip is a term on the diagonal of K.

@@ -237,16 +237,18 @@ class Builder {
   ///
   ///     [M . ; . .] (a, lambda) + J (a, lambda) = (F + R'f - C v - K q, 0)
   ///
-  /// Coordinates without mass get that of the fastest diagonal frequency of the others, which
-  /// hardly matters to the forces.
+  /// Coordinates without mass get that of the fastest diagonal frequency of the others, and motions
+  /// of several, as those of turned dofs, a small part of it. It hardly matters to the forces.
   void startConsistently() {
     SecondOrderModel& m = out_.model;
     const Eigen::Index n = m.mass.rows();
     const Vector mass = m.mass.diagonal(), stiffness = diagonalStiffness();
-    std::vector<char> bare(at(n), 0);
+    std::vector<char> isForce(at(n), 0), bare(at(n), 0);
     for (const auto& multiplier : out_.multipliers)
-      for (int i : {multiplier.first, multiplier.second})
+      for (int i : {multiplier.first, multiplier.second}) {
+        isForce[at(i)] = 1;
         bare[at(i)] = mass[i] == 0.0 && stiffness[i] == 0.0 ? 1 : 0;
+      }
     Vector r = m.loadAt(0.0) + m.pointForce(0.0, m.initialDisplacement, m.initialVelocity) -
                m.dampingAt(0.0) * m.initialVelocity - m.stiffnessAt(0.0) * m.initialDisplacement;
     double fastest = 0;
@@ -262,6 +264,13 @@ class Builder {
         entries.emplace_back(
             i, i, stiffness[i] != 0.0 && fastest > 0 ? std::abs(stiffness[i]) / fastest : 1.0);
     }
+    constexpr double part = 1e-11;
+    for (std::size_t k = 0; k < m.stiffness.size(); ++k)
+      if (fastest > 0 && k != joining_ && m.laws[at(m.stiffness[k].law)].isOne())
+        forEachEntry(m.stiffness[k].matrix, [&](int i, int j, double value) {
+          if (!isForce[at(i)] && !isForce[at(j)])
+            entries.emplace_back(i, j, part / fastest * value);
+        });
     if (joining_)
       forEachEntry(m.stiffness[*joining_].matrix, [&](int i, int j, double value) {
         if (bare[at(i)] != 0 || bare[at(j)] != 0) entries.emplace_back(i, j, value);

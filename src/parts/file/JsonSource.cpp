@@ -32,7 +32,7 @@ class JsonSource : public PartSource {
     else if (std::filesystem::is_directory(path, ignored))
       file_ = (std::filesystem::path(path) / "part.json").string();
     try {
-      root_ = Json::parse(inDeck_ ? path : readInput(file_, largestJson));
+      root_ = parsed(inDeck_ ? path : readInput(file_, largestJson));
     } catch (const FileError& fault) {
       throw DeckError(fault.what());
     } catch (const Json::exception& fault) {
@@ -97,6 +97,21 @@ class JsonSource : public PartSource {
   }
 
  private:
+  /// DeckError where an object has a name twice, of which a parser takes either.
+  Json parsed(const std::string& text) const {
+    std::vector<std::set<std::string>> open;
+    return Json::parse(text, [&](int, Json::parse_event_t event, const Json& value) {
+      if (event == Json::parse_event_t::object_start)
+        open.emplace_back();
+      else if (event == Json::parse_event_t::object_end)
+        open.pop_back();
+      else if (event == Json::parse_event_t::key && !open.back().insert(value).second)
+        throw DeckError(file_ + " gives " + inQuotes(value.get<std::string>()) +
+                        " twice in one object. Keep one of them.");
+      return true;
+    });
+  }
+
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
     throw DeckError(file_ + ": " + inQuotes(path) + " " + what + ".");
   }

@@ -37,13 +37,14 @@ class MtxFile {
 
   LabelledMatrix matrix(Quantity quantity, const std::string& name) {
     Entries given;
-    while (next()) {
+    bool whole = false;
+    for (long keyword = 0; next();) {
       if (text_[0] == '*') {
-        const auto words = upper(text_);
-        if (words.rfind("*MATRIX INPUT", 0) != 0 && words.rfind("*MATRIXINPUT", 0) != 0)
+        if (keyword > 0 || !given.empty())
           fail("is the keyword " + inQuotes(text_) +
-               ". Expected the output of *MATRIX GENERATE and *MATRIX OUTPUT, lines \"node, dof, "
-               "node, dof, value\"");
+               " below entries of a matrix. Expected one matrix, in a file of its own");
+        keyword = line_;
+        whole = isUnsymmetric();
         continue;
       }
       const auto fields = split();
@@ -64,7 +65,7 @@ class MtxFile {
       throw DeckError(
           path_ + " has no entry of a matrix. Expected lines \"node, dof, node, dof, value\"" +
           (quantity == Quantity::Damping ? "; remove the file where there is no damping." : "."));
-    const bool symmetric = isOneTriangle(given);
+    const bool symmetric = !whole && isOneTriangle(given);
     LabelledMatrix out{quantity, name, path_, {}};
     for (const auto& [place, number] : given) {
       out.entries.push_back({place.first, place.second, number});
@@ -94,6 +95,28 @@ class MtxFile {
 
  private:
   using Entries = std::map<std::pair<PointDof, PointDof>, double>;
+
+  /// Whether the keyword *MATRIX INPUT of this line says so, by TYPE=UNSYMMETRIC.
+  bool isUnsymmetric() const {
+    auto words = tooljoint::split(upper(text_), ',');
+    const auto keyword = trim(words.front());
+    if (keyword != "*MATRIX INPUT" && keyword != "*MATRIXINPUT")
+      fail("is the keyword " + inQuotes(text_) +
+           ". Expected the output of *MATRIX GENERATE and *MATRIX OUTPUT, lines \"node, dof, "
+           "node, dof, value\"");
+    bool unsymmetric = false;
+    for (auto word = words.begin() + 1; word != words.end(); ++word) {
+      const auto equals = word->find('=');
+      const auto name = trim(word->substr(0, equals));
+      const auto value = equals == std::string::npos ? "" : trim(word->substr(equals + 1));
+      if (name == "TYPE" && (value == "SYMMETRIC" || value == "UNSYMMETRIC"))
+        unsymmetric = value == "UNSYMMETRIC";
+      else if (name != "NAME")
+        fail("gives " + inQuotes(trim(*word)) +
+             ", expected of *MATRIX INPUT a NAME, and TYPE = SYMMETRIC or UNSYMMETRIC");
+    }
+    return unsymmetric;
+  }
 
   /// Whether the file holds one triangle of a symmetric matrix: entries without their transpose,
   /// and no others but zeros. DeckError where equal pairs stand beside such entries.

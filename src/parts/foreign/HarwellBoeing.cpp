@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <utility>
 
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
@@ -83,6 +84,9 @@ class HbFile {
       words = wordsOf(text_);
       if (words.empty() || upper(words[0])[0] != 'F')
         fail("describes the right-hand sides, expected \"F\" (full): found " + inQuotes(text_));
+      if (words.size() > 1 && words[1] != "1")
+        fail("announces " + words[1] +
+             " right-hand sides, expected one: it is the constant load of the part");
     }
     const auto n = static_cast<std::size_t>(out.size), entries = static_cast<std::size_t>(sizes[2]);
     checkCounts(counts, {n + 1, entries, entries}, formats);
@@ -256,9 +260,10 @@ class HbFile {
     std::vector<double> out;
     fields(count, format, what, [&](const std::string& text, std::size_t field) {
       double value = 0.0;
-      if (!fortranNumber(text, false, value))
+      // without a point Fortran counts the decimals of the format from the right
+      if (!fortranNumber(text, true, value))
         fail("has " + inQuotes(text) + " in field " + std::to_string(field) +
-             ", expected a finite number");
+             ", expected a finite number with a decimal point");
       out.push_back(value);
     });
     return out;
@@ -352,6 +357,7 @@ class HarwellBoeing : public PartFormat {
                                       : Quantity::Damping;
     out.name = key;
     out.where = file;
+    std::vector<std::int64_t> columnOf(static_cast<std::size_t>(content.size), 0);
     for (std::int64_t j = 1; j <= content.size; ++j)
       for (auto k = content.starts[static_cast<std::size_t>(j - 1)];
            k < content.starts[static_cast<std::size_t>(j)]; ++k) {
@@ -363,6 +369,9 @@ class HarwellBoeing : public PartFormat {
                           "row " +
                           std::to_string(row) + ", column " + std::to_string(j) +
                           ". Expected the lower triangle.");
+        if (std::exchange(columnOf[static_cast<std::size_t>(row - 1)], j) == j)
+          throw DeckError(file + " gives the entry in row " + std::to_string(row) + ", column " +
+                          std::to_string(j) + " twice. An assembled matrix has it once.");
         out.entries.push_back({label(row), label(j), value});
         if (content.symmetric && row != j) out.entries.push_back({label(j), label(row), value});
       }

@@ -43,7 +43,14 @@ NastranBulkData::NastranBulkData(const std::string& path) : path_(path), in_(pat
   long line = 0;
   for (std::string text; once.line(text, longestLine);) {
     ++line;
-    if (words(text.substr(0, text.find('$'))).rfind("BEGIN BULK", 0) == 0) begin_ = line;
+    const auto opening = words(text.substr(0, text.find('$')));
+    if (opening.rfind("BEGIN BULK", 0) != 0 && opening.rfind("BEGIN SUPER", 0) != 0) continue;
+    if (begin_ > 0)
+      throw DeckError(path_ + ":" + std::to_string(line) +
+                      " begins a second section of bulk data; the first begins in line " +
+                      std::to_string(begin_) +
+                      ". A part is one of them: give each a file of its own.");
+    begin_ = line;
   }
 }
 

@@ -23,9 +23,10 @@ constexpr double sameInDouble = 1e-9, sameInSingle = 1e-6;
 using namespace dmig;
 
 /// Entries beside DMIG that say nothing about the matrices.
-const std::set<std::string> skipped{"SPOINT", "ASET",  "ASET1", "QSET",   "QSET1",
-                                    "BSET",   "BSET1", "CSET",  "CSET1",  "USET",
-                                    "USET1",  "PARAM", "EXTRN", "SECONCT"};
+const std::set<std::string> skipped{"SPOINT", "ASET",   "ASET1",  "QSET",    "QSET1",
+                                    "BSET",   "BSET1",  "CSET",   "CSET1",   "USET",
+                                    "USET1",  "PARAM",  "EXTRN",  "SECONCT", "CORD1R",
+                                    "CORD1C", "CORD1S", "CORD2R", "CORD2C",  "CORD2S"};
 
 class DmigReader {
  public:
@@ -81,7 +82,7 @@ class DmigReader {
   }
 
   void takeHeader(const BulkEntry& entry) {
-    const auto& name = entry.fields.front().text;
+    const auto name = upper(entry.fields.front().text);
     auto fields = entry.fields;
     fields.resize(8);
     Dmig matrix;
@@ -121,9 +122,10 @@ class DmigReader {
 
   void addColumn(const BulkEntry& entry) {
     const auto& fields = entry.fields;
-    const auto it = matrices_.find(fields.front().text);
+    const auto name = upper(fields.front().text);
+    const auto it = matrices_.find(name);
     if (it == matrices_.end())
-      fail(entry.line, "is a column of the matrix " + inQuotes(fields.front().text) +
+      fail(entry.line, "is a column of the matrix " + inQuotes(name) +
                            ", which has no header \"DMIG NAME 0 IFO TIN TOUT\"");
     auto& matrix = it->second;
     const PointDof column = dof(fields[1], fields[2]);
@@ -170,26 +172,29 @@ class DmigReader {
   void finish(const std::string& name, const Dmig& matrix) {
     const std::string where =
         path_ + ":" + std::to_string(matrix.line) + ": the matrix " + inQuotes(name);
-    const auto title = upper(name);
-    if (title.front() == 'P') return addLoads(name, where, matrix);
-    if (title.rfind("K4", 0) == 0)
+    if (name.front() == 'P') return addLoads(name, where, matrix);
+    if (name.rfind("K4", 0) == 0)
       throw DeckError(where +
                       " is structural damping, a complex stiffness without meaning in time. Remove "
                       "it, or give viscous damping (BAAX, B2GG)");
-    const bool stiffness = title.front() == 'K' || title.rfind("STIF", 0) == 0;
-    const bool damping = title.front() == 'B' || title.rfind("DAMP", 0) == 0;
-    if (!stiffness && !damping && title.front() != 'M')
+    const bool stiffness = name.front() == 'K' || name.rfind("STIF", 0) == 0;
+    const bool damping = name.front() == 'B' || name.rfind("DAMP", 0) == 0;
+    if (!stiffness && !damping && name.front() != 'M')
       throw DeckError(where +
                       " has a name that does not say what it is. Expected K... (stiffness), M... "
                       "(mass), B... (viscous damping) or P... (loads).");
-    if (matrix.form == rectangular && title.front() == 'M')
-      throw DeckError(where +
-                      " is rectangular (IFO 2) and no mass. Remove it if it is one of the "
-                      "recovery matrices of EXTSEOUT.");
+    if ((matrix.form == rectangular || matrix.form == columnsByNumber) && name.front() == 'M')
+      throw DeckError(where + " is rectangular (IFO " + std::to_string(matrix.form) +
+                      ") and no mass. Remove it if it is one of the recovery matrices of "
+                      "EXTSEOUT.");
     if (matrix.form == columnsByNumber)
       throw DeckError(where +
                       " has numbered columns (IFO 9). Expected IFO 6, 1 or 2: its columns need the "
                       "labels of dofs.");
+    if (matrix.values.empty() && !damping)
+      throw DeckError(where +
+                      " has a header, but no column: the file is cut short, or the matrix is zero. "
+                      "Remove the header of a matrix without entries.");
     LabelledMatrix out;
     out.quantity = stiffness ? Quantity::Stiffness : damping ? Quantity::Damping : Quantity::Mass;
     out.name = name;

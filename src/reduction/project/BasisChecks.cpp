@@ -9,6 +9,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "common/report/Percent.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/DenseDecompositions.hpp"
 #include "linalg/SparseProducts.hpp"
@@ -297,7 +298,7 @@ void checkBasis(const PartView& part, const Basis& basis, const ProjectedMatrice
   if (report.staticDefect > 1e-6)
     report.remarks.push_back(
         "static response to loads on boundary dofs is not exact: largest relative difference " +
-        formatNumber(report.staticDefect));
+        percent(report.staticDefect));
   try {
     checkFrequencies(part, basis, reduced, report);
   } catch (const linalg::SingularPencil& singular) {

@@ -24,7 +24,7 @@ void AlphaStep::start(CompiledModel& model, double h, State& state, Counters& co
   mass_ = std::make_shared<MassFactor>(model);
   ++counters.factorisations;
   model.bindStates(state.x.data());
-  balanceMassless(model, *mass_, state);
+  balanceMassless(model, *mass_, h, state);
   for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
   state.a.setZero();
   model.addStiffness(state.q.data(), state.a.data());

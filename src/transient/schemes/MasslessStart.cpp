@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "linalg/blocks/BlockFactor.hpp"
@@ -15,12 +16,22 @@ namespace {
 
 /// tau^2 as a part of the smallest M_ii / K_ii: what has mass moves by this part of its deflection.
 constexpr double still = 1e-13;
+/// The same where motions of several dofs have no mass, whose tau^2 K stands beside rounding of M.
+constexpr double stillOfSeveral = 1e-10;
 /// The same for accelerations, where what is out of balance by rounding is divided by tau^2.
 constexpr double stillAccelerations = 1e-8;
 /// Change of the state below this part of it that is rounding.
 constexpr double inBalance = 1e-10;
-/// Newton iterations: laws with a gap open and close on the way.
-constexpr int mostIterations = 30;
+/// The same of forces between parts, which only accelerations determine: divided by tau^2.
+constexpr double roundingOfForces = 0.01;
+/// The same of rates, where rounding of what is in balance is divided by tau.
+constexpr double ratesInBalance = 1e-6;
+/// Changes of Newton's method that differ by less than this part of them are those of dofs with
+/// damping: each is tau over their time constant of the way to balance, and is not theirs to make.
+constexpr double creeping = 0.1;
+/// Newton iterations after which such forces are left; most of them: laws with a gap open and close
+/// on the way.
+constexpr int fewIterations = 3, mostIterations = 60;
 
 /// tau [s], tau^2 this part of the smallest M_ii / K_ii; 0 where nothing has mass and stiffness.
 double shortTime(const CompiledModel& model, double part) {
@@ -34,6 +45,12 @@ double shortTime(const CompiledModel& model, double part) {
   return most > 0.0 ? std::sqrt(part / most) : 0.0;
 }
 
+/// Largest displacement where the coordinates are 0: of a state about which parts were reduced.
+double referenceSize(const CompiledModel& model) {
+  const Vector& offset = model.source().recoveryOffset;
+  return model.cut().largest(offset.size() > 0 ? offset.cwiseAbs().maxCoeff() : 0.0);
+}
+
 /// Solutions with M + tau (C - R'f_v R) + tau^2 (K - R'f_d R).
 class Balance {
  public:
@@ -42,44 +59,85 @@ class Balance {
         mass_(mass),
         state_(state),
         factor_(model.pattern()),
+        reference_(referenceSize(model)),
         tau_(shortTime(model, part)) {}
 
   bool possible() const { return tau_ > 0.0; }
 
-  /// Newton's method for F - C v - K q + R'f = 0; false where it does not converge.
+  /// A change of the displacements.
+  bool isRounding(const Vector& change) const {
+    return model_.largest(change) <= inBalance * scale();
+  }
+
+  /// A change that is rounding but for forces between parts, whose own is divided by tau^2: they
+  /// follow from accelerations where nothing else determines them.
+  bool isRoundingOfForces(const Vector& change) const {
+    double displacement = 0.0;
+    const auto& dofs = model_.pattern().partition().dof;
+    for (int i = 0; i < model_.size(); ++i)
+      if (model_.source().dofs[at(dofs[at(i)])].force == 0)
+        displacement = std::max(displacement, std::abs(change[i]));
+    return model_.cut().largest(displacement) <= inBalance * scale() &&
+           model_.largest(change) <= roundingOfForces * scale();
+  }
+
+  /// Newton's method for F - C v - K q + R'f = 0 where there is neither mass nor damping; false
+  /// where it does not converge.
   bool positions(Vector& moved) {
-    moved = state_.q;
+    const Vector given = state_.q;
+    Vector before = Vector::Zero(model_.size());
+    double first = 0.0;
+    int alike = 0;  // changes in a row
     for (int i = 0; i < mostIterations; ++i) {
-      Vector force = Vector::Zero(model_.size());
-      model_.addStiffness(state_.q.data(), force.data());
-      model_.addDamping(state_.v.data(), force.data());
-      force = Eigen::Map<const Vector>(model_.load(), model_.size()) - force;
       if (!factor()) return false;
-      for (auto& batch : model_.points()) batch.addForce(force.data());
-      const Vector change = solve(std::move(force));
+      const Vector unbalanced = force();
+      if (i == 0) reference_ = std::max(reference_, deflection(unbalanced));
+      const Vector change = solve(tau_ * tau_ * unbalanced);
       if (!change.allFinite()) return false;
       state_.q += change;
-      if (model_.largest(change) <= inBalance * model_.largest(state_.q)) {
-        moved = state_.q - moved;
+      const double size = model_.largest(change);
+      if (i == 0) first = size;
+      alike = model_.largest(change - before) <= creeping * size ? alike + 1 : 0;
+      before = change;
+      const bool onlyCreeps = alike == 2;
+      const bool onlyForces = i >= fewIterations && isRoundingOfForces(change);
+      if (onlyCreeps) state_.q -= (i + 1.0) * change;
+      if (onlyForces && first <= 10.0 * size) state_.q = given;
+      if (onlyCreeps || onlyForces || isRounding(change)) {
+        moved = state_.q - given;
         return true;
       }
     }
     return false;
   }
 
-  /// (K - R'f_d R) v = 0.
+  /// Rates where there is damping, but no mass: Newton's method for F - C v - K (q + h v) + R'f = 0
+  /// at q + h v, so that what relaxes in less than a step h does no more than that. As given where
+  /// it does not converge.
+  void rates(double h) {
+    const Vector given = state_.v;
+    for (int i = 0; i < mostIterations && factor(h); ++i) {
+      Vector change = solve(tau_ * force(h));
+      // dofs with mass take tau times their acceleration, less of the second order by this
+      Vector inertia = Vector::Zero(model_.size());
+      model_.addMass(change.data(), inertia.data());
+      change -= solve(std::move(inertia));
+      if (!change.allFinite()) break;
+      state_.v += change;
+      if (model_.largest(change) <=
+          std::max(ratesInBalance * model_.largest(state_.v), inBalance * reference_ / h))
+        return;
+    }
+    state_.v = given;
+  }
+
+  /// (K - R'f_d R) v = 0. A second change is that of what has mass or damping once more.
   bool velocities() {
     if (!factor()) return false;
-    Vector force = Vector::Zero(model_.size());
-    model_.addStiffness(state_.v.data(), force.data());
-    force = -force;
-    for (auto& batch : model_.points()) {
-      batch.freezeTangent(1.0, 0.0);
-      batch.addTangentTimes(state_.v.data(), force.data());
-    }
-    const Vector change = solve(std::move(force));
-    if (!change.allFinite()) return false;
-    if (model_.largest(change) > inBalance * model_.largest(state_.v)) state_.v += change;
+    const Vector change = velocityChange(state_.v);
+    const Vector creeps = velocityChange(state_.v + change);
+    if (!change.allFinite() || !creeps.allFinite()) return false;
+    if (model_.largest(change) > inBalance * model_.largest(state_.v)) state_.v += change - creeps;
     return true;
   }
 
@@ -91,23 +149,59 @@ class Balance {
   }
 
  private:
-  /// At the state reached; laws are evaluated there.
-  bool factor() {
-    model_.combine(1.0, tau_, tau_ * tau_, factor_.values());
+  /// M + tau (C - R'f_v R) + tau max(tau, h) (K - R'f_d R) at q + h v; laws are evaluated there.
+  bool factor(double h = 0.0) {
+    const double k = tau_ * std::max(tau_, h);
+    const Vector q = state_.q + h * state_.v;
+    model_.combine(1.0, tau_, k, factor_.values());
     for (auto& batch : model_.points()) {
-      batch.look(state_.t, 0.0, state_.q.data());
-      batch.evaluateWithTangent(state_.t, state_.q.data(), state_.v.data());
-      batch.freezeTangent(tau_ * tau_, tau_);
+      batch.look(state_.t, 0.0, q.data());
+      batch.evaluateWithTangent(state_.t, q.data(), state_.v.data());
+      batch.freezeTangent(k, tau_);
       batch.takeOutPush();
       batch.subtractTangent(factor_.values());
     }
     return factor_.factor() < 0;
   }
 
-  /// Change of the state [m, rad]; 0 at dofs with mass, unless the mass matrix is singular in
-  /// motions of several of them.
+  double scale() const { return std::max(model_.largest(state_.q), reference_); }
+
+  /// The largest force over the stiffness of its dof.
+  double deflection(const Vector& force) const {
+    Vector stiffness(model_.size());
+    model_.diagonal(0.0, 0.0, 1.0, stiffness.data());
+    double largest = 0.0;
+    for (int i = 0; i < model_.size(); ++i)
+      if (stiffness[i] != 0.0) largest = std::max(largest, std::abs(force[i] / stiffness[i]));
+    return model_.cut().largest(largest);
+  }
+
+  /// Newton change for (K - R'f_d R) v = 0, after factor().
+  Vector velocityChange(const Vector& v) {
+    Vector out = Vector::Zero(model_.size());
+    model_.addStiffness(v.data(), out.data());
+    out = -out;
+    for (auto& batch : model_.points()) {
+      batch.freezeTangent(1.0, 0.0);
+      batch.addTangentTimes(v.data(), out.data());
+    }
+    return solve(tau_ * tau_ * out);
+  }
+
+  /// F - C v - K (q + h v) + R'f(q + h v, v), after factor(h) [N, N m].
+  Vector force(double h = 0.0) {
+    Vector out = Vector::Zero(model_.size());
+    const Vector q = state_.q + h * state_.v;
+    model_.addStiffness(q.data(), out.data());
+    model_.addDamping(state_.v.data(), out.data());
+    out = Eigen::Map<const Vector>(model_.load(), model_.size()) - out;
+    for (auto& batch : model_.points()) batch.addForce(out.data());
+    return out;
+  }
+
+  /// Solution for a force; 0 at dofs with mass, unless the mass matrix is singular in motions of
+  /// several of them.
   Vector solve(Vector force) const {
-    force *= tau_ * tau_;
     factor_.solve(force.data());
     if (mass_.regular())
       for (int i = 0; i < model_.size(); ++i)
@@ -119,19 +213,25 @@ class Balance {
   const MassFactor& mass_;
   State& state_;
   linalg::BlockFactor factor_;
+  double reference_;  ///< displacement beside which a change may be rounding
   double tau_;
 };
 
 }  // namespace
 
-void balanceMassless(CompiledModel& model, const MassFactor& mass, State& state) {
+void balanceMassless(CompiledModel& model, const MassFactor& mass, double h, State& state) {
   bool missing = !mass.regular();
   for (int i = 0; i < model.size(); ++i) missing = missing || mass.isMissing(i);
   if (!model.cut().any(missing)) return;
   const State given = state;
-  Balance balance(model, mass, state, still);
+  Balance balance(model, mass, state, mass.regular() ? still : stillOfSeveral);
   Vector moved;
-  if (!balance.possible() || !balance.positions(moved) || !balance.velocities()) {
+  bool balanced = balance.possible() && balance.positions(moved);
+  if (balanced) {
+    balance.rates(h);
+    balanced = balance.velocities();
+  }
+  if (!balanced) {
     state = given;
     log::warn(
         "Degrees of freedom without mass could not be brought into balance at the start: they "
@@ -139,7 +239,7 @@ void balanceMassless(CompiledModel& model, const MassFactor& mass, State& state)
         "does not have.");
     return;
   }
-  if (model.largest(moved) > inBalance * model.largest(state.q))
+  if (!balance.isRounding(moved))
     log::info(
         "Degrees of freedom without mass start in balance with the others, with a change of "
         "up to " +

@@ -121,6 +121,10 @@ TEST(AbaqusMatrices, OneTriangleOrBoth) {
   EXPECT_EQ(AbaqusJob("8 1 8 1 4.\n3 1 8 1 -3.0D0\n3 1 3 1 5\n").stiffnessMatrix(), symmetric);
   EXPECT_EQ(AbaqusJob("3,1,3,1,5.\n8,1,3,1,-3.\n3,1,8,1,-2.\n8,1,8,1,4.\n").stiffnessMatrix(),
             (Matrix(2, 2) << 5, -2, -3, 4).finished());
+  const std::string lower = "3,1,3,1,5.\n8,1,3,1,-3.\n8,1,8,1,4.\n";
+  EXPECT_EQ(AbaqusJob("*MATRIX INPUT, NAME=K, type=unsymmetric\n" + lower).stiffnessMatrix(),
+            (Matrix(2, 2) << 5, 0, -3, 4).finished());
+  EXPECT_EQ(AbaqusJob("*matrix input, TYPE = SYMMETRIC\n" + lower).stiffnessMatrix(), symmetric);
   const auto part = AbaqusJob("3,1,3,1,5.\n8,1,8,1,4.\n").read("a_STIF1.mtx").part.model;
   EXPECT_EQ(Matrix(part.mass), (Matrix(2, 2) << 2, 0, 0, 0).finished());  // singular, and taken so
 }
@@ -158,6 +162,11 @@ TEST(AbaqusMatrices, NamesFaultsByLineAndField) {
           "twice");
   AbaqusJob("1 1 5.\n").refuses("has 3 numbers: FORMAT=COORDINATE has no labels of dofs");
   AbaqusJob("3,1,3,1\n").refuses("has 4 numbers, expected 5: \"node, dof, node, dof, value\"");
+  const std::string keyword = "*MATRIX INPUT, NAME=K, ";
+  AbaqusJob(keyword + "SCALE FACTOR=2.\n3,1,3,1,5.\n")
+      .refuses("gives \"SCALE FACTOR=2.\", expected of *MATRIX INPUT a NAME, and TYPE");
+  AbaqusJob("3,1,3,1,5.\n" + keyword + "TYPE=SYMMETRIC\n")
+      .refuses("a_STIF1.mtx:2 is the keyword \"*MATRIX INPUT, NAME=K, TYPE=SYMMETRIC\" below");
   AbaqusJob("*USER ELEMENT, NODES=4\n").refuses("is the keyword \"*USER ELEMENT, NODES=4\"");
   AbaqusJob("%%MatrixMarket matrix coordinate real general\n").refuses("is a Matrix Market file");
   const Folder alone;
@@ -333,6 +342,19 @@ TEST(HarwellBoeing, NamesFaultsByLineAndField) {
   job.refuses("K.hb:2 announces 12 lines of pointers, expected 13");
   with("107 13", "108 13");
   job.refuses("K.hb:2 announces 108 lines of numbers in all, expected 107");
+  const auto lastWith = [&](const std::string& old, const std::string& now) {
+    std::string text = good;
+    text.replace(text.rfind(old), old.size(), now);
+    job.write("K.hb", text);
+  };
+  lastWith(".", "0");
+  job.refuses("in field 1, expected a finite number with a decimal point");
+  lastWith("             9\n            10\n", "             9\n             9\n");
+  job.refuses("K.hb gives the entry in row 9, column ");
+  auto text = harwellBoeing(Matrix(job.beam.model.mass), job.order, true, Vector::Ones(12));
+  text.replace(text.find("F                        1"), 26, "F                        2");
+  job.write("K.hb", text);
+  job.refuses("K.hb:5 announces 2 right-hand sides, expected one");
   job.write("K.hb", good);
   job.write("K.mapping", "1 1 UX\n2 1 TEMP\n");
   job.refuses("K.mapping:2 has the dof \"TEMP\", expected one of \"UX\"");

@@ -90,7 +90,7 @@ TEST(NastranDmig, SmallFieldAndFreeFormat) {
   EXPECT_EQ(stiffness(PunchFile(withMass(symmetricHeader + small)).read()), expected);
   const std::string free =
       "dmig,KAAX,0,6,2\n"
-      "DMIG,KAAX,7,1,,7,1,6.E4,0.0,+\n"
+      "DMIG,kaax,7,1,,7,1,6.E4,0.0,+\n"
       "+,12,1,4.1D8\n"
       "DMIG*,KAAX,12,1,,*\n"
       "*,12,1,7.\n";
@@ -138,12 +138,13 @@ TEST(NastranDmig, OrderOfTheDofsIsThatOfTheLabels) {
 
 TEST(NastranDmig, DampingLoadsAndPositions) {
   const std::string base =
-      "SOL 103\nCEND\nK2GG = KAAX\nBEGIN BULK\nGRID,7,,1.5,-2.,3.+1\nGRID,12,9,1.,1.,1.\n"
+      "SOL 103\nCEND\nK2GG = KAAX\nBEGIN SUPER = 4\nGRID,7,,1.5,-2.,3.+1\nGRID,12,9,1.,1.,1.\n"
       "GRID,99,,0.,0.,0.\nSPOINT,5\n" +
       withMass(
           "DMIG,KAAX,0,6,2\nDMIG,KAAX,7,1,,7,1,1.0\nDMIG,BAAX,0,6,2\n"
           "DMIG,BAAX,12,1,,12,1,0.25\nDMIG,PAX,0,9,2,0,,,2\nDMIG,PAX,1,0,,7,1,10.0\n");
-  const auto one = PunchFile(base + "ENDDATA\nthis is not read\n").read();
+  const auto one =
+      PunchFile(base + "CORD2R,9,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nENDDATA\nno more\n").read();
   EXPECT_EQ(Matrix(one.part.model.dampingAt(0)), two(0, 0, 0, 0.25));
   EXPECT_EQ(one.part.model.loadAt(0), (Vector(2) << 10, 0).finished());
   ASSERT_EQ(one.positions.size(), 1U);  // point 12 is given in another frame
@@ -181,6 +182,10 @@ TEST(NastranDmig, NamesFaultsByLineAndField) {
   stiff("DMIG,XYZ,0,6,2\n").expect("has a name that does not say what it is");
   stiff("DMIG,KAAX,0,9,2,0,,,3\n").expect("has numbered columns (IFO 9)");
   stiff("DMIG,MUG1,0,2,2\n").expect("is rectangular (IFO 2) and no mass");
+  stiff("DMIG,MUG1,0,9,2\n").expect("is rectangular (IFO 9) and no mass");
+  stiff("DMIG,KAAX,0,6,2\n").expect("\"KAAX\" has a header, but no column: the file is cut short");
+  PunchFile("BEGIN BULK\n" + withMass("begin super=2\nDMIG,KAAX,0,6,2\n"))
+      .expect("part.pch:7 begins a second section of bulk data; the first begins in line 1");
   stiff("").expect("part.pch has no stiffness matrix. A part needs mass and stiffness");
   stiff("DMIG,KAAX,0,6,2\nDMIG,KAAX,7,,,7,,1.0\n")
       .expect("point 7 is a scalar point (component 0) and has component 1");

@@ -175,6 +175,8 @@ TEST(PartFile, NamesFaultsOfLabels) {
       .expect<DeckError>(
           "\"positions\" names node 7 in row 2, which the part does not have (its nodes are 1 to "
           "2)");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "interfaces": {"a": [1], "b": [1], "a": [2]})"))
+      .expect<DeckError>("part.json gives \"a\" twice in one object. Keep one of them");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "name": 7)"))
       .expect<DeckError>("\"name\" must be a text");
   EXPECT_NO_THROW(

@@ -85,5 +85,40 @@ TEST(MasslessStart, WhereNoDofAloneIsWithoutMass) {
   expectMotion(model, T);
 }
 
+/// With a damper to the ground the node has a state of its own, x' = (100 q1 - 200 x) / c, and
+/// starts where it is given, at its rate. Errors are of second order in the step.
+TEST(MasslessStart, OfADampedNodeHasItsRate) {
+  const Matrix T = (Matrix(2, 2) << 0.8, 0.6, -0.6, 0.8).finished();  // q = T x
+  for (const bool turned : {false, true})
+    for (const double c : {40.0, 4.0}) {
+      Matrix C = Matrix::Zero(2, 2), A(3, 3);  // of q1, its velocity, q2
+      C(1, 1) = c;
+      A << 0, 1, 0, -200, 0, 100, 100 / c, 0, -200 / c;
+      auto model = massAndNode();
+      Matrix M = model.mass, K = model.stiffnessAt(0);
+      const Matrix rows = turned ? T : Matrix::Identity(2, 2);
+      model = denseModel(rows.transpose() * M * rows, rows.transpose() * C * rows,
+                         rows.transpose() * K * rows);
+      model.initialDisplacement = rows.transpose() * Vector::Unit(2, 0) * start;
+      log::clearWarnings();
+      Keep samples;
+      integrate(model, options("Generalized-alpha", 0.1, 1e-3, 0.02), samples);
+      EXPECT_TRUE(log::warnings().empty()) << log::warnings().front();
+      const Vector q = rows * samples.q[0], v = rows * samples.v[0];
+      EXPECT_NEAR(q[0], start, 1e-9);
+      EXPECT_NEAR(q[1], 0.0, 1e-9);
+      EXPECT_NEAR(v[1], 100 * start / (c + 200 * 1e-3), 1e-5);
+      const int fine = 200;  // steps of RK4 between samples
+      const Matrix h = 0.02 / fine * A, h2 = h * h,
+                   step = Matrix::Identity(3, 3) + h + h2 / 2 + h2 * h / 6 + h2 * h2 / 24;
+      Vector state = Vector::Unit(3, 0) * start;
+      for (std::size_t i = 1; i < samples.q.size(); ++i) {
+        for (int k = 0; k < fine; ++k) state = step * state;
+        EXPECT_NEAR((rows * samples.q[i])[0], state[0], 6e-4 * start) << turned << " " << c;
+        EXPECT_NEAR((rows * samples.q[i])[1], state[2], 6e-4 * start) << turned << " " << c;
+      }
+    }
+}
+
 }  // namespace MasslessStartTest
 }  // namespace tooljoint::transient::testing
