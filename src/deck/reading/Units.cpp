@@ -81,9 +81,10 @@ std::vector<UnitSymbol> makeSymbols() {
   add(time, "h", 3600.0, {"hr", "hour", "hours"});
   add(angle, "rad", 1.0, {"radian", "radians"});
   add(angle, "deg", constants::degree, {"\u00b0", "degree", "degrees"});
-  add(angle, "rev", constants::twoPi);
+  add(angle, "rev", constants::twoPi, {"r"});
   add(force, "N", 1.0, {"newton"});
   add(force, "daN", 10.0);
+  add(force, "kdaN", 1e4);
   add(force, "kN", 1e3);
   add(force, "MN", 1e6);
   add(force, "lbf", poundForce);
