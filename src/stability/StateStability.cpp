@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -115,13 +116,30 @@ bool standAlone(const model::SecondOrderModel& model, const Sparse& K, const Vec
   return true;
 }
 
+/// Components that point laws join unsymmetrically, as a bit that cuts joins its advance to its
+/// turn.
+std::map<int, std::set<int>> skewPairs(const model::SecondOrderModel& model, const Vector& rows,
+                                       const Sparse& pointStiffness) {
+  std::map<int, std::set<int>> pairs;
+  const Sparse transposed = pointStiffness.transpose(), skew = pointStiffness - transposed;
+  for (int i = 0; i < skew.outerSize(); ++i)
+    for (Sparse::InnerIterator it(skew, i); it; ++it) {
+      const auto &a = model.dofs[at(i)], &b = model.dofs[at(static_cast<int>(it.col()))];
+      if (a.component != b.component &&
+          std::abs(it.value()) > skewRounding * std::sqrt(rows[i] * rows[it.col()]))
+        pairs[a.component].insert(b.component);
+    }
+  return pairs;
+}
+
 /// The lowest modes of each component alone (all other dofs held) on which a point law pushes the
-/// way it moves: rows of C = -df/dv with a negative diagonal. Among the lowest modes of a long
-/// string, which bend it, the torsional ones that a bit law or falling friction drives are far
-/// away.
+/// way it moves (rows of C = -df/dv with a negative diagonal), and of those that one joins
+/// unsymmetrically. Among the lowest modes of a long string, which bend it, the torsional ones that
+/// a bit law or falling friction drives are far away, and the axial ones by which a bit yields.
 std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model,
                                             const Sparse& symmetric, const Sparse& mass,
-                                            const Sparse& pointDamping) {
+                                            const Sparse& pointDamping,
+                                            const Sparse& pointStiffness) {
   std::map<int, std::vector<int>> components;
   std::map<int, bool> driven;
   for (int i = 0; i < model.size(); ++i) {
@@ -131,9 +149,15 @@ std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model
     if (pointDamping.coeff(i, i) < 0.0) driven[dof.component] = true;
   }
   const Vector rows = largestOfRows(symmetric);
+  std::set<int> isolated;
+  for (const auto& [component, dofs] : components)
+    if (standAlone(model, symmetric, rows, dofs)) isolated.insert(component);
+  for (const auto& [component, others] : skewPairs(model, rows, pointStiffness))
+    for (const int other : others)
+      if ((isolated.count(other) > 0)) driven[component] = true;
   std::vector<Matrix> all;
   for (const auto& [component, dofs] : components) {
-    if (!driven[component] || !standAlone(model, symmetric, rows, dofs)) continue;
+    if (!driven[component] || !(isolated.count(component) > 0)) continue;
     const Sparse K = reduction::block(symmetric, dofs, dofs),
                  M = reduction::block(mass, dofs, dofs);
     linalg::EigenOptions options;
@@ -431,11 +455,13 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   for (Eigen::Index j = 0; j < modes.values.size(); ++j)
     if (rigid[at(j)] != 0 && modes.values[j] < -slowestGrowth * slowestGrowth)
       --found.negativePivots;
-  const Matrix basis = wanted == model.size()
-                           ? modes.vectors
-                           : joined(tangent.mass, modes.vectors,
-                                    modesOfDrivenComponents(model, symmetric, tangent.mass,
-                                                            tangent.damping - model.dampingAt(t)));
+  const Matrix basis =
+      wanted == model.size()
+          ? modes.vectors
+          : joined(tangent.mass, modes.vectors,
+                   modesOfDrivenComponents(model, symmetric, tangent.mass,
+                                           tangent.damping - model.dampingAt(t),
+                                           tangent.stiffness - model.stiffnessAt(t)));
   found.examined = static_cast<int>(basis.cols());
   count("modes of the static state", found.examined);
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
