@@ -387,8 +387,8 @@ def cutting(program):
 CHECKS = {
     f.__name__: f
     for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, among_bending,
-              regeneration.behind_bending, stuck_with_arkode, idle_bits, matched, cutting,
-              oscillator, whirl, hoisting.tanh_bit, hoisting.penetration_bit, hoisting.autodriller,
+              regeneration.regeneration, stuck_with_arkode, idle_bits, matched, cutting, oscillator,
+              whirl, hoisting.tanh_bit, hoisting.penetration_bit, hoisting.autodriller,
               dragging.dragging, drives.drive_limits)
 }
 ON_REQUEST = {
