@@ -15,8 +15,12 @@ namespace tooljoint::stability {
 
 namespace {
 
-/// Steps in which states of point laws are let go, and iterations of each.
-constexpr int releases = 4, mostIterations = 30;
+/// Part by which the states of point laws are let go in a step, at first, at least and at most,
+/// and iterations of each: short at first, where a neighbour may be as near as the mode moves.
+constexpr double firstStep = 1.0 / 32, leastStep = 1.0 / 128, longestStep = 0.25;
+constexpr int mostIterations = 30;
+/// MAC of a mode before and after a step, below which it is another one.
+constexpr double leastMac = 0.5;
 /// Relative change of s that ends them, and the steps before the last.
 constexpr double settled = 1e-7, onTheWay = 0.1;
 /// A change against the last one that is larger than this part of it converges slowly, or not.
@@ -25,18 +29,32 @@ constexpr double toAndFro = 0.5;
 }  // namespace
 
 std::optional<linalg::DampedMode> ReleasedStates::operator()(linalg::DampedMode mode) const {
-  for (int step = 1; step <= releases; ++step) {
-    const double a = static_cast<double>(step) / releases;
-    const double accuracy = step < releases ? onTheWay : settled;
-    auto next = iterated(a, mode, accuracy);
+  double a = 0.0, step = firstStep;
+  while (a < 1.0) {
+    const double to = std::min(1.0, a + step), accuracy = to < 1.0 ? onTheWay : settled;
+    auto next = iterated(to, mode, accuracy);
     if (!next && mode.s.imag() == 0.0) {  // two divergences may have become a vibration
       mode.s += Complex(0.0, 0.5 * std::abs(mode.s));
-      next = iterated(a, mode, accuracy);
+      next = iterated(to, mode, accuracy);
+    } else if (next && !alike(mode, *next)) {
+      next.reset();  // a neighbour
     }
-    if (!next) return std::nullopt;
-    mode = std::move(*next);
+    if (next) {
+      mode = std::move(*next);
+      a = to;
+      step = std::min(2.0 * step, longestStep);
+    } else if ((step *= 0.5) < leastStep) {
+      return std::nullopt;
+    }
   }
   return mode;
+}
+
+bool ReleasedStates::alike(const linalg::DampedMode& x, const linalg::DampedMode& y) const {
+  const ComplexVector inertia = linalg::times(held_.mass, x.shape);
+  const double squares =
+      inertia.dot(x.shape).real() * y.shape.dot(linalg::times(held_.mass, y.shape)).real();
+  return std::norm(inertia.dot(y.shape)) >= leastMac * squares;
 }
 
 std::optional<linalg::DampedMode> ReleasedStates::iterated(double a, linalg::DampedMode mode,

@@ -23,7 +23,7 @@ class ReleasedStates {
   ReleasedStates(const model::SecondOrderModel& model, double t, const estimate::Linearised& held)
       : model_(model), t_(t), held_(held) {}
 
-  /// Nothing where s does not settle.
+  /// Nothing where s does not settle, or where the mode cannot be told from its neighbours.
   std::optional<linalg::DampedMode> operator()(linalg::DampedMode mode) const;
 
   /// How far the states may move s, to first order in what they add to the tangent and with the
@@ -31,6 +31,8 @@ class ReleasedStates {
   double reach(const linalg::DampedMode& mode) const;
 
  private:
+  /// The same mode, by the MAC with the mass.
+  bool alike(const linalg::DampedMode& x, const linalg::DampedMode& y) const;
   std::optional<linalg::DampedMode> iterated(double a, linalg::DampedMode mode,
                                              double accuracy) const;
 
