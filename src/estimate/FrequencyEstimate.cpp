@@ -33,6 +33,9 @@ namespace {
 constexpr double rigid = 1e-7;
 /// Modes with whole interfaces beyond those of the reduced ones, among which a shape is sought.
 constexpr int more = 6;
+/// Modes at a time: enough for products and solutions by blocks; a large part has no room for about
+/// ten vectors of each mode beside its factors.
+constexpr Eigen::Index blockOfModes = 16;
 
 /// Contribution of one part to the estimate of one mode.
 struct Share {
@@ -47,23 +50,27 @@ struct Share {
   }
 };
 
+/// Of modes with these coordinates in the basis.
 std::vector<Share> shares(const model::Substructure& part, const reduction::Basis& basis,
-                          const Matrix& shapes, const Vector& eigenvalues, parallel::Ranks ranks) {
+                          const Matrix& coordinates, const Vector& eigenvalues,
+                          parallel::Ranks ranks) {
   const Stage stage("errors of the coupled modes");
   const model::SharedSparse K = coupling::undampedStiffness(part.model);
   const ResidualFlexibility flexibility(part, basis, K, ranks);
-  const Matrix inertia = part.model.mass * shapes;
-  const Matrix residual = K * shapes - inertia * eigenvalues.asDiagonal();
   const auto& interior = flexibility.interior();
-  const auto steps = flexibility.steps(Matrix(residual(interior, Eigen::all)),
-                                       Matrix(inertia(interior, Eigen::all)));
-  std::vector<Share> result(static_cast<std::size_t>(shapes.cols()));
-  for (Eigen::Index j = 0; j < shapes.cols(); ++j) {
-    Share& share = result[static_cast<std::size_t>(j)];
-    share.step = steps[static_cast<std::size_t>(j)];
-    share.work = shapes.col(j).dot(residual.col(j));
-    share.mass = shapes.col(j).dot(inertia.col(j));
-    share.diagonal = K.diagonal().dot(shapes.col(j).cwiseAbs2());
+  const Vector stiffnesses = K.diagonal();
+  std::vector<Share> result;
+  for (Eigen::Index first = 0; first < coordinates.cols(); first += blockOfModes) {
+    const Eigen::Index count = std::min(blockOfModes, coordinates.cols() - first);
+    const Matrix shapes = basis.vectors * coordinates.middleCols(first, count);
+    const Matrix inertia = part.model.mass * shapes;
+    const Matrix residual = K * shapes - inertia * eigenvalues.segment(first, count).asDiagonal();
+    const auto steps = flexibility.steps(Matrix(residual(interior, Eigen::all)),
+                                         Matrix(inertia(interior, Eigen::all)));
+    for (Eigen::Index j = 0; j < count; ++j)
+      result.push_back({steps[at(j)], shapes.col(j).dot(residual.col(j)),
+                        shapes.col(j).dot(inertia.col(j)),
+                        stiffnesses.dot(shapes.col(j).cwiseAbs2())});
   }
   return result;
 }
@@ -244,12 +251,11 @@ std::vector<FrequencyEstimate> assessAll(const std::vector<model::Substructure>&
                                          const coupling::Synthesis& synthesis,
                                          const linalg::EigenPairs& pairs) {
   const auto& coupled = synthesis.coupled.model;
-  const auto all =
-      reduction::shareOut<std::vector<Share>>(parts, [&](std::size_t p, parallel::Ranks ranks) {
-        const Matrix shapes = synthesis.parts[p].basis->vectors *
-                              synthesis.coupled.local(static_cast<int>(p), pairs.vectors);
-        return shares(parts[p], *synthesis.parts[p].basis, shapes, pairs.values, ranks);
-      });
+  const auto all = reduction::shareOut<std::vector<Share>>(parts, [&](std::size_t p,
+                                                                      parallel::Ranks ranks) {
+    return shares(parts[p], *synthesis.parts[p].basis,
+                  synthesis.coupled.local(static_cast<int>(p), pairs.vectors), pairs.values, ranks);
+  });
 
   double smallest = 0;  // eigenvalues of rigid bodies are no larger
   const Vector connectors = workOfConnectors(parts, coupled, pairs.vectors);

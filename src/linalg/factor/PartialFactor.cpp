@@ -26,7 +26,7 @@ struct PartialFactor::Impl : mumps::Instance {
 
   void start() {
     begin(1, MPI_COMM_SELF);
-    control(7) = 5;  // ordering by METIS
+    control(7) = 7;  // an ordering that this MUMPS has and deems best
     control(14) = firstRoom;
     control(27) = blockOfColumns;
   }
@@ -97,6 +97,7 @@ bool PartialFactor::factor(const Sparse& A, int inner, Matrix& schur) {
   if (m.status() == singular || m.status() == notDefinite) return false;
   if (m.status() < 0) m.fail();
   if (m.info(12) > 0) return false;  // negative pivots
+  if (rest == 0) m.release();        // solutions need no entries
   // by rows, hence the upper triangle of a matrix by columns
   schur.triangularView<Eigen::StrictlyLower>() = schur.transpose();
   return true;

@@ -33,6 +33,36 @@ Sparse bordered(const Sparse& jj, const Sparse& jb) {
   return sparse(inner + rest, inner + rest, entries);
 }
 
+/// The equations [F_jj F_jb; F_jb' F_bb] of a separator j and its boundary b.
+struct Front {
+  Matrix jj, jb, bb;
+
+  Front() = default;
+  Front(Eigen::Index own, Eigen::Index rest)
+      : jj(Matrix::Zero(own, own)), jb(Matrix::Zero(own, rest)), bb(Matrix::Zero(rest, rest)) {}
+
+  void add(Eigen::Index i, Eigen::Index j, double value) {
+    const Eigen::Index own = jj.rows();
+    if (i < own)
+      (j < own ? jj(i, j) : jb(i, j - own)) += value;
+    else if (j >= own)
+      bb(i - own, j - own) += value;
+  }
+  void add(const std::vector<int>& to, const Matrix& update) {
+    for (int j = 0; j < sizeOf(to); ++j)
+      for (int i = 0; i < sizeOf(to); ++i) add(to[at(i)], to[at(j)], update(i, j));
+  }
+
+  /// F_jj = L L', and in place F_jb to L^-1 F_jb, F_bb to the Schur complement. False: F_jj is not
+  /// positive definite.
+  bool condense(linalg::DenseCholesky& factor) {
+    if (!factor.factor(std::move(jj))) return false;
+    factor.solveLower(jb);
+    linalg::subtractSquare(jb, bb);
+    return true;
+  }
+};
+
 /// K + shift M with the pattern of both.
 Sparse shifted(const Sparse& K, const Sparse& M, double shift) { return K + shift * M; }
 
@@ -42,7 +72,7 @@ Matrix rowsOf(const Matrix& X, const std::vector<int>& rows) { return X(rows, Ei
 
 TreeFactor::TreeFactor(std::shared_ptr<const SubstructureTree> tree, const Sparse& K,
                        const Sparse& M, double shift, double step)
-    : tree_(std::move(tree)), shift_(shift), pieces_(tree_->pieces.size()) {
+    : tree_(std::move(tree)), K_(K), shift_(shift), pieces_(tree_->pieces.size()) {
   const Stage stage("elimination of substructures");
   const int count = sizeOf(pieces_);
   std::vector<Update> updates(pieces_.size());
@@ -75,49 +105,48 @@ bool TreeFactor::eliminate(int number, const Sparse& K, const Sparse& M, double 
   EliminatedPiece& done = pieces_[at(number)];
   done.mass = block(M, piece.dofs, piece.dofs);
   done.massCoupling = block(M, piece.dofs, piece.boundary);
-  return piece.leaf ? eliminateLeaf(number, K, M, step, updates[at(number)])
+  return piece.leaf ? eliminateLeaf(number, K, step, updates[at(number)])
                     : eliminateSeparator(number, K, M, step, updates);
 }
 
-bool TreeFactor::eliminateLeaf(int number, const Sparse& K, const Sparse& M, double step,
-                               Update& update) {
-  static_cast<void>(M);
+/// S(tau) and S(tau + step) take factors with the rows of the boundary, which end here: solutions
+/// need K_jj alone, whose factors are less than half as large.
+bool TreeFactor::eliminateLeaf(int number, const Sparse& K, double step, Update& update) {
   const auto& piece = tree_->pieces[at(number)];
   EliminatedPiece& done = pieces_[at(number)];
   const Sparse jj = block(K, piece.dofs, piece.dofs), jb = block(K, piece.dofs, piece.boundary);
-  const auto at_ = [&](double shift) {
-    return bordered(shifted(jj, done.mass, shift), shifted(jb, done.massCoupling, shift));
-  };
   const int inner = sizeOf(piece.dofs);
-  if (!piece.boundary.empty() &&
-      !done.sparse.factor(at_(shift_ + step), inner, update.mass))  // S(tau + step)
-    return false;
-  if (!done.sparse.factor(at_(shift_), inner, update.stiffness)) return false;
-  if (update.mass.size() > 0) update.mass = (update.mass - update.stiffness) / step;
   done.coupling = shifted(jb, done.massCoupling, shift_);
-  done.stiffness = shifted(jj, done.mass, shift_);
-  return true;
+  const Sparse stiffness = shifted(jj, done.mass, shift_);
+  if (!piece.boundary.empty()) {
+    linalg::PartialFactor condensing;
+    const Sparse further = bordered(shifted(jj, done.mass, shift_ + step),
+                                    shifted(jb, done.massCoupling, shift_ + step));
+    if (!condensing.factor(further, inner, update.mass) ||
+        !condensing.factor(bordered(stiffness, done.coupling), inner, update.stiffness))
+      return false;
+    update.mass = (update.mass - update.stiffness) / step;
+  }
+  Matrix none;
+  return done.sparse.factor(stiffness, inner, none);
 }
 
 bool TreeFactor::eliminateSeparator(int number, const Sparse& K, const Sparse& M, double step,
                                     std::vector<Update>& updates) {
   const auto& piece = tree_->pieces[at(number)];
   EliminatedPiece& done = pieces_[at(number)];
-  const Eigen::Index own = sizeOf(piece.dofs), rest = sizeOf(piece.boundary), size = own + rest;
+  const Eigen::Index own = sizeOf(piece.dofs), rest = sizeOf(piece.boundary);
   std::vector<int> position(at(tree_->dofs()), -1);
   for (Eigen::Index i = 0; i < own; ++i) position[at(piece.dofs[at(i)])] = static_cast<int>(i);
   for (Eigen::Index i = 0; i < rest; ++i)
     position[at(piece.boundary[at(i)])] = static_cast<int>(own + i);
 
-  // The front [F_jj F_jb; F_bj F_bb]: of K + shift M, and its derivative.
-  Matrix stiffness = Matrix::Zero(size, size), mass = Matrix::Zero(size, size);
-  const auto assemble = [&](const Sparse& A, double factor, Matrix& front) {
+  Front stiffness(own, rest), mass(own, rest);  // of K + shift M, and its derivative
+  const auto assemble = [&](const Sparse& A, double factor, Front& front) {
     for (Eigen::Index i = 0; i < own; ++i)
       forEachInRow(A, piece.dofs[at(i)], [&](int column, double value) {
         const int j = position[at(column)];
-        if (j < 0) return;
-        front(i, j) += factor * value;
-        if (j >= own) front(j, i) += factor * value;
+        if (j >= 0) front.add(i, j, factor * value);
       });
   };
   assemble(K, 1.0, stiffness);
@@ -127,35 +156,33 @@ bool TreeFactor::eliminateSeparator(int number, const Sparse& K, const Sparse& M
     Update& update = updates[at(child)];
     std::vector<int> to;
     for (int dof : tree_->pieces[at(child)].boundary) to.push_back(position[at(dof)]);
-    for (int j = 0; j < sizeOf(to); ++j)
-      for (int i = 0; i < sizeOf(to); ++i) {
-        stiffness(to[at(i)], to[at(j)]) += update.stiffness(i, j);
-        mass(to[at(i)], to[at(j)]) += update.mass(i, j);
-      }
+    stiffness.add(to, update.stiffness);
+    mass.add(to, update.mass);
     update = {};
   }
-  done.condensedMass = mass.topLeftCorner(own, own);
-  const auto condense = [&](const Matrix& front, linalg::DenseCholesky& factor, Matrix& half,
-                            Matrix& schur) {
-    if (!factor.factor(front.topLeftCorner(own, own))) return false;
-    half = front.topRightCorner(own, rest);
-    factor.solveLower(half);  // L^-1 F_jb
-    schur = front.bottomRightCorner(rest, rest);
-    linalg::subtractSquare(half, schur);
-    return true;
-  };
+  done.condensedMass = mass.jj;
   Update& update = updates[at(number)];
-  mass = stiffness + step * mass;
-  {
+  if (rest > 0) {
+    mass.jj = stiffness.jj + step * mass.jj;
+    mass.jb = stiffness.jb + step * mass.jb;
+    mass.bb = stiffness.bb + step * mass.bb;
     linalg::DenseCholesky other;
-    Matrix half;
-    if (rest > 0 && !condense(mass, other, half, update.mass)) return false;
+    if (!mass.condense(other)) return false;
+    update.mass = std::move(mass.bb);
   }
-  mass.resize(0, 0);
-  if (!condense(stiffness, done.dense, done.static_, update.stiffness)) return false;
+  mass = {};
+  if (!stiffness.condense(done.dense)) return false;
+  done.static_ = std::move(stiffness.jb);
+  update.stiffness = std::move(stiffness.bb);
   if (rest > 0) update.mass = (update.mass - update.stiffness) / step;
   done.dense.solveUpper(done.static_);
   return true;
+}
+
+Matrix TreeFactor::denseStiffness(int number) const {
+  if (!tree_->pieces[at(number)].leaf) return piece(number).dense.product();
+  const auto& dofs = tree_->pieces[at(number)].dofs;
+  return Matrix(shifted(block(K_, dofs, dofs), piece(number).mass, shift_));
 }
 
 Matrix TreeFactor::solvePiece(int number, const Matrix& B) const {
@@ -221,20 +248,6 @@ Matrix TreeFactor::solve(const Matrix& B) const {
   });
   gather(X);
   return X;
-}
-
-double TreeFactor::entries() const {
-  double sum = 0.0;
-  for (int i = 0; i < sizeOf(pieces_); ++i) {
-    const auto& piece = tree_->pieces[at(i)];
-    const bool counted = piece.owner == parallel::rank() ||
-                         (piece.owner == SubstructureTree::everyRank && parallel::rank() == 0);
-    if (!counted) continue;
-    const double n = sizeOf(piece.dofs);
-    sum += piece.leaf ? static_cast<double>(pieces_[at(i)].sparse.entries())
-                      : n * (0.5 * n + sizeOf(piece.boundary));
-  }
-  return parallel::sum(sum);
 }
 
 void TreeFactor::gather(Matrix& X) const {

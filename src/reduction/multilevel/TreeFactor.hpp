@@ -19,7 +19,6 @@ namespace tooljoint::reduction {
 struct EliminatedPiece {
   linalg::PartialFactor sparse;  ///< of K_jj of a leaf
   Sparse coupling;               ///< K_jb of a leaf
-  Sparse stiffness;              ///< K_jj of a leaf
   linalg::DenseCholesky dense;   ///< of K_jj of a separator
   Matrix static_;                ///< K_jj^-1 K_jb of a separator
   Matrix condensedMass;          ///< of a separator: dK_jj / dtau, its mass after condensation
@@ -30,7 +29,8 @@ struct EliminatedPiece {
 class TreeFactor {
  public:
   /// Eliminates K + shift M, and K + (shift + step) M for the condensed masses, by a difference of
-  /// Schur complements. K and M are symmetric. ModelError for what MUMPS refuses.
+  /// Schur complements. K and M are symmetric, and K outlives this. ModelError for what MUMPS
+  /// refuses.
   TreeFactor(std::shared_ptr<const SubstructureTree> tree, const Sparse& K, const Sparse& M,
              double shift, double step);
 
@@ -43,13 +43,13 @@ class TreeFactor {
 
   /// K_jj^-1 B of a piece of this rank.
   Matrix solvePiece(int number, const Matrix& B) const;
+  /// K_jj of a piece of this rank.
+  Matrix denseStiffness(int number) const;
   /// -K_jj^-1 K_jb X_b of a piece of this rank: its static shape for a motion of its boundary.
   Matrix staticShape(int number, const Matrix& boundary) const;
 
   /// (K + shift M)^-1 B; every rank passes and gets all rows. Collective.
   Matrix solve(const Matrix& B) const;
-  /// Entries of the factors on all ranks. Collective.
-  double entries() const;
 
   /// Rows of X at the dofs of a piece, from those ranks that own them, for all ranks. Collective.
   void gather(Matrix& X) const;
@@ -58,13 +58,14 @@ class TreeFactor {
   struct Update;
   bool eliminate(int number, const Sparse& K, const Sparse& M, double step,
                  std::vector<Update>& updates);
-  bool eliminateLeaf(int number, const Sparse& K, const Sparse& M, double step, Update& update);
+  bool eliminateLeaf(int number, const Sparse& K, double step, Update& update);
   bool eliminateSeparator(int number, const Sparse& K, const Sparse& M, double step,
                           std::vector<Update>& updates);
   void forward(int number, Matrix& X) const;
   void backward(int number, Matrix& X) const;
 
   std::shared_ptr<const SubstructureTree> tree_;
+  const Sparse& K_;
   double shift_;
   bool definite_ = true;
   std::vector<EliminatedPiece> pieces_;

@@ -25,15 +25,13 @@ linalg::InversePencil pencilOf(const TreeFactor& factor, int number) {
   linalg::InversePencil pencil;
   pencil.size = static_cast<int>(piece.mass.rows());
   pencil.solve = [&factor, number](const Matrix& B) { return factor.solvePiece(number, B); };
-  if (factor.tree().pieces[at(number)].leaf) {
+  pencil.stiffness = [&factor, number] { return factor.denseStiffness(number); };
+  if (factor.tree().pieces[at(number)].leaf)
     pencil.mass = [&piece](const Matrix& X) { return Matrix(piece.mass * X); };
-    pencil.stiffness = [&piece] { return Matrix(piece.stiffness); };
-  } else {
+  else
     pencil.mass = [&piece](const Matrix& X) {
       return linalg::transposedTimes(piece.condensedMass, X);
     };
-    pencil.stiffness = [&piece] { return piece.dense.product(); };
-  }
   return pencil;
 }
 

@@ -71,6 +71,27 @@ TEST(Multilevel, TreeSeparatesItsPieces) {
   }
 }
 
+// Beside Schur complements the factors are several times as large.
+TEST(Multilevel, LeavesKeepTheFactorsOfTheirInteriorAlone) {
+  const auto part = solidBlock(12, 3, 3);
+  const Sparse K = constantStiffness(part.model), &M = part.model.mass;
+  std::vector<int> nodes;
+  for (int i = 0; i < part.model.size(); ++i) nodes.push_back(i / 3);
+  const auto tree = std::make_shared<const SubstructureTree>(cutIntoTree(K, M, nodes, 4));
+  const auto factor = eliminate(tree, K, M);
+  int leaves = 0;
+  for (int i = 0; i < sizeOf(tree->pieces); ++i) {
+    const auto& piece = tree->pieces[at(i)];
+    if (!piece.leaf) continue;
+    ++leaves;
+    Matrix none;
+    linalg::PartialFactor alone;
+    ASSERT_TRUE(alone.factor(block(K, piece.dofs, piece.dofs), sizeOf(piece.dofs), none));
+    EXPECT_EQ(factor->piece(i).sparse.entries(), alone.entries());
+  }
+  EXPECT_EQ(leaves, 4);
+}
+
 TEST(Multilevel, AllModesAreThoseOfTheWhole) {
   const auto part = solidBlock(8, 2, 2);
   const Vector whole = exact(part, part.model.size());
