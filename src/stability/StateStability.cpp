@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,7 @@
 #include "model/HarmonicTangent.hpp"
 #include "reduction/part/Partition.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
+#include "stability/ReleasedStates.hpp"
 
 namespace tooljoint::stability {
 
@@ -43,10 +45,12 @@ constexpr int modesBeyond = 12, mostModes = 60, mostBeyond = 80;
 constexpr int entriesOfShapes = 200000;
 /// A model of so few dofs is not projected on fewer modes than it has.
 constexpr int fewDofs = 60;
-/// Growing modes of the projection that are checked in the whole equations.
+/// Growing modes of the projection that are checked in the whole equations, where no states follow.
 constexpr std::size_t mostRefined = 4;
 /// Part of the fastest growth that counts as fast.
 constexpr double nearly = 0.8;
+/// Factor on a first-order estimate of what states make of a mode.
+constexpr double mayBe = 2.0;
 /// Share of a vector's size that is new beside those before it.
 constexpr double independent = 1e-6;
 /// Accuracy of these modes: they span a basis, and what grows in it is refined.
@@ -115,13 +119,30 @@ bool standAlone(const model::SecondOrderModel& model, const Sparse& K, const Vec
   return true;
 }
 
+/// Components that point laws join unsymmetrically, as a bit that cuts joins its advance to its
+/// turn.
+std::map<int, std::set<int>> skewPairs(const model::SecondOrderModel& model, const Vector& rows,
+                                       const Sparse& pointStiffness) {
+  std::map<int, std::set<int>> pairs;
+  const Sparse transposed = pointStiffness.transpose(), skew = pointStiffness - transposed;
+  for (int i = 0; i < skew.outerSize(); ++i)
+    for (Sparse::InnerIterator it(skew, i); it; ++it) {
+      const auto &a = model.dofs[at(i)], &b = model.dofs[at(static_cast<int>(it.col()))];
+      if (a.component != b.component &&
+          std::abs(it.value()) > skewRounding * std::sqrt(rows[i] * rows[it.col()]))
+        pairs[a.component].insert(b.component);
+    }
+  return pairs;
+}
+
 /// The lowest modes of each component alone (all other dofs held) on which a point law pushes the
-/// way it moves: rows of C = -df/dv with a negative diagonal. Among the lowest modes of a long
-/// string, which bend it, the torsional ones that a bit law or falling friction drives are far
-/// away.
+/// way it moves (rows of C = -df/dv with a negative diagonal), and of those that one joins
+/// unsymmetrically. Among the lowest modes of a long string, which bend it, the torsional ones that
+/// a bit law or falling friction drives are far away, and the axial ones by which a bit yields.
 std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model,
                                             const Sparse& symmetric, const Sparse& mass,
-                                            const Sparse& pointDamping) {
+                                            const Sparse& pointDamping,
+                                            const Sparse& pointStiffness) {
   std::map<int, std::vector<int>> components;
   std::map<int, bool> driven;
   for (int i = 0; i < model.size(); ++i) {
@@ -131,9 +152,15 @@ std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model
     if (pointDamping.coeff(i, i) < 0.0) driven[dof.component] = true;
   }
   const Vector rows = largestOfRows(symmetric);
+  std::set<int> isolated;
+  for (const auto& [component, dofs] : components)
+    if (standAlone(model, symmetric, rows, dofs)) isolated.insert(component);
+  for (const auto& [component, others] : skewPairs(model, rows, pointStiffness))
+    for (const int other : others)
+      if ((isolated.count(other) > 0)) driven[component] = true;
   std::vector<Matrix> all;
   for (const auto& [component, dofs] : components) {
-    if (!driven[component] || !standAlone(model, symmetric, rows, dofs)) continue;
+    if (!driven[component] || !(isolated.count(component) > 0)) continue;
     const Sparse K = reduction::block(symmetric, dofs, dofs),
                  M = reduction::block(mass, dofs, dofs);
     linalg::EigenOptions options;
@@ -161,10 +188,11 @@ Matrix joined(const Sparse& mass, const Matrix& first, const std::vector<Matrix>
   return set.basis();
 }
 
-/// Growing modes of the equations projected on the columns of `basis` and the `others` least damped
-/// ones, the fastest first.
+/// Growing modes of the equations projected on the columns of `basis`, the fastest first; with
+/// states that follow also the `others` least damped ones of those that the states may make grow.
 std::vector<linalg::DampedMode> growingModes(const estimate::Linearised& tangent,
-                                             const Matrix& basis, std::size_t others) {
+                                             const Matrix& basis, std::size_t others,
+                                             const ReleasedStates* released) {
   const auto projected = [&](const Sparse& A) {
     return Matrix(basis.transpose() * Matrix(A * basis));
   };
@@ -178,8 +206,12 @@ std::vector<linalg::DampedMode> growingModes(const estimate::Linearised& tangent
   });
   std::vector<linalg::DampedMode> growing;
   for (const auto j : upper) {
-    if (!isGrowth(modes.values[j]) && others-- == 0) break;
-    growing.push_back({modes.values[j], basis.cast<Complex>() * modes.vectors.col(j)});
+    const bool grows = isGrowth(modes.values[j]);
+    if (!grows && others == 0) break;
+    linalg::DampedMode mode{modes.values[j], basis.cast<Complex>() * modes.vectors.col(j)};
+    if (!grows && mode.s.real() + mayBe * released->reach(mode) <= 0.0) continue;
+    if (!grows) --others;
+    growing.push_back(std::move(mode));
   }
   return growing;
 }
@@ -215,57 +247,6 @@ struct GrowingMode {
 /// together, as each takes a score of factorisations.
 constexpr std::size_t mostReleased = 24;
 constexpr int dofsReleased = 60000;
-/// Steps in which states of point laws are let go, and iterations of each.
-constexpr int releases = 4, mostIterations = 30;
-/// Relative change of s that ends them, and the steps before the last.
-constexpr double settled = 1e-7, onTheWay = 0.1;
-
-/// What a mode of held states becomes when they follow it: s and x of
-///
-///     (s^2 M + s C(s) + K(s)) x = 0,   C, K = (1 - a) those of held states + a those of e^{s t},
-///
-/// a from 0 to 1. Each s gives real matrices, whose mode is the next s.
-class Release {
- public:
-  Release(const model::SecondOrderModel& model, double t, const estimate::Linearised& held)
-      : model_(model), t_(t), held_(held) {}
-
-  /// Nothing where s does not settle.
-  std::optional<linalg::DampedMode> operator()(linalg::DampedMode mode) const {
-    for (int step = 1; step <= releases; ++step) {
-      const double a = static_cast<double>(step) / releases;
-      const double accuracy = step < releases ? onTheWay : settled;
-      auto next = iterated(a, mode, accuracy);
-      if (!next && mode.s.imag() == 0.0) {  // two divergences may have become a vibration
-        mode.s += Complex(0.0, 0.5 * std::abs(mode.s));
-        next = iterated(a, mode, accuracy);
-      }
-      if (!next) return std::nullopt;
-      mode = std::move(*next);
-    }
-    return mode;
-  }
-
- private:
-  std::optional<linalg::DampedMode> iterated(double a, linalg::DampedMode mode,
-                                             double accuracy) const {
-    for (int i = 0; i < mostIterations; ++i) {
-      const auto moving = estimate::linearise(model_, t_, mode.s);
-      auto next = linalg::refine(held_.mass, (1.0 - a) * held_.damping + a * moving.damping,
-                                 (1.0 - a) * held_.stiffness + a * moving.stiffness, mode);
-      if (!next || next->s == 0.0) return std::nullopt;
-      const double change = std::abs(next->s - mode.s) / std::abs(next->s);
-      mode = std::move(*next);
-      if (change <= accuracy) return mode;
-    }
-    return std::nullopt;
-  }
-
-  const model::SecondOrderModel& model_;
-  double t_;
-  const estimate::Linearised& held_;
-};
-
 /// Growth of a motion that takes no work but rounding: |s|^2 |phi'M phi| of the size of what
 /// rounding leaves of phi'K phi.
 bool isRigidMotion(const estimate::Linearised& tangent, const linalg::DampedMode& mode) {
@@ -276,23 +257,25 @@ bool isRigidMotion(const estimate::Linearised& tangent, const linalg::DampedMode
 }
 
 /// Of the modes that grow nearly as fast as the fastest one, that of lowest frequency: the
-/// overtones of a string that friction drives grow as fast as its fundamental. Nothing where the
-/// whole equations have none.
+/// overtones of a string that friction drives grow as fast as its fundamental. `most`: so many of
+/// the projection are refined, and more until one grows. Nothing where the whole equations have
+/// none.
 std::optional<GrowingMode> mostTelling(const estimate::Linearised& tangent,
-                                       std::vector<linalg::DampedMode> ritz,
-                                       const Release* release) {
+                                       std::vector<linalg::DampedMode> ritz, std::size_t most,
+                                       const ReleasedStates* released) {
   if (ritz.empty()) return std::nullopt;
   const double fastest = ritz.front().s.real();
-  std::sort(ritz.begin() + 1, ritz.end(), [&](const auto& a, const auto& b) {
-    const bool x = a.s.real() >= nearly * fastest, y = b.s.real() >= nearly * fastest;
-    if (x != y) return x;
-    return x ? std::abs(a.s.imag()) < std::abs(b.s.imag()) : a.s.real() > b.s.real();
-  });
+  if (released == nullptr)
+    std::sort(ritz.begin() + 1, ritz.end(), [&](const auto& a, const auto& b) {
+      const bool x = a.s.real() >= nearly * fastest, y = b.s.real() >= nearly * fastest;
+      if (x != y) return x;
+      return x ? std::abs(a.s.imag()) < std::abs(b.s.imag()) : a.s.real() > b.s.real();
+    });
   std::vector<GrowingMode> found;
-  for (std::size_t i = 0; i < ritz.size() && (i < mostRefined || found.empty()); ++i) {
+  for (std::size_t i = 0; i < ritz.size() && (i < most || found.empty()); ++i) {
     auto exact = ofWholeEquations(tangent, ritz[i]);
-    if (exact && release != nullptr)
-      if (auto followed = (*release)(*exact)) exact = std::move(followed);
+    if (exact && released != nullptr)
+      if (auto moving = (*released)(*exact)) exact = std::move(moving);
     const GrowingMode one{exact ? *exact : ritz[i], exact.has_value()};
     if (isGrowth(one.mode.s) && !isRigidMotion(tangent, one.mode)) found.push_back(one);
   }
@@ -380,14 +363,6 @@ std::string withoutStates(const std::vector<std::string>& held) {
          "not seen. The motion shows it.";
 }
 
-linalg::DampedMode followed(const model::SecondOrderModel& model, double t,
-                            const estimate::Linearised& held, const linalg::DampedMode& mode) {
-  if (model::setsWithMovingStates(model, t).empty() ||
-      !model::setsWithUnknownStates(model, t).empty())
-    return mode;
-  return Release(model, t, held)(mode).value_or(mode);
-}
-
 void warnOfHeldStates(const model::SecondOrderModel& model, double t) {
   const auto names = model::setsWithMovingStates(model, t);
   if (!names.empty())
@@ -431,11 +406,13 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   for (Eigen::Index j = 0; j < modes.values.size(); ++j)
     if (rigid[at(j)] != 0 && modes.values[j] < -slowestGrowth * slowestGrowth)
       --found.negativePivots;
-  const Matrix basis = wanted == model.size()
-                           ? modes.vectors
-                           : joined(tangent.mass, modes.vectors,
-                                    modesOfDrivenComponents(model, symmetric, tangent.mass,
-                                                            tangent.damping - model.dampingAt(t)));
+  const Matrix basis =
+      wanted == model.size()
+          ? modes.vectors
+          : joined(tangent.mass, modes.vectors,
+                   modesOfDrivenComponents(model, symmetric, tangent.mass,
+                                           tangent.damping - model.dampingAt(t),
+                                           tangent.stiffness - model.stiffnessAt(t)));
   found.examined = static_cast<int>(basis.cols());
   count("modes of the static state", found.examined);
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
@@ -443,9 +420,10 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   const bool follow = !found.held.empty() && model::setsWithUnknownStates(model, t).empty();
   const auto others =
       follow ? std::min<std::size_t>(mostReleased, at(dofsReleased / model.size())) : 0;
-  const auto growing = growingModes(tangent, basis, others);
-  const Release release(model, t, tangent);
-  const auto worst = mostTelling(tangent, growing, follow ? &release : nullptr);
+  const ReleasedStates states(model, t, tangent);
+  const auto* released = follow ? &states : nullptr;
+  const auto growing = growingModes(tangent, basis, others, released);
+  const auto worst = mostTelling(tangent, growing, std::max(mostRefined, others), released);
   if (!worst) return found;
   found.refined = worst->refined;
   found.growthRate = worst->mode.s.real();

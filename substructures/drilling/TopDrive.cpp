@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drilling/TopDrive.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "model/laws/PointLawRegistry.hpp"
 #include "substructures/beam/NodalDofs.hpp"
@@ -150,13 +153,46 @@ double torsionalImpedance(const std::vector<std::pair<beam::Section, double>>& p
   return std::sqrt(inertia / compliance);
 }
 
+WaveReflection waveReflection(const TopDrive& drive) {
+  const double zeta = drive.pipeImpedance, kp = drive.proportionalGain, ki = drive.integralGain,
+               J = drive.inertia, infinite = std::numeric_limits<double>::infinity();
+  WaveReflection found;
+  found.least = std::abs(kp - zeta) / (kp + zeta);
+  found.frequency = ki == 0.0 ? 0.0 : J == 0.0 ? infinite : std::sqrt(ki / J) / constants::twoPi;
+  // |r| < 1/2 where |omega J - k_i/omega| < x, 3 x^2 = (k_p + zeta)^2 - 4 (k_p - zeta)^2
+  const double square = ((kp + zeta) * (kp + zeta) - 4 * (kp - zeta) * (kp - zeta)) / 3;
+  found.from = found.to = found.frequency;
+  if (square <= 0.0) return found;
+  const double x = std::sqrt(square), root = std::sqrt(square + 4 * J * ki);
+  found.from = 2 * ki / (x + root) / constants::twoPi;
+  found.to = J == 0.0 ? infinite : (x + root) / (2 * J) / constants::twoPi;
+  return found;
+}
+
+namespace {
+
+void warnOfIdleHighPass(const TopDrive& drive) {
+  const auto waves = waveReflection(drive);
+  if (drive.highPass == 0.0 || waves.from >= waves.to || waves.to > drive.highPass) return;
+  log::warn("Top Drive/High-Pass Frequency is " + deck::printed(drive.highPass, "Hz") +
+            ", but the inertia of " + deck::printed(drive.inertia, "kg m2") +
+            " keeps the drive from yielding to waves above it: it sends back more than half of "
+            "all above " +
+            deck::printed(waves.to, "Hz", 3) +
+            ". Give the Inertia that the controller leaves of it, or a Tuning Frequency instead.");
+}
+
+}  // namespace
+
 TopDrive tuned(TopDrive drive, double impedance) {
+  drive.pipeImpedance = impedance;
   if (drive.control != DriveControl::ImpedanceMatched) return drive;
   const double omega = constants::twoPi * drive.tuningFrequency;
   drive.proportionalGain = drive.impedanceRatio * impedance;
   drive.integralGain = drive.highPass > 0.0
                            ? constants::twoPi * drive.highPass * drive.proportionalGain
                            : drive.inertia * omega * omega;
+  warnOfIdleHighPass(drive);
   return drive;
 }
 
@@ -181,6 +217,23 @@ PointOnString driveOnString(const TopDrive& drive, double staticTorque) {
                   model::PointLawRegistry::instance().make("Speed Control", own, {1, 1}));
 }
 
+std::string describeWaves(const TopDrive& drive) {
+  if (drive.control != DriveControl::Speed && drive.control != DriveControl::ImpedanceMatched)
+    return {};
+  const auto waves = waveReflection(drive);
+  const auto hertz = [](double f) { return deck::printed(f, "Hz", 3); };
+  const auto share = deck::printed(100 * waves.least, "%", 2);
+  const std::string least = "the drive sends back " + share + " at least, " +
+                            (std::isinf(waves.frequency) ? "at high frequencies"
+                             : waves.frequency == 0.0    ? "at low frequencies"
+                                                         : "at " + hertz(waves.frequency));
+  if (waves.from >= waves.to) return least;
+  return least + "; less than half " +
+         (waves.from == 0.0      ? "below " + hertz(waves.to)
+          : std::isinf(waves.to) ? "above " + hertz(waves.from)
+                                 : "from " + hertz(waves.from) + " to " + hertz(waves.to));
+}
+
 std::string describe(const TopDrive& drive) {
   std::string text;
   if (drive.control == DriveControl::Stiff)
@@ -189,8 +242,8 @@ std::string describe(const TopDrive& drive) {
     text = drive.torqueGiven ? "constant torque of " + deck::printed(drive.torque, "N m")
                              : "constant torque of the static state";
   else
-    text = "speed controlled, k_p = " + deck::printed(drive.proportionalGain, "N m s/rad") +
-           ", k_i = " + deck::printed(drive.integralGain, "N m/rad");
+    text = "speed controlled, k_p = " + deck::printed(drive.proportionalGain, "N m s/rad", 6) +
+           ", k_i = " + deck::printed(drive.integralGain, "N m/rad", 6);
   if (drive.turnsFreely()) text += ", inertia " + deck::printed(drive.inertia, "kg m2");
   if (drive.torqueLimit > 0.0) text += ", at most " + deck::printed(drive.torqueLimit, "N m");
   if (drive.blockSpeed != 0.0)

@@ -33,6 +33,7 @@ struct TopDrive {
   double tuningFrequency = 0.0;   ///< of ImpedanceMatched [Hz]; 0: highPass instead
   double highPass = 0.0;          ///< of ImpedanceMatched [Hz]
   double impedanceRatio = 1.0;    ///< of ImpedanceMatched: k_p over the impedance of the pipe
+  double pipeImpedance = 0.0;     ///< of the pipe below, torsionalImpedance() [N m s/rad]
   double torque = 0.0;            ///< of Torque [N m]
   bool torqueGiven = false;       ///< else that of the static state
   double torqueLimit = 0.0;       ///< [N m]; 0: none
@@ -58,7 +59,8 @@ double torsionalImpedance(const std::vector<std::pair<beam::Section, double>>& p
 /// With a tuning frequency f, k_i = J (2 pi f)^2: there the impedance of the drive, k_p + i (omega
 /// J - k_i/omega), is that of the pipe and no wave is reflected (A. Kyllingstad and P. J. Nessjoen,
 /// SPE 119660 (2009)). With a high-pass of the frequency f, k_i = 2 pi f k_p: but for its inertia
-/// the drive yields by v = -s/(s + 2 pi f) T/k_p to the torque T, to that above f alone.
+/// the drive yields by v = -s/(s + 2 pi f) T/k_p to the torque T, to that above f alone;
+/// warns where that inertia keeps it from it.
 TopDrive tuned(TopDrive drive, double impedance);
 
 /// The torque of the drive on theta_z of the first node, in the frame that turns with the set
@@ -66,7 +68,20 @@ TopDrive tuned(TopDrive drive, double impedance);
 /// Channel top_drive_torque. Throws ModelError for a static torque above the limit.
 PointOnString driveOnString(const TopDrive& drive, double staticTorque);
 
+/// What a controlled drive sends back of torsional waves that come up the pipe: amplitude |r|, r =
+/// (zeta - Z)/(zeta + Z), with the impedances Z = k_p + i (omega J - k_i/omega) of the drive and
+/// zeta of the pipe. Its limit is not considered.
+struct WaveReflection {
+  double least = 1.0;      ///< |k_p - zeta|/(k_p + zeta)
+  double frequency = 0.0;  ///< where it is [Hz]; infinity: far above all others
+  double from = 0.0;       ///< begin of the frequencies with |r| < 1/2 [Hz]
+  double to = 0.0;         ///< their end, infinity included; `from` where there are none
+};
+WaveReflection waveReflection(const TopDrive& drive);
+
 /// What `tooljoint check` says of it.
 std::string describe(const TopDrive& drive);
+/// What it says of the waves; empty for a drive without a speed controller.
+std::string describeWaves(const TopDrive& drive);
 
 }  // namespace tooljoint::drilling

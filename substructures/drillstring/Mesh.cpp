@@ -34,6 +34,9 @@ constexpr int mostElements = 200000;
 /// Faults printed at most: every stand of a string has those of its components.
 constexpr std::size_t mostFaults = 10;
 
+/// Components that a message names at most.
+constexpr std::size_t mostNames = 12;
+
 /// "diameter" or "radius", whichever the deck gives.
 std::string across(const deck::Given& given) {
   return given.name.find("Diameter") == std::string::npos ? "radius" : "diameter";
@@ -139,18 +142,36 @@ class Mesher {
     return good;
   }
 
+  /// Names of the library that hold a word of three letters or more of this one.
+  static std::vector<std::string> alike(const std::string& name,
+                                        const std::vector<std::string>& names) {
+    std::vector<std::string> found;
+    const auto words = split(lower(name), ' ');
+    for (const auto& known : names)
+      if (std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+            return word.size() > 2 && lower(known).find(word) != std::string::npos;
+          }))
+        found.push_back(known);
+    return found;
+  }
+
   std::string unknown(const std::string& name) const {
     std::vector<std::string> names;
     for (const auto& entry : library_) names.push_back(entry.first);
-    std::string sentence = "The component " + inQuotes(name) + " is not defined.";
+    const std::string sentence = "The component " + inQuotes(name) + " is not defined.";
     const std::string meant = closest(name, names);
-    if (!meant.empty())
-      sentence += " Did you mean " + inQuotes(meant) + "?";
-    else
-      sentence += names.empty()
-                      ? " No components are defined: give a Library or the list Components."
-                      : " Known are " + quotedList(names) + ".";
-    return sentence;
+    if (!meant.empty()) return sentence + " Did you mean " + inQuotes(meant) + "?";
+    if (names.empty())
+      return sentence + " No components are defined: give a Library or the list Components.";
+    const auto few = alike(name, names);
+    if (few.empty() && names.size() > mostNames)
+      return sentence + " None of the " + std::to_string(names.size()) +
+             " known ones has such a name: describe it in Drillstring/Components.";
+    auto listed = few.empty() ? names : few;
+    const auto more = listed.size() - std::min(listed.size(), mostNames);
+    listed.resize(listed.size() - more);
+    return sentence + (few.empty() ? " Known are " : " Known with such a name are ") +
+           quotedList(listed) + (more > 0 ? " and " + std::to_string(more) + " more." : ".");
   }
 
   /// The elements of a segment are equal: one formulation for all.

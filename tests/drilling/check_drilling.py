@@ -25,6 +25,7 @@ import dragging
 import drives
 import hoisting
 import models
+import regeneration
 from combinations import combinations
 import scene_2500m
 from checks import expect, finish
@@ -384,10 +385,11 @@ def cutting(program):
 
 
 CHECKS = {
-    f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady,
-                            among_bending, stuck_with_arkode, idle_bits, matched, cutting,
-                            oscillator, whirl, hoisting.tanh_bit, hoisting.penetration_bit,
-                            hoisting.autodriller, dragging.dragging, drives.drive_limits)
+    f.__name__: f
+    for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, among_bending,
+              regeneration.regeneration, stuck_with_arkode, idle_bits, matched, cutting, oscillator,
+              whirl, hoisting.tanh_bit, hoisting.penetration_bit, hoisting.autodriller,
+              dragging.dragging, drives.drive_limits)
 }
 ON_REQUEST = {
     "stick_slip_2500m": scene_2500m.stick_slip_2500m,

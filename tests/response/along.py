@@ -18,8 +18,10 @@ def window():
     run("campbell", "wide.xml", "wide", "Campbell/Points=5")
     wide, critical = table("wide", "campbell"), table("wide", "crossings")
     low, high = 390.0, 840.0  # Hz: one mode enters and another leaves with the speed
-    run("campbell", "wide.xml", "window", "Campbell/Points=5",
-        f"Campbell/Lowest Frequency={low} Hz", f"Campbell/Highest Frequency={high} Hz")
+    said = run("campbell", "wide.xml", "window", "Campbell/Points=5",
+               f"Campbell/Lowest Frequency={low} Hz", f"Campbell/Highest Frequency={high} Hz")
+    expect("window: says which critical speeds are not looked for",
+           "not looked for: critical speeds outside of 390 to 840 Hz" in said.stdout, said.stdout)
     shown, met = table("window", "campbell"), table("window", "crossings")
     inside = (wide["frequency"] >= low) & (wide["frequency"] <= high) & (np.abs(wide["growth"]) <=
                                                                          np.pi * (high - low))
@@ -32,8 +34,10 @@ def window():
     expect("window: it has critical speeds", np.sum(inside) >= 2)
     close("window: its critical speeds", np.sort(met["speed"]), np.sort(critical["speed"][inside]),
           1e-8)
-    run("campbell", "wide.xml", "target", "Campbell/Points=3", "Campbell/Target Frequency=900 Hz",
-        "Campbell/Modes=3")
+    said = run("campbell", "wide.xml", "target", "Campbell/Points=3",
+               "Campbell/Target Frequency=900 Hz", "Campbell/Modes=3", "Campbell/Orders={1}")
+    expect("target: modes above all excitations are warned of",
+           "Excitations have 0 to 637 Hz, but the modes of the diagram" in said.stderr, said.stderr)
     near = table("target", "campbell")
     for speed in (0.0, 2000.0):
         all_modes = modes_at(wide, speed)["frequency"]

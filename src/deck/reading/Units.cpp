@@ -81,7 +81,7 @@ std::vector<UnitSymbol> makeSymbols() {
   add(time, "h", 3600.0, {"hr", "hour", "hours"});
   add(angle, "rad", 1.0, {"radian", "radians"});
   add(angle, "deg", constants::degree, {"\u00b0", "degree", "degrees"});
-  add(angle, "rev", constants::twoPi);
+  add(angle, "rev", constants::twoPi, {"r"});
   add(force, "N", 1.0, {"newton"});
   add(force, "daN", 10.0);
   add(force, "kN", 1e3);
@@ -92,6 +92,7 @@ std::vector<UnitSymbol> makeSymbols() {
   add(force, "t", 1e3 * standardGravity, {"tonne", "tonnes"});
   add(force, "lb", poundForce, {"lbs"});
   add(force, "klb", 1e3 * poundForce, {"klbs"});
+  add(force, "kdaN", 1e4);
   add(torque, "Nm", 1.0);
   add(torque, "kNm", 1e3);
   add(pressure, "Pa", 1.0, {"pascal"});

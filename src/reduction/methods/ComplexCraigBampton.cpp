@@ -104,7 +104,8 @@ class ComplexCraigBampton : public ReductionMethod {
     double residual = 0;
   };
 
-  static std::string who(const PartView& part) { return part.who("complex fixed-interface modes"); }
+  static constexpr const char* quantity = "complex fixed-interface modes";
+  static std::string who(const PartView& part) { return part.who(quantity); }
 
   std::vector<DampedBlock> makeBlocks(const PartView& part) const {
     const Sparse C = part.model().dampingAt(time_), K = part.model().stiffnessAt(time_);
@@ -154,9 +155,7 @@ class ComplexCraigBampton : public ReductionMethod {
       try {
         append(damped, std::min(count, damped.block->size()), modes);
       } catch (const Error& error) {
-        if (error.code() == ExitCode::NotConverged)
-          throw ConvergenceError(who(part) + error.what());
-        throw ModelError(who(part) + error.what());
+        part.fail(quantity, error);
       }
     }
     std::stable_sort(modes.begin(), modes.end(), [](const ComplexMode& a, const ComplexMode& b) {

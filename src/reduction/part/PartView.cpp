@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "linalg/SparseProducts.hpp"
 #include "linalg/factor/FactorMemory.hpp"
@@ -104,6 +103,12 @@ std::string PartView::dofName(Eigen::Index position) const {
 
 std::string PartView::who(const std::string& what) const {
   return "Part \"" + part_->name + "\"" + (what.empty() ? "" : ", " + what) + ": ";
+}
+
+void PartView::fail(const std::string& what, const Error& error) const {
+  if (error.code() == ExitCode::Interrupted) throw InterruptedError(error.what());
+  if (error.code() == ExitCode::NotConverged) throw ConvergenceError(who(what) + error.what());
+  throw ModelError(who(what) + error.what());
 }
 
 const Partition& PartView::partition() const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/Error.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/part/ConstraintModes.hpp"
 #include "reduction/part/Partition.hpp"
@@ -46,6 +47,9 @@ class PartView {
   std::string dofName(Eigen::Index position) const;
   /// `Part "name", what: `, the beginning of messages; without `what`, `Part "name": `.
   std::string who(const std::string& what = {}) const;
+  /// Throws the error with who() in front: a ConvergenceError as such, every other failure as
+  /// ModelError. An interruption stays what it is.
+  [[noreturn]] void fail(const std::string& what, const Error& error) const;
 
   const Partition& partition() const;
   /// K: constantStiffness, dofs x dofs.

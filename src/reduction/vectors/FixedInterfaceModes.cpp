@@ -121,9 +121,7 @@ InteriorVectors fixedInterfaceModes(const PartView& part, const ModeRequest& req
           append(result, part.interiorBlock(blocks[i]), blocks[i], pairs);
         }
       } catch (const Error& error) {
-        const std::string sentence = part.who(what) + error.what();
-        if (error.code() == ExitCode::NotConverged) throw ConvergenceError(sentence);
-        throw ModelError(sentence);
+        part.fail(what, error);
       }
       result.complete = result.complete && progress[i].computed == progress[i].available;
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 #include "cases/run/AnalysisFiles.hpp"
 #include "cases/run/Run.hpp"
@@ -118,7 +119,47 @@ void warnOfEmptiness(const CampbellDiagram& diagram) {
         "window. Give a wider one (Campbell/Lowest Frequency, Highest Frequency).");
 }
 
-void print(const CampbellDiagram& diagram, const CampbellSettings& settings, bool estimated) {
+/// The frequencies whose modes are all in the diagram [Hz].
+FrequencyWindow covered(const CampbellDiagram& diagram, const CampbellSettings& settings) {
+  if (settings.window) return *settings.window;
+  const auto [least, most] = std::minmax_element(
+      diagram.rows.begin(), diagram.rows.end(),
+      [](const auto& a, const auto& b) { return a.frequency() < b.frequency(); });
+  if (least == diagram.rows.end()) return {};
+  return {settings.target ? least->frequency() : 0.0, most->frequency()};
+}
+
+/// Of all excitations at all speeds [Hz].
+FrequencyWindow excited(const CampbellSettings& settings) {
+  FrequencyWindow all{std::numeric_limits<double>::infinity(), 0.0};
+  for (const auto& line : settings.lines)
+    for (const double speed : settings.speeds) {
+      const double f = std::abs(line.at(speed)) / twoPi;
+      all = {std::min(all.lowest, f), std::max(all.highest, f)};
+    }
+  return all;
+}
+
+/// Critical speeds are those of the modes in the diagram alone. `complete`: which has all modes.
+void sayWhatIsCovered(const CampbellDiagram& diagram, const CampbellSettings& settings,
+                      bool complete) {
+  if (complete || settings.lines.empty() || diagram.rows.empty()) return;
+  const auto modes = covered(diagram, settings), lines = excited(settings);
+  if (lines.lowest > modes.highest || lines.highest < modes.lowest)
+    log::warn(fmt::format(
+        "Excitations have {:.3g} to {:.3g} Hz, but the modes of the diagram {:.3g} to {:.3g} Hz: "
+        "it shows no critical speeds. Give Campbell/Lowest Frequency and Highest Frequency about "
+        "the excitations.",
+        lines.lowest, lines.highest, modes.lowest, modes.highest));
+  else if (lines.lowest < modes.lowest || lines.highest > modes.highest)
+    log::info(
+        fmt::format("not looked for: critical speeds outside of {:.3g} to {:.3g} Hz, the "
+                    "modes of the diagram; excitations have {:.3g} to {:.3g} Hz",
+                    modes.lowest, modes.highest, lines.lowest, lines.highest));
+}
+
+void print(const CampbellDiagram& diagram, const CampbellSettings& settings, bool estimated,
+           bool complete) {
   log::info(
       fmt::format("critical speeds from {} rpm, where a mode has the frequency of an excitation:",
                   rangeOf(settings.speeds, rpmPerRadianPerSecond)));
@@ -133,6 +174,7 @@ void print(const CampbellDiagram& diagram, const CampbellSettings& settings, boo
                           one.at.damping(), whirlWord(one.at.whirl),
                           estimated ? fmt::format(" {:8.1e}", one.at.error) : "",
                           one.refined ? "" : " (interpolated)"));
+  sayWhatIsCovered(diagram, settings, complete);
   const auto worst =
       std::max_element(diagram.checks.begin(), diagram.checks.end(),
                        [](const auto& a, const auto& b) { return a.error < b.error; });
@@ -321,7 +363,8 @@ void runCampbell(const cases::Case& one, const std::string& folder, bool fresh) 
         states->first().announceHeldStates();
         limitModes(one, settings, states->first().model().size());
         diagram = campbell(*states, settings, {one, files.folder().folder(), fresh});
-        print(diagram, settings, states->first().estimated());
+        print(diagram, settings, states->first().estimated(),
+              settings.modes >= states->first().model().size());
         warnOfEmptiness(diagram);
         warnOfGrowth(diagram);
         warnOfCoarseness(diagram);

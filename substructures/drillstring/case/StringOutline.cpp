@@ -60,6 +60,8 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
   items.push_back({drive, "top drive",
                    drive ? drilling::describe(scene.topDrive)
                          : "no Top Drive list: it turns with the rotary speed"});
+  const auto waves = drilling::describeWaves(scene.topDrive);
+  if (!waves.empty()) items.push_back({true, "torsional waves", waves});
   const double toolFace = scene.string.toolFace / constants::degree;
   const auto sided = [&](const std::vector<SidedNode>& nodes, const char* what) {
     if (!nodes.empty())

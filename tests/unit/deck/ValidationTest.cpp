@@ -291,7 +291,8 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"", e + parameter("Forces", "Array(string)", "{1 kN, 5}"),
             "deck.xml:7: /well/Transient/Forces: the entry \"5\" (number 2) has no unit; expected "
             "is a number and a unit such as "
-            "\"N\", \"daN\", \"kN\", \"MN\", \"lbf\", \"klbf\", \"tf\", \"t\", \"lb\", \"klb\"."},
+            "\"N\", \"daN\", \"kN\", \"MN\", \"lbf\", \"klbf\", \"tf\", \"t\", \"lb\", "
+            "\"klb\", \"kdaN\"."},
         Row{"", e + parameter("Note", "double", "5"),
             "deck.xml:7: /well/Transient/Note must be type=\"string\", not type=\"double\": write "
             "type=\"string\" value=\"5\". "

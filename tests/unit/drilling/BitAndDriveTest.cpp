@@ -2,14 +2,18 @@
 /// \file
 /// Laws of bit and drive on the string: the frame they are in, steady drilling, gains that match
 /// the pipe.
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <gtest/gtest.h>
+#include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "common/report/Log.hpp"
 #include "model/laws/StatefulPointLaw.hpp"
 #include "substructures/drilling/BitLaw.hpp"
 #include "substructures/drilling/TopDrive.hpp"
@@ -226,6 +230,62 @@ TEST(TopDrive, HoldsItsSpeedBelowItsHighPass) {
     const std::complex<double> s(0.0, w), Z = drive.proportionalGain + drive.integralGain / s;
     EXPECT_NEAR(std::abs((zeta - Z) / (zeta + Z)), corner / std::hypot(corner, 2 * w), 1e-12);
   }
+}
+
+/// The band of less than half, and the place of least reflection, of |r(f)| itself.
+TEST(TopDrive, SaysWhichWavesItSendsBack) {
+  const double zeta = 340.0;
+  struct Drive {
+    double kp, ki, J;
+    const char* text;
+  };
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const auto& one : std::vector<Drive>{
+           {340, 2368.7, 1500, "sends back 0 % at least, at 0.2 Hz; less than half from 0.18"},
+           {680, 2368.7, 1500,
+            "sends back 33 % at least, at 0.2 Hz; less than half from 0.178 Hz to"},
+           {1360, 2368.7, 1500, "sends back 60 % at least, at 0.2 Hz"},
+           {340, 200, 0, "sends back 0 % at least, at high frequencies; less than half above 0.08"},
+           {310, 0, 1500,
+            "sends back 4.6 % at least, at low frequencies; less than half below 0.0"}}) {
+    TopDrive drive;
+    drive.control = DriveControl::Speed;
+    drive.proportionalGain = one.kp, drive.integralGain = one.ki, drive.inertia = one.J;
+    const auto reflected = [&](double frequency) {
+      const double w = constants::twoPi * std::clamp(frequency, 1e-9, 1e9);
+      const std::complex<double> Z(one.kp, one.J * w - one.ki / w);
+      return std::abs((zeta - Z) / (zeta + Z));
+    };
+    const auto found = waveReflection(tuned(drive, zeta));
+    EXPECT_NEAR(reflected(found.frequency), found.least, 1e-6);
+    if (found.from < found.to) {
+      EXPECT_TRUE(found.from == 0 || std::abs(reflected(found.from) - 0.5) < 1e-9);
+      EXPECT_TRUE(found.to == infinite || std::abs(reflected(found.to) - 0.5) < 1e-9);
+      EXPECT_LT(reflected(found.to == infinite ? 2 * found.from : 0.5 * (found.from + found.to)),
+                0.5);
+    } else {
+      EXPECT_GE(found.least, 0.5);
+    }
+    EXPECT_NE(describeWaves(tuned(drive, zeta)).find(one.text), std::string::npos)
+        << describeWaves(tuned(drive, zeta));
+  }
+}
+
+/// 2500 kg m2 resonate with the integral gain of a high-pass of 0.1 Hz at 0.047 Hz.
+TEST(TopDrive, WarnsOfAHighPassThatItsInertiaUndoes) {
+  TopDrive drive;
+  drive.control = DriveControl::ImpedanceMatched;
+  drive.highPass = 0.1;
+  const auto said = [&](double inertia) {
+    const log::Hearing heard;
+    drive.inertia = inertia;
+    tuned(drive, 340.0);
+    return heard.lines().empty() ? std::string() : heard.lines().front();
+  };
+  EXPECT_EQ(said(0.0), "");
+  EXPECT_EQ(said(500.0), "");  // 0.13 Hz
+  EXPECT_NE(said(2500.0).find("more than half of all above 0.06"), std::string::npos)
+      << said(2500.0);
 }
 
 TEST(TopDrive, RefusesAStaticTorqueAboveItsLimit) {

@@ -258,6 +258,17 @@ TEST(MeshErrors, SayWhatIsWrongAndWhere) {
       "/scene/Drillstring/Assembly: The component \"pipes\" is not defined. Did you mean "
       "\"pipe\"?");
   has(errorOf(array("Assembly", "pipe")), "No components are defined");
+  has(errorOf(components(pipe) + array("Assembly", "jars")), "is not defined. Known are \"pipe\".");
+  std::string stock;  // as many as a library has
+  for (int size = 1; size <= 20; ++size)
+    stock += tube(std::to_string(size) + " in collar", 9.0, 1, 0.06, 0.05);
+  stock += tube("near-bit Stabiliser", 1.0, 1, 0.06, 0.05);
+  has(errorOf(components(stock) + array("Assembly", "my stab")),
+      "is not defined. Known with such a name are \"near-bit Stabiliser\".");
+  has(errorOf(components(stock) + array("Assembly", "extra long non-magnetic collar, motor")),
+      " and 8 more.");
+  has(errorOf(components(stock) + array("Assembly", "motor")),
+      "None of the 21 known ones has such a name: describe it in Drillstring/Components.");
   has(errorOf(components(pipe) + array("Assembly", "0*pipe")),
       "the number before * must be a whole number from 1 on");
   has(errorOf(components(pipe) + array("Assembly", "x*pipe")),

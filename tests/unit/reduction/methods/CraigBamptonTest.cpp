@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
+#include "common/Interrupt.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/BasisFamilies.hpp"
 
@@ -34,6 +35,14 @@ model::Substructure barWithInterface(int elements = 8) {
 TEST(CraigBampton, IsRegistered) {
   EXPECT_NO_THROW(MethodRegistry::instance().find("Craig-Bampton"));
   EXPECT_THROW(MethodRegistry::instance().find("Craig-Bamton"), DeckError);
+}
+
+TEST(CraigBampton, ASignalIsNoFailureOfThePart) {
+  const auto part = barWithInterface(400);  // its modes are computed by iteration
+  requestInterrupt();
+  EXPECT_THROW(craigBampton()->build(part, modes(3)), InterruptedError);
+  requestInterrupt(false);
+  EXPECT_EQ(craigBampton()->build(part, modes(3)).vectors.cols(), 5);
 }
 
 TEST(CraigBampton, KeptRowsAreTheIdentity) {
