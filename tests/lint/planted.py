@@ -91,6 +91,7 @@ REPEATS = {
 PLACES = {
     "tools/M.py": (PYTHON, "is not executable"),
     "run2/summary.json": ("{}\n", "stay out of git"),
+    "left over.mtx": ("1 1\n", "stay out of git"),
     "quickstart": ("#!/usr/bin/env bash\n# SPDX-License-Identifier: BSD-3-Clause\n", None),
 }
 

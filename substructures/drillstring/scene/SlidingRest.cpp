@@ -175,9 +175,13 @@ std::optional<SlidingRest::Rest> SlidingRest::slide(const Vector& start, Found& 
             "It buckles while it turns, and friction drives it round the hole: there is no state "
             "of rest.";
       else {
-        why.unsettled = "It buckles and does not come to rest within " +
+        const bool turns = against != 0.0;
+        why.unsettled = "It buckles" + std::string(turns ? " while it turns" : "") +
+                        " and does not come to rest within " +
                         std::to_string(slidingEffort * options_.maxIterations) + " iterations.";
-        why.advice = "Raise Static/Max Iterations.";
+        why.advice = turns ? "Friction may drive it round the hole; if it does not, raise "
+                             "Static/Max Iterations."
+                           : "Raise Static/Max Iterations.";
       }
       return std::nullopt;
     }
