@@ -108,6 +108,9 @@ TEST(MumpsFactor, goesOnWithTheOrderingOfOnePattern) {
   const Sparse half = shifted(grid(), -1.0);
   ASSERT_TRUE(factor.factor(half, Symmetry::Definite));
   EXPECT_LT(backwardError(half, factor.solve(b), b), 1e-12);
+  const Sparse longer = half * half;  // rows
+  ASSERT_TRUE(factor.factor(longer, Symmetry::Definite));
+  EXPECT_LT(backwardError(longer, factor.solve(b), b), 1e-12) << "another pattern";
 }
 
 TEST(MumpsFactor, countsEigenvalues) {
