@@ -194,8 +194,8 @@ TEST(MotionEstimate, CountsAStartOutsideTheBasis) {
     }
 }
 
-/// The sixth mode of a bar between its ends, beside the first, with a basis of three. Estimated from
-/// the residual alone, 0.63 of the error is seen.
+/// The sixth mode of a bar between its ends, beside the first, with a basis of three. Estimated
+/// from the residual alone, 0.63 of the error is seen.
 TEST(MotionEstimate, CountsAModeOutsideTheBasisFromItsStart) {
   auto parts = struckBars(-1);
   auto& left = parts[0].model;
