@@ -402,6 +402,11 @@ def buckled_runs():
         "350 kN: friction drives it round", done.returncode == 4
         and "friction drives it round the hole: there is no state of rest. " in said
         and said.endswith('Static/Friction "None" gives the state without friction.'), done.stderr)
+    done, _ = pushed(350, "Static/Max Iterations=2")
+    expect(
+        "and may do so where the iterations end before", "It buckles while it turns and does not "
+        "come to rest within 12 iterations. Friction may drive it round the hole; if it does not, "
+        "raise Static/Max Iterations." in " ".join(done.stderr.split()), done.stderr)
 
 
 euler()
