@@ -157,10 +157,10 @@ std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model
     if (standAlone(model, symmetric, rows, dofs)) isolated.insert(component);
   for (const auto& [component, others] : skewPairs(model, rows, pointStiffness))
     for (const int other : others)
-      if ((isolated.count(other) > 0)) driven[component] = true;
+      if (isolated.count(other) > 0) driven[component] = true;
   std::vector<Matrix> all;
   for (const auto& [component, dofs] : components) {
-    if (!driven[component] || !(isolated.count(component) > 0)) continue;
+    if (!driven[component] || isolated.count(component) == 0) continue;
     const Sparse K = reduction::block(symmetric, dofs, dofs),
                  M = reduction::block(mass, dofs, dofs);
     linalg::EigenOptions options;

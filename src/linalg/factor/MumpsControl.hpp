@@ -38,7 +38,8 @@ struct Instance {
     dmumps_c(&id);
   }
 
-  /// A new instance without output. \param kind SYM of the guide
+  /// A new instance without output, with an ordering that this MUMPS has and deems best.
+  /// \param kind SYM of the guide
   void begin(int kind, MPI_Comm comm) {
     close();
     id = {};
@@ -49,6 +50,9 @@ struct Instance {
     open = true;
     for (const int stream : {1, 2, 3}) control(stream) = -1;
     control(4) = 0;
+    control(7) = 7;
+    control(14) = firstRoom;
+    control(27) = blockOfColumns;
   }
 
   void close() {

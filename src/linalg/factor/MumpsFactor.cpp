@@ -58,9 +58,6 @@ struct MumpsFactor::Impl : mumps::Instance {
     factored = false;
     symmetry = kind;
     begin(kind == Symmetry::None ? 0 : kind == Symmetry::Definite ? 1 : 2, comm);
-    control(7) = 7;  // an ordering that this MUMPS has and deems best
-    control(14) = firstRoom;
-    control(27) = blockOfColumns;
   }
 
   /// visit(row, column, value) of the entries that MUMPS reads: of a symmetric A those of its lower

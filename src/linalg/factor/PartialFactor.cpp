@@ -24,13 +24,6 @@ struct PartialFactor::Impl : mumps::Instance {
 
   ~Impl() { close(); }  // while the entries are there
 
-  void start() {
-    begin(1, MPI_COMM_SELF);
-    control(7) = 7;  // an ordering that this MUMPS has and deems best
-    control(14) = firstRoom;
-    control(27) = blockOfColumns;
-  }
-
   /// Entries of the lower triangle; whether the pattern is another one.
   bool take(const Sparse& A) {
     const std::vector<int> rowsBefore = std::move(rows), columnsBefore = std::move(columns);
@@ -67,7 +60,7 @@ bool PartialFactor::factor(const Sparse& A, int inner, Matrix& schur) {
   Impl& m = *impl_;
   const int rest = static_cast<int>(A.rows()) - inner;
   const bool another = m.take(A) || m.inner != inner || !m.open;
-  if (another) m.start();
+  if (another) m.begin(1, MPI_COMM_SELF);
   m.inner = inner;
   m.id.n = static_cast<MUMPS_INT>(A.rows());
   m.id.nnz = static_cast<MUMPS_INT8>(m.rows.size());

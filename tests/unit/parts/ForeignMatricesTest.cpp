@@ -317,10 +317,11 @@ TEST(HarwellBoeing, SeveralNumbersALine) {
 TEST(HarwellBoeing, NamesFaultsByLineAndField) {
   const AnsysJob job;
   const auto good = harwellBoeing(Matrix(job.beam.model.stiffnessAt(0)), job.order, true);
+  const auto replaced = [&](std::size_t where, const std::string& old, const std::string& now) {
+    job.write("K.hb", std::string(good).replace(where, old.size(), now));
+  };
   const auto with = [&](const std::string& old, const std::string& now) {
-    std::string text = good;
-    text.replace(text.find(old), old.size(), now);
-    job.write("K.hb", text);
+    replaced(good.find(old), old, now);
   };
   with("RSA", "CSA");
   job.refuses("K.hb:3 gives the complex type \"CSA\". A part is real: expected RSA or RUA");
@@ -343,9 +344,7 @@ TEST(HarwellBoeing, NamesFaultsByLineAndField) {
   with("107 13", "108 13");
   job.refuses("K.hb:2 announces 108 lines of numbers in all, expected 107");
   const auto lastWith = [&](const std::string& old, const std::string& now) {
-    std::string text = good;
-    text.replace(text.rfind(old), old.size(), now);
-    job.write("K.hb", text);
+    replaced(good.rfind(old), old, now);
   };
   lastWith(".", "0");
   job.refuses("in field 1, expected a finite number with a decimal point");
