@@ -21,6 +21,8 @@ inline Sparse assembled(int n, const Triplets& entries) {
   return matrix;
 }
 
+inline Sparse sparse(const Matrix& A) { return A.sparseView(0.0, 0.0); }
+
 /// n masses m in a row, springs k between neighbours; springs to the wall at both ends unless free.
 /// Held: lambda_j = 4 k/m sin^2(j pi / (2 (n+1))), j = 1..n. Free: 4 k/m sin^2(j pi / (2 n)), j =
 /// 0..n-1.
@@ -110,6 +112,36 @@ inline Pencil beam(int elements, double L, double EI, int planes = 1, bool free 
         }
   const int n = planes * perPlane;
   return {assembled(n, stiffness), assembled(n, mass)};
+}
+
+/// Mass, damping with gyroscopics, and stiffness.
+struct Shaft {
+  Sparse M, C, K;
+};
+
+/// `n` masses with two lateral coordinates each in a chain of springs between walls (or free),
+/// gyroscopic coupling g and damping c.
+inline Shaft shaft(int n, double g, double c, bool free) {
+  Triplets m, d, k;
+  for (int i = 0; i < n; ++i)
+    for (int x = 0; x < 2; ++x) {
+      const int row = 2 * i + x;
+      m.emplace_back(row, row, 1.0 + 0.01 * i);
+      d.emplace_back(row, row, c * (1.0 + 0.1 * x));
+      d.emplace_back(row, 2 * i + 1 - x, x == 0 ? g : -g);
+      const double ends = free ? (i > 0) + (i + 1 < n) : 2.0;
+      k.emplace_back(row, row, 100.0 * (1.0 + 0.1 * x) * ends);
+      if (i + 1 < n) {
+        k.emplace_back(row, row + 2, -100.0 * (1.0 + 0.1 * x));
+        k.emplace_back(row + 2, row, -100.0 * (1.0 + 0.1 * x));
+      }
+    }
+  const auto matrix = [n](const Triplets& t) {
+    Sparse A(2 * n, 2 * n);
+    A.setFromTriplets(t.begin(), t.end());
+    return A;
+  };
+  return {matrix(m), matrix(d), matrix(k)};
 }
 
 }  // namespace tooljoint::testing
