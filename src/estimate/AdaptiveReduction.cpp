@@ -18,21 +18,21 @@ namespace tooljoint::estimate {
 
 namespace {
 
-/// Modes every part starts with.
+/// Number of modes at the start, for every part.
 constexpr int firstModes = 2;
 /// An estimate times its safety factor stays below the tolerance. Estimates of the motion are less
 /// sharp than those of the frequencies.
 constexpr double frequencySafety = 1.5;
 constexpr double motionSafety = 2.0 * frequencySafety;
-/// A motion is stopped when its error is so many times the allowed error.
+/// A motion is stopped when its error is this many times the allowed error.
 constexpr double hopeless = 2.0;
 /// Largest error of a model that gives the size of the motion.
 constexpr double known = 0.5;
 /// A part that would get this fraction of its modes is not reduced.
 constexpr double nearlyAll = 0.75;
-/// Likewise a part whose full reduced matrices would have so many times the entries of its own
-/// stiffness: longer steps of an explicit integrator without the highest modes do not compensate
-/// for more.
+/// The same for a part whose full reduced matrices would have this many times the entries of its
+/// own stiffness: the longer steps of an explicit integrator without the highest modes do not
+/// compensate for more.
 constexpr double tooFull = 10.0;
 /// Limit of the number of rounds: each adds at least two modes and half of the present ones to some
 /// part.
@@ -42,7 +42,7 @@ double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The largest contributions, such that the others sum up to at most `rest`, largest first.
+/// The largest contributions such that the others sum to at most `rest`, largest first.
 std::vector<std::size_t> mark(const Vector& shares, double rest) {
   std::vector<std::size_t> order(static_cast<std::size_t>(shares.size()));
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -57,7 +57,7 @@ std::vector<std::size_t> mark(const Vector& shares, double rest) {
   return order;
 }
 
-/// Entries of all stiffness terms, those at one place counted once.
+/// Entries of the sum of all stiffness terms.
 double entries(const model::Substructure& part) {
   Sparse sum(part.model.size(), part.model.size());
   for (const auto& term : part.model.stiffness) sum = Sparse(sum + term.matrix.cwiseAbs());
@@ -100,13 +100,13 @@ class Rounds {
   }
 
  private:
-  /// More modes of this part can be had.
+  /// Whether this part has more modes to add.
   bool canGrow(std::size_t p) const {
     const int count = options_.modes.counts[p];
     return count != reduction::ModeRule::whole && count < interiors_[p];
   }
 
-  /// Modes of a part, or what it has in their place: interior dofs that are masters.
+  /// Modes of a part, including interior dofs that are masters.
   int modesOf(std::size_t p) const {
     const auto& part = outcome_.synthesis.parts[p];
     return part.modes + interiors_[p] - part.report.interior;
@@ -130,7 +130,7 @@ class Rounds {
       if (!e.definite || std::abs(e.error) > allowed)
         for (std::size_t p : mark(e.byPart, 0.5 * allowed)) wanted[p] = 1;
     }
-    // No part has a share in the error of a mode that the coupled model does not have.
+    // No part contributes to the error of a mode that the coupled model does not have.
     if (missing && std::count(wanted.begin(), wanted.end(), 1) == 0)
       for (std::size_t p = 0; p < parts_.size(); ++p) wanted[p] = canGrow(p);
     outcome_.rounds.back().frequencyError = largestError(outcome_.frequencies);
@@ -160,9 +160,9 @@ class Rounds {
     for (std::size_t p : marked) wanted[p] = 1;
   }
 
-  /// Half as many modes again (as many again while the error is ten times too large, three times as
-  /// many while it is a hundred times), two at least; the whole part where that is nearly all.
-  /// False when every wanted part has all it has.
+  /// Adds half as many modes (as many as present if the error is ten times too large, three times
+  /// as many if it is a hundred times), at least two; the part is kept whole if that is nearly all.
+  /// False if no wanted part can grow.
   bool grow(const std::vector<char>& wanted) {
     const auto& round = outcome_.rounds.back();
     const double off = std::max(round.frequencyError / std::max(rule_.frequencyTolerance, 1e-300),
@@ -182,7 +182,7 @@ class Rounds {
     return grown;
   }
 
-  /// A part with so many modes is integrated at a greater expense than the part itself.
+  /// Whether a part with this many modes is more expensive to integrate than the whole part.
   bool dearerThanWhole(std::size_t p, int count) const {
     const double size =
         outcome_.synthesis.parts[p].report.interface + sizeOf(parts_[p].retained) + count;
@@ -214,8 +214,8 @@ class Rounds {
   std::vector<int> interiors_;  ///< interior dofs of each part
   reduction::ReductionCache cache_;
   Outcome outcome_;
-  double motion_ = 0;  ///< MotionEstimate::motion of the last model that went to the end with an
-                       ///< error up to `known`; 0 before
+  double motion_ = 0;  ///< MotionEstimate::motion of the last completed model with an error up to
+                       ///< `known`; 0 before
 };
 
 }  // namespace

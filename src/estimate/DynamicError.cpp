@@ -50,7 +50,7 @@ class TruncatedMotion {
 };
 
 /// Left vectors in the order of the right ones: modes of the transposed matrices with the nearest
-/// value.
+/// values.
 ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& right,
                          std::optional<linalg::DampedTarget> target) {
   const int count = static_cast<int>(right.values.size());

@@ -15,13 +15,13 @@
 
 namespace tooljoint::estimate {
 
-/// Every part about its initial state with the laws and point laws of time t.
+/// Every part, linearised about its initial state, with the laws and point laws of time t.
 std::vector<Linearised> linearise(const std::vector<model::Substructure>& parts, double t);
-/// The same in motions e^{i omega t}, which the states of point laws follow.
+/// The same for motions e^{i omega t} with moving states of point laws.
 std::vector<Linearised> linearise(const std::vector<model::Substructure>& parts, double t,
                                   double omega);
 
-/// What rounding leaves of the energy of a coupled shape: that of the parts it was projected from.
+/// Rounding error of the energy of a coupled shape, from the parts it was projected from.
 linalg::EnergyRounding roundingOfParts(const std::vector<model::Substructure>& parts,
                                        const coupling::Synthesis& synthesis);
 
@@ -31,7 +31,7 @@ linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& couple
                                            const Linearised& m, int count,
                                            const linalg::EnergyRounding& rounding);
 
-/// Likewise those of a target (linalg::dampedModesNear).
+/// The same for a target (linalg::dampedModesNear).
 linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& coupled,
                                            const Linearised& m, const linalg::DampedTarget& target,
                                            const linalg::EnergyRounding& rounding);
@@ -49,8 +49,8 @@ class DynamicError {
 
   /// s - s_full = -sum_p l_I' F_p r_I / z' (2 s m + c) y of modes of the coupled matrices `m`, with
   /// the left modes z of the nearest values, r = Q(s) Phi y and l = Q(s)' Phi z, Q = s^2 M + s C +
-  /// K. \param matrices of the parts at the same speed \param target where the modes were looked
-  /// for; none: the lowest ones
+  /// K. \param matrices of the parts at the same speed \param target of the mode search; empty: the
+  /// lowest modes
   Eigen::VectorXcd ofModes(const std::vector<Linearised>& matrices, const Linearised& m,
                            const linalg::QuadraticModes& right,
                            const std::optional<linalg::DampedTarget>& target = {}) const;

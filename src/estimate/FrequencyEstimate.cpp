@@ -27,14 +27,14 @@ using constants::twoPi;
 
 namespace {
 
-/// A mode is a rigid body's where its frequency is below this part of that of its dofs, each by
-/// itself: sum K_ii D_i^2 over D' M D. Masses of single dofs, which may be zero but for rounding,
-/// do not count.
+/// A mode is a rigid-body mode if its frequency is below this part of the frequency of its dofs,
+/// each on its own: sum K_ii D_i^2 over D' M D. Masses of single dofs do not count, because they
+/// may be zero up to rounding.
 constexpr double rigid = 1e-7;
-/// Modes with whole interfaces beyond those of the reduced ones, among which a shape is sought.
+/// Additional modes with whole interfaces, among which a shape is searched.
 constexpr int more = 6;
-/// Modes at a time: enough for products and solutions by blocks; a large part has no room for about
-/// ten vectors of each mode beside its factors.
+/// Modes at once: enough for products and solutions by blocks. Each mode needs about ten vectors,
+/// for which there is little memory beside the factors of a large part.
 constexpr Eigen::Index blockOfModes = 16;
 
 /// Contribution of one part to the estimate of one mode.
@@ -50,7 +50,7 @@ struct Share {
   }
 };
 
-/// Of modes with these coordinates in the basis.
+/// For modes with these coordinates in the basis.
 std::vector<Share> shares(const model::Substructure& part, const reduction::Basis& basis,
                           const Matrix& coordinates, const Vector& eigenvalues,
                           parallel::Ranks ranks) {
@@ -75,9 +75,9 @@ std::vector<Share> shares(const model::Substructure& part, const reduction::Basi
   return result;
 }
 
-/// The root mu < lambda of m (lambda - mu) = sum_p excess_p(lambda, mu), below every pole:
-/// Rayleigh-Ritz on the mode and the Krylov vectors of all parts. The left side minus the right one
-/// falls from plus to minus there.
+/// The root mu < lambda of m (lambda - mu) = sum_p excess_p(lambda, mu) below every pole:
+/// Rayleigh-Ritz on the mode and the Krylov vectors of all parts. The difference of the sides falls
+/// from positive to negative there.
 double improvedEigenvalue(double lambda, double mass,
                           const std::vector<ResidualFlexibility::Step>& steps) {
   double pole = std::numeric_limits<double>::infinity();
@@ -100,15 +100,15 @@ double improvedEigenvalue(double lambda, double mass,
   return low;
 }
 
-/// f / f_full - 1 of the eigenvalues; where they differ in sign, their difference in units of
-/// `full` itself.
+/// f / f_full - 1 from the eigenvalues; if they differ in sign, their difference over twice the
+/// size of `lambda`.
 double signedRatio(double lambda, double full) {
   if (lambda * full > 0)
     return std::copysign(1.0, lambda) * (std::expm1(0.5 * std::log1p((lambda - full) / full)));
   return (lambda - full) / (2.0 * std::abs(lambda));
 }
 
-/// Whether the j-th mode is a rigid body's, which has no relative error.
+/// Whether the j-th mode is a rigid-body mode, which has no relative error.
 bool isRigid(double eigenvalue, Eigen::Index j, const std::vector<std::vector<Share>>& all) {
   double mass = 0, diagonal = 0;
   for (const auto& part : all) {
@@ -118,7 +118,7 @@ bool isRigid(double eigenvalue, Eigen::Index j, const std::vector<std::vector<Sh
   return std::abs(eigenvalue) * mass <= rigid * rigid * diagonal;
 }
 
-/// z' K z per mode of the point laws that join parts, which no part has in its own stiffness.
+/// z' K z per mode for point laws between parts, which are not in the stiffness of any part.
 Vector workOfConnectors(const std::vector<model::Substructure>& parts,
                         const model::SecondOrderModel& coupled, const Matrix& modes) {
   std::size_t own = 0;
@@ -129,7 +129,7 @@ Vector workOfConnectors(const std::vector<model::Substructure>& parts,
 }
 
 /// Error and its shares of the j-th mode; returns the estimate of the full eigenvalue.
-/// \param work D' K D of what belongs to no part
+/// \param work D' K D of terms that belong to no part
 double assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<Share>>& all,
               double work) {
   const double lambda = e.eigenvalue;
@@ -155,13 +155,13 @@ double assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vecto
 }
 
 /// Counts of the full model at bounds between its eigenvalues. With a Ritz basis the coupled
-/// eigenvalues are never below the full ones in their order. A bound that lies neither in nor
-/// between the estimate and the coupled value of a mode so has as many full eigenvalues below it as
-/// coupled ones, and more only where modes are missing.
+/// eigenvalues are never below the full ones of the same number. So below a bound that is not
+/// between the estimate and the coupled value of a mode, there are as many full eigenvalues as
+/// coupled ones, and more only if modes are missing.
 class ModeCounts {
  public:
   /// \param full estimated eigenvalues, one for each coupled mode
-  /// \param smallest those of rigid bodies are no larger: no bound lies between two of them
+  /// \param smallest upper bound of rigid-body eigenvalues: no bound lies between two of them
   ModeCounts(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
              std::vector<double> full, const std::vector<FrequencyEstimate>& estimates,
              double smallest)
@@ -178,7 +178,7 @@ class ModeCounts {
       if (!bothRigid && above - below > closest * std::abs(above))
         gaps_.push_back({below, above, std::abs(estimates[order[i]].error) > sure});
     }
-    // Just below the last one.
+    // Just below the last eigenvalue.
     const auto& last = estimates[order.back()];
     const double above = full_[order.back()];
     const double margin = std::max(closest, std::abs(last.error)) * std::abs(above);
@@ -186,15 +186,15 @@ class ModeCounts {
       gaps_.push_back({std::max(gaps_.back().middle(), above - 2.0 * margin), above, true});
   }
 
-  /// The bound above which modes are missing, if there are any. It has none missing itself;
-  /// -infinity where there is no such bound.
+  /// The bound above which modes are missing, if any. No mode is missing below it; -infinity if
+  /// there is no such bound.
   std::optional<double> missingAbove() const {
     std::size_t bad = 0;
     while (bad < gaps_.size() &&
            !((gaps_[bad].doubtful || bad + 1 == gaps_.size()) && missing(gaps_[bad].middle())))
       ++bad;
     if (bad == gaps_.size()) return {};
-    std::size_t good = 0;  // the first `good` gaps lack nothing, as far as they are computed
+    std::size_t good = 0;  // the first `good` gaps have no missing modes, as far as computed
     while (good < bad) {
       const std::size_t middle = (good + bad) / 2;
       if (missing(gaps_[middle].middle()))
@@ -208,19 +208,19 @@ class ModeCounts {
   }
 
  private:
-  /// Relative distance of eigenvalues that counts do not part.
+  /// Relative distance of eigenvalues that counts do not separate.
   static constexpr double closest = 1e-4;
-  /// A full eigenvalue is beside a coupled one of a smaller estimated error. Where it is larger the
-  /// estimate may be that of another mode, and the full model is solved.
+  /// With a smaller estimated error the full eigenvalue is the one next to the coupled one. With a
+  /// larger error the estimate may belong to another mode, and the full model is solved.
   static constexpr double sure = 1e-3;
-  /// Part of a gap in which a bound is beside the mode below it.
+  /// Position in a gap of a bound close to the mode below it.
   static constexpr double justAbove = 0.02;
-  /// Relative distance of the second bound where the first has no count.
+  /// Relative distance of the second bound if the first has no count.
   static constexpr double beside = 1e-7;
 
   struct Gap {
     double below, above;
-    bool doubtful;  ///< to be counted, whatever is found elsewhere
+    bool doubtful;  ///< must be counted in any case
     double at(double share) const { return below + share * (above - below); }
     double middle() const { return at(0.5); }
   };
@@ -231,7 +231,7 @@ class ModeCounts {
     return count(bound) > expected;
   }
 
-  /// A bound that is an eigenvalue of an interior has no count; one beside it has.
+  /// A bound that is an eigenvalue of an interior has no count; then a slightly larger one is used.
   int count(double bound) const {
     try {
       return coupling::fullEigenvaluesBelow(parts_, synthesis_, bound);
@@ -246,7 +246,7 @@ class ModeCounts {
   std::vector<Gap> gaps_;
 };
 
-/// The errors of `pairs`, modes of a coupled model with whole interfaces.
+/// Errors of `pairs`, modes of a coupled model with whole interfaces.
 std::vector<FrequencyEstimate> assessAll(const std::vector<model::Substructure>& parts,
                                          const coupling::Synthesis& synthesis,
                                          const linalg::EigenPairs& pairs) {
@@ -257,7 +257,7 @@ std::vector<FrequencyEstimate> assessAll(const std::vector<model::Substructure>&
                   synthesis.coupled.local(static_cast<int>(p), pairs.vectors), pairs.values, ranks);
   });
 
-  double smallest = 0;  // eigenvalues of rigid bodies are no larger
+  double smallest = 0;  // upper bound of rigid-body eigenvalues
   const Vector connectors = workOfConnectors(parts, coupled, pairs.vectors);
   std::vector<FrequencyEstimate> estimates(at(pairs.values.size()));
   std::vector<double> full;
@@ -279,7 +279,7 @@ std::vector<FrequencyEstimate> assessAll(const std::vector<model::Substructure>&
   return estimates;
 }
 
-/// The errors of `pairs`, modes of a model with reduced interfaces.
+/// Errors of `pairs`, modes of a model with reduced interfaces.
 std::vector<FrequencyEstimate> assessReduced(const std::vector<model::Substructure>& parts,
                                              const coupling::Synthesis& synthesis,
                                              const linalg::EigenPairs& pairs) {

@@ -24,9 +24,9 @@ namespace tooljoint::estimate {
 namespace {
 
 using constants::twoPi;
-/// Full modes computed beyond those compared, so that a repeated value is not cut, and coupled
-/// modes beyond the full ones, among which a shape is sought: the rigid-body motions of one
-/// body.
+/// Full modes computed in addition to those compared, so that a repeated value is not cut, and
+/// coupled modes in addition to the full ones, among which a shape is searched: the rigid-body
+/// motions of one body.
 constexpr int moreModes = 6;
 
 /// R' J R for tangents J of all points of a set, width x width each, row-major.
@@ -256,7 +256,7 @@ class DampedComparison {
   }
 
  private:
-  /// The first `count` exact modes.
+  /// Compares the first `count` exact modes.
   std::vector<ModeComparison> match(const linalg::QuadraticModes& exact,
                                     const linalg::QuadraticModes& coupled, Eigen::Index count,
                                     const std::optional<linalg::DampedTarget>& target) const {

@@ -14,13 +14,13 @@
 
 namespace tooljoint::estimate {
 
-/// A full mode and the coupled mode of the same shape (matchModes), each coupled mode beside one
-/// full mode at most.
+/// A full mode and the coupled mode of the same shape (matchModes); each coupled mode is paired
+/// with at most one full mode.
 struct ModeComparison {
-  int coupledMode = -1;  ///< 0-based number among the physical coupled modes; -1: none is left, and
+  int coupledMode = -1;  ///< 0-based number among the physical coupled modes; -1: no partner, and
                          ///< the error is 1
   std::complex<double> full;  ///< undamped: i omega (omega < 0: omega^2 < 0); damped: s [1/s]; 0
-                              ///< for a rigid-body mode (zero but for rounding)
+                              ///< for a rigid-body mode (zero up to rounding)
   std::complex<double> coupled;
   double mac = 0;  ///< ModeMatch::mac of the full shape and the recovered coupled one
   double error =
@@ -44,34 +44,34 @@ struct ModeComparison {
 struct Linearised {
   Sparse mass, damping, stiffness;  ///< damping and stiffness unsymmetric
 };
-/// States of point laws stay as they are.
+/// With held states of point laws.
 Linearised linearise(const model::SecondOrderModel& model, double t);
-/// Motions e^{s t} [1/s], which the states follow (model::tangentByStates): what they add to
-/// K + s C, as real K and C (a real s: all in K).
+/// With moving states (model::tangentByStates) in motions e^{s t} [1/s]: their contribution to K +
+/// s C, as real K and C (for a real s all in K).
 Linearised linearise(const model::SecondOrderModel& model, double t, Complex s);
-/// The same of s = i omega, omega >= 0 [rad/s].
+/// The same for s = i omega, omega >= 0 [rad/s].
 Linearised linearise(const model::SecondOrderModel& model, double t, double omega);
 
-/// Motions of the coupled model in the dofs of the full one: column by column, dofs matched by
-/// their labels, or, where the full model was itself coupled from unreduced parts, D_p = maps[p] z,
-/// by least squares over all parts. Throws ModelError when a dof of the full model is in no part.
+/// Motions of the coupled model in the dofs of the full one, column by column. Dofs are matched by
+/// their labels or, if the full model was itself coupled from unreduced parts with D_p = maps[p] z,
+/// by least squares over all parts. Throws ModelError if a dof of the full model is in no part.
 Eigen::MatrixXcd recover(const model::SecondOrderModel& full,
                          const std::vector<model::Substructure>& parts,
                          const coupling::Synthesis& synthesis, const Eigen::MatrixXcd& shapes,
                          const std::vector<Sparse>& maps = {});
 
-/// Full modes to compute for a comparison of the `count` lowest ones, some more so that no repeated
-/// value is cut: coupling::lowestModes.
+/// Full modes for a comparison of the `count` lowest ones, some more so that no repeated value is
+/// cut: coupling::lowestModes.
 linalg::EigenPairs modesToCompare(const model::SecondOrderModel& full, int count);
 
-/// i omega of each eigenvalue omega^2 (omega < 0 where omega^2 < 0); 0 where phi'K phi = omega^2
-/// phi'M phi is zero but for rounding (linalg::isRounding), as for rigid-body modes.
+/// i omega of each eigenvalue omega^2 (omega < 0 if omega^2 < 0); 0 if phi'K phi = omega^2 phi'M
+/// phi is zero up to rounding (linalg::isRounding), as for rigid-body modes.
 Eigen::VectorXcd undampedValues(const Sparse& K, const Sparse& M, const Vector& eigenvalues,
                                 const Matrix& shapes);
 
 /// The lowest `count` undamped modes (coupling::undampedStiffness: symmetric part of K at t = 0,
-/// closed contacts linear, no friction). Spurious modes of a dual model with residual mass are left
-/// out. Collective.
+/// closed contacts linear, no friction), without the spurious modes of a dual model with residual
+/// mass. Collective.
 std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full,
                                          const std::vector<model::Substructure>& parts,
                                          const coupling::Synthesis& synthesis, int count,
@@ -87,21 +87,21 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full,
 /// The `count` damped modes of smallest |s|, gyroscopic and circulatory matrices of time t
 /// included. Their errors are estimated with left and right modes, z and y, of the coupled model: s
 /// - s_full = -sum_p l_I' F_p r_I / z' (2 s m + c) y with the residuals r = Q(s) Phi y and l =
-/// Q(s)' Phi z, Q = s^2 M + s C + K. Not estimated where the basis is no Rayleigh-Ritz one
+/// Q(s)' Phi z, Q = s^2 M + s C + K. Without estimate if the basis is not of Rayleigh-Ritz type
 /// (MacNeal, dual Craig-Bampton). Collective.
 std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full,
                                                const std::vector<model::Substructure>& parts,
                                                const coupling::Synthesis& synthesis, int count,
                                                double t, const std::vector<Sparse>& maps = {});
 
-/// The same for the full modes of a target; a coupled mode may lie a little outside of it.
+/// The same for the full modes of a target; a coupled mode may be slightly outside it.
 std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full,
                                                const std::vector<model::Substructure>& parts,
                                                const coupling::Synthesis& synthesis,
                                                const linalg::DampedTarget& target, double t,
                                                const std::vector<Sparse>& maps = {});
 
-/// A table; with |s|, Im s and damping ratios when `damped`.
+/// A table; with |s|, Im s and damping ratios if `damped`.
 std::string comparisonTable(const std::vector<ModeComparison>& modes, bool damped);
 
 }  // namespace tooljoint::estimate

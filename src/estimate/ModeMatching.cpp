@@ -13,8 +13,8 @@ namespace {
 
 using linalg::times;
 
-/// Of a unit vector, what is left beside the others below this is rounding: shapes of a Jordan
-/// chain agree.
+/// Remainder of a unit vector, orthogonalised to the others, below which it is rounding: shapes of
+/// a Jordan chain agree.
 constexpr double dependent = 1e-6;
 
 double length(const ComplexVector& x, const ComplexVector& Mx) {
@@ -74,7 +74,7 @@ std::vector<Cluster> clusters(const Sparse& M, const ComplexVector& values,
   return found;
 }
 
-/// Least squared cosine of the principal angles between the span of the cluster and that of its
+/// Smallest squared cosine of the principal angles between the span of the cluster and that of its
 /// partners.
 double leastCosine(const Sparse& M, const Cluster& cluster, const ComplexMatrix& others) {
   ComplexMatrix theirs(others.rows(), static_cast<Eigen::Index>(cluster.partners.size()));

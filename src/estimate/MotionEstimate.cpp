@@ -21,8 +21,8 @@ namespace tooljoint::estimate {
 
 namespace {
 
-/// So many samples are seen before a motion is given up: which part the error comes from is not
-/// known at its start.
+/// Fewest samples before a motion is stopped, because its start does not show which part causes the
+/// error.
 constexpr long fewSamples = 10;
 
 /// LU of a matrix on the pattern of a compiled model; vectors in positions.
@@ -30,7 +30,7 @@ class Factor {
  public:
   explicit Factor(const linalg::BlockPattern& pattern)
       : factor_(pattern), storage_(pattern.storage()) {}
-  /// The matrix to fill, all zero.
+  /// The matrix to fill, set to zero.
   double* clear() {
     std::fill(factor_.values(), factor_.values() + storage_, 0.0);
     return factor_.values();
@@ -116,8 +116,8 @@ struct MotionEstimator::Impl {
   std::vector<std::vector<int>> recovered;
   std::vector<Sparse> recovery;  ///< of the parts, in the common frame
   static constexpr auto joint = static_cast<std::size_t>(-1);
-  /// A batch of the coupled model, which keeps the points of every part and has those between parts
-  /// after them, and what the truncated motion does at them: R s - w.
+  /// A batch of the coupled model (points of every part, then points between parts), and the
+  /// truncated motion at its points: R s - w.
   struct PointErrors {
     std::size_t part;    ///< joint: between parts
     const Sparse* rows;  ///< of the part
@@ -125,7 +125,7 @@ struct MotionEstimator::Impl {
     std::unique_ptr<StateErrors> states;  ///< of a law with states
   };
   std::vector<PointErrors> pointSets;
-  Vector pointStates;  ///< of the run, at the sample to come
+  Vector pointStates;  ///< of the run, at the next sample
   transient::CompiledModel compiled;
   Factor mass, step;
   linalg::BlockValues values;
@@ -134,12 +134,12 @@ struct MotionEstimator::Impl {
   double startTime = 0;
   double time = 0;
   Vector q, qDot;         ///< at the last sample, dofs
-  Vector lastRate;        ///< of the recovered displacement there
+  Vector lastRate;        ///< rate of the recovered displacement there
   Vector u, uDot;         ///< error equation, positions
   std::vector<Vector> w;  ///< truncated motion of each part, mean of the last interval
   Vector s;               ///< P w of the last interval, positions
   std::vector<double> energies;
-  /// Squares summed over the measured components, of all samples.
+  /// Squares summed over the measured components of all samples.
   struct Sums {
     double errors = 0, motions = 0;
     double worst = 0;  ///< errors of one sample
@@ -204,7 +204,7 @@ void MotionEstimator::look(Impl& m, double t, const Vector& q, const Vector& qDo
   m.measure(h, moved);
 }
 
-/// The error of the initial state: u = P e, u' = P e'; what of it no mode has vibrates in the
+/// Error of the initial state: u = P e, u' = P e'. The part of it outside the modes vibrates in the
 /// interiors.
 void MotionEstimator::Impl::begin(double t) {
   compiled.setTime(t);
@@ -228,7 +228,7 @@ void MotionEstimator::Impl::begin(double t) {
   beginStates(t);
 }
 
-/// States of a start that is in error.
+/// States at an initial state with an error.
 void MotionEstimator::Impl::beginStates(double t) {
   int offset = 0;
   const Vector at = positions(q), rate = positions(qDot);
@@ -253,7 +253,7 @@ void MotionEstimator::Impl::beginStates(double t) {
   }
 }
 
-/// The errors of the states over the interval that ends at t, and the motion accepted there.
+/// Errors of the states over the interval that ends at t, and the motion accepted there.
 void MotionEstimator::Impl::followStates(double t, const Vector& qNew, const Vector& qDotNew,
                                          const Vector& middle, const Vector& middleRate) {
   const Vector at = positions(qNew), rate = positions(qDotNew);
@@ -274,7 +274,8 @@ void MotionEstimator::Impl::followStates(double t, const Vector& qNew, const Vec
   }
 }
 
-/// The points with tangents in the middle of an interval, the run's states there.
+/// Evaluates the points with tangents in the middle of an interval, with the states of the run
+/// there.
 void MotionEstimator::Impl::evaluatePoints(double t, double h, const Vector& at,
                                            const Vector& rate) try {
   int offset = 0;
@@ -287,7 +288,7 @@ void MotionEstimator::Impl::evaluatePoints(double t, double h, const Vector& at,
     batch.look(t, h, at.data());
     batch.evaluateWithTangent(t, at.data(), rate.data());
   }
-} catch (const ConvergenceError& error) {  // most often of a delay line: it ends at the last sample
+} catch (const ConvergenceError& error) {  // mostly a delay line: it ends at the last sample
   throw ConvergenceError("The error of the motion cannot be estimated: at t = " + formatNumber(t) +
                          " s a point law cannot be evaluated, usually because its delay is shorter "
                          "than the sampling interval. Reduce Transient/Sampling Interval, or set "
@@ -295,7 +296,7 @@ void MotionEstimator::Impl::evaluatePoints(double t, double h, const Vector& at,
                          error.what());
 }
 
-/// R' f of the points of a part, as last evaluated.
+/// R' f of the points of a part, from the last evaluation.
 Vector MotionEstimator::Impl::pointForce(std::size_t part) {
   Vector force = Vector::Zero(parts[part].model.size());
   for (std::size_t b = 0; b < pointSets.size(); ++b) {
@@ -310,10 +311,10 @@ Vector MotionEstimator::Impl::pointForce(std::size_t part) {
   return force;
 }
 
-/// Phi' (K_t s + C_t s') with s = Phi P w - w; tangents of the points as last evaluated.
+/// Phi' (K_t s + C_t s') with s = Phi P w - w; tangents of the points from the last evaluation.
 Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>& wNew,
                                    const Vector& sNew) {
-  const bool rated = sums.samples > 1;  // there is an interval before
+  const bool rated = sums.samples > 1;  // there is a previous interval
   const Vector sDot = rated ? Vector((sNew - s) / h) : Vector(Vector::Zero(s.size()));
   Vector own = Vector::Zero(model.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -354,8 +355,7 @@ Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>
 void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& qDotNew) {
   const double h = t - time;
   const double middle = 0.5 * (time + t);
-  // Means over the interval: of the acceleration and the velocity exactly, of the displacement by
-  // the Hermite cubic.
+  // Means over the interval: acceleration and velocity exactly, displacement by the Hermite cubic.
   const Vector acceleration = (qDotNew - qDot) / h;
   const Vector velocity = (qNew - q) / h;
   const Vector displacement = 0.5 * (q + qNew) - h / 12.0 * (qDotNew - qDot);
@@ -455,7 +455,7 @@ MotionEstimate MotionEstimator::result() const {
     estimate.largest =
         std::sqrt(m.sums.worst * static_cast<double>(m.sums.samples) / m.sums.motions);
   } else if (m.sums.errors > 0) {
-    estimate.error = estimate.largest = 1;  // the basis holds nothing of what moves
+    estimate.error = estimate.largest = 1;  // the basis contains nothing of the motion
   }
   estimate.byPart =
       Eigen::Map<const Vector>(m.energies.data(), static_cast<Eigen::Index>(m.energies.size()));
@@ -483,8 +483,8 @@ MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderM
     throw InterruptedError(
         fmt::format("Interrupted at {:g} s of a transient for the mode selection.", report.end));
   estimate.reached = (report.end - options.start) / (options.end - options.start);
-  // errors / reached over the motion expected in the end; estimate.error is that over the motion so
-  // far
+  // errors / reached over the motion expected at the end; estimate.error is relative to the motion
+  // so far
   const double soFar =
       estimate.motion > 0 ? std::min(1.0, estimate.motion / std::max(limit.motion, estimate.motion))
                           : 1.0;

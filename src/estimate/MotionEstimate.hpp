@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A-posteriori error of the motion of a coupled reduced model, from its own samples.
+/// A-posteriori error of the motion of a coupled reduced model, from its samples.
 #pragma once
 
 #include <limits>
@@ -15,7 +15,7 @@
 namespace tooljoint::estimate {
 
 struct MotionOptions {
-  std::vector<int> components{0, 1};  ///< of the recovered nodes that are measured: u and v
+  std::vector<int> components{0, 1};  ///< measured components of the recovered nodes: u and v
   double damping = 0.5;  ///< weight of the end of an interval in the error equation, 0.5 to 1; 0.5
                          ///< has no damping
 };
@@ -24,8 +24,8 @@ struct MotionOptions {
 struct MotionEstimate {
   double error = 0;  ///< |x - x_full| / |x - x_static| over all recovered nodes and samples: the
                      ///< estimate of the vibration error
-  std::optional<double> ofEverySecond;  ///< the same from every second sample alone; nothing where
-                                        ///< a law cannot be evaluated so seldom
+  std::optional<double> ofEverySecond;  ///< the same from every second sample; empty if a law
+                                        ///< cannot be evaluated at this distance
   double largest =
       0;  ///< the same for the worst sample, against the mean of |x - x_static| over the samples
   Vector byPart;  ///< squared size of the truncated motion of each part, as a fraction of the
@@ -33,21 +33,20 @@ struct MotionEstimate {
   long samples = 0;
   double motion = 0;  ///< |x - x_static|^2, summed over all recovered nodes and samples
   /// Sum of (h x')^2 over that of (x(t + h) - x(t))^2, h the time between two samples: 1 for a
-  /// motion that the samples follow, (omega h)^2 / (2 - 2 cos(omega h)) for a vibration.
+  /// motion that the samples resolve, (omega h)^2 / (2 - 2 cos(omega h)) for a vibration.
   double roughness = 1;
-  double reached =
-      1;  ///< fraction of the window that was computed, below 1 where the motion was stopped
-  double wall = 0;  ///< wall time of the estimate [s]
+  double reached = 1;  ///< computed fraction of the window, below 1 if the motion was stopped
+  double wall = 0;     ///< wall time of the estimate [s]
 
-  /// The motion is faster than the samples, or its error grows when it is sampled more often: the
-  /// error may be larger than said here.
+  /// The motion is faster than the samples, or its error grows with more samples: the error may be
+  /// larger than the estimate.
   bool isTooFast() const {
     return error > 0.0 &&
            (roughness > roughest || (ofEverySecond && *ofEverySecond < slowest * error));
   }
-  /// Of a vibration with three samples a period.
+  /// For a vibration with three samples per period.
   static constexpr double roughest = 1.45;
-  /// What an estimate of every second sample has of a motion that all of them follow.
+  /// Estimate from every second sample over that from all, for a resolved motion.
   static constexpr double slowest = 0.6;
 };
 
@@ -59,7 +58,7 @@ struct MotionLimit {
   double motion = 0;  ///< MotionEstimate::motion of a model that went to the end, 0: unknown
 };
 
-/// Integrates the error of a motion beside it. With D = Phi q the motion of all parts
+/// Integrates the error of a motion in parallel with it. With D = Phi q the motion of all parts
 /// and the residual r = M D'' + C D' + K D - F - f_c of the full equations, r is zero in the
 /// coupled coordinates and the error obeys
 ///
@@ -71,19 +70,18 @@ struct MotionLimit {
 ///
 ///     m u'' + c u' + k u = Phi' (K s + C s'),   e = Phi u - s,   s = Phi P w - w,
 ///
-/// what the modes do not represent of the state at the start, the part of e(0) outside of its
-/// modes, is no answer to r: it vibrates in the interiors (TruncatedStart) and joins w.
-/// k and c with the tangents of the point laws along the motion, the errors of their states with
-/// them (StateErrors). One step per sample, residuals as
-/// means over the interval (M D'' is M times the change of velocity), all matrices those of the
-/// model at that time. Not included: motion faster than the samples, which a second estimate
-/// from half of them shows (MotionEstimate::isTooFast), and the error of the
-/// time integration. Compare the dual-weighted residuals of W. Bangerth and R. Rannacher, Adaptive
+/// The part of the initial state e(0) outside the modes does not depend on r: it vibrates in the
+/// interiors (TruncatedStart) and is added to w. k and c contain the tangents of the point laws
+/// along the motion, and the errors of their states (StateErrors). One step per sample; residuals
+/// are means over the interval (M D'' is M times the change of velocity), and all matrices are
+/// those of the model at that time. Not included: motion faster than the samples, which a second
+/// estimate from half of them shows (MotionEstimate::isTooFast), and the error of the time
+/// integration. Compare the dual-weighted residuals of W. Bangerth and R. Rannacher, Adaptive
 /// Finite Element Methods for Differential Equations (2003), chapter 1, of which this is the
 /// forward form.
 class MotionEstimator : public transient::SampleSink {
  public:
-  /// All arguments must outlive the estimator. Throws ModelError when the mass of the coupled model
+  /// All arguments must outlive the estimator. Throws ModelError if the mass of the coupled model
   /// is singular. \param rest recovered displacement at rest, rows of the recovery of the coupled
   /// model
   MotionEstimator(const std::vector<model::Substructure>& parts,
@@ -92,7 +90,7 @@ class MotionEstimator : public transient::SampleSink {
   MotionEstimator(const MotionEstimator&) = delete;
   MotionEstimator& operator=(const MotionEstimator&) = delete;
 
-  /// ConvergenceError: a point law with a delay remembers less than the time between two samples.
+  /// ConvergenceError: the delay of a point law is shorter than the time between two samples.
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
   void states(const Vector& x) override;
   MotionEstimate result() const;
@@ -103,13 +101,13 @@ class MotionEstimator : public transient::SampleSink {
   void look(Impl& at, double t, const Vector& q, const Vector& qDot);
 
   std::unique_ptr<Impl> impl_;
-  std::unique_ptr<Impl> coarse_;  ///< of every second sample
+  std::unique_ptr<Impl> coarse_;  ///< for every second sample
 };
 
 /// Integrates `model`, the coupled one of the estimator, to its end or until its error exceeds the
-/// limit. The error of a stopped motion is extrapolated with the mean rate of its square:
-/// at least sqrt(1 / reached) times the limit. Throws InterruptedError when
-/// the user stops it, and what transient::integrate throws.
+/// limit. The error of a stopped motion is extrapolated with the mean rate of its square: at least
+/// sqrt(1 / reached) times the limit. Throws InterruptedError if the user stops it, and the errors
+/// of transient::integrate.
 MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderModel& model,
                            const transient::TransientOptions& options,
                            const MotionLimit& limit = {},

@@ -11,17 +11,17 @@
 
 namespace tooljoint::estimate {
 
-/// Estimates rest on residuals of Rayleigh-Ritz: throws ModelError, naming the basis, where mass or
-/// interfaces of a part are not those of the space (MacNeal, dual Craig-Bampton).
+/// Estimates need the residuals of a Rayleigh-Ritz method: throws ModelError, naming the basis, if
+/// mass or interfaces of a part are not those of the space (MacNeal, dual Craig-Bampton).
 void requireRitz(const coupling::Synthesis& synthesis);
-/// False where requireRitz throws.
+/// False if requireRitz throws.
 bool isRitz(const coupling::Synthesis& synthesis);
-/// Calls `estimate` where the basis has estimates; false where it has none, or, with a warning,
-/// where a part has none, since its interior is a mechanism: modes are compared without, too.
+/// Calls `estimate` if the basis has estimates. False if it has none or, with a warning, if a part
+/// has none because its interior is a mechanism: modes can be compared without estimates.
 /// Collective.
 bool estimable(const coupling::Synthesis& synthesis, const std::function<void()>& estimate);
 
-/// State of a part, or its means over an interval.
+/// State of a part, or means over an interval.
 struct PartMotion {
   Vector displacement, velocity, acceleration;
 };
@@ -41,12 +41,12 @@ class PartResidual {
 
   /// D = offset + Phi q and its derivatives from coupled coordinates.
   PartMotion motion(const Vector& q, const Vector& qDot, const Vector& qDDot) const;
-  /// w = -F r, r = M D'' + C(t) D' + K(t) D - F(t) - point forces; dofs of the part, zero where
-  /// of boundary dofs.
+  /// w = -F r, r = M D'' + C(t) D' + K(t) D - F(t) - point forces; dofs of the part, zero at
+  /// boundary dofs.
   Vector truncated(double t, const PartMotion& mean, const Vector& pointForce) const;
-  /// Phi' (M w), Phi' (K(t) w) and so on: into coupled dofs.
+  /// Phi' (M w), Phi' (K(t) w) and so on, in coupled dofs.
   void scatter(const Vector& force, Vector& coupled) const;
-  /// sum of terms times x at time t.
+  /// Sum of the terms at time t, times x.
   Vector stiffnessTimes(double t, const Vector& x) const;
   Vector dampingTimes(double t, const Vector& x) const;
   /// Strain energy of w.
@@ -62,7 +62,7 @@ class PartResidual {
   Sparse constant_;
   Sparse basis_;       ///< Phi map: dofs of the part x coupled dofs
   Sparse transposed_;  ///< its transpose
-  Vector offset_;      ///< displacement where the coupled dofs are zero
+  Vector offset_;      ///< displacement for zero coupled dofs
   ResidualFlexibility flexibility_;
 };
 

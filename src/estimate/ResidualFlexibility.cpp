@@ -16,18 +16,19 @@ namespace tooljoint::estimate {
 
 namespace {
 
-/// What is left of a static response without its part in the basis is rounding below this share of
-/// it, and has no direction.
+/// Remainder of a static response outside the basis, relative to the response, below which it is
+/// rounding and has no direction.
 constexpr double rounding = 1e-12;
 
-/// Of the lowest vibration in the basis: the shift of the stiffness of an interior that floats. Its
-/// motions at zero are in the basis; the static response of the others changes by less than this.
+/// Shift of the stiffness of a floating interior, relative to omega^2 of the lowest vibration in
+/// the basis. Its motions at zero are in the basis; the static response of the others changes by
+/// less than this.
 constexpr double small = 1e-3;
 
 /// Eigenvalues of a basis below this part of the largest are zero.
 constexpr double zeroBelow = 1e-8;
 
-/// omega^2 of the lowest mode of the basis that is no motion at zero [rad^2/s^2]; 0 without one.
+/// omega^2 of the lowest mode of the basis above zero [rad^2/s^2]; 0 if there is none.
 double lowestVibration(const reduction::Basis& basis) {
   if (basis.modes() == 0) return 0.0;
   const double zero = zeroBelow * basis.eigenvalues.maxCoeff();

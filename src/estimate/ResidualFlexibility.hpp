@@ -22,33 +22,31 @@ class ResidualFlexibility {
  public:
   /// \param stiffness of the part, dofs x dofs
   /// \param ranks All: they divide the factors of a large part, and solve together
-  /// Throws ModelError naming the part when its interior is a mechanism but for modes of the basis.
+  /// Throws ModelError naming the part if its interior is a mechanism other than modes of the
+  /// basis.
   ResidualFlexibility(const model::Substructure& part, const reduction::Basis& basis,
                       const model::SharedSparse& stiffness,
                       parallel::Ranks ranks = parallel::Ranks::Own);
 
-  /// Positions in the part of the rows of all vectors here.
+  /// Positions in the part of the rows of all vectors.
   const std::vector<int>& interior() const { return interior_; }
-  /// Interior coordinates the basis does not have; nothing is left to estimate when 0.
+  /// Number of interior coordinates outside the basis; 0: nothing to estimate.
   int truncated() const { return truncated_; }
 
   /// F r, interior x columns.
   Matrix apply(const Matrix& r) const;
 
-  /// The part's share of a Rayleigh-Ritz step from a motion D with the residual r = (K - lambda M)
-  /// D and the inertia g = M D, both on the interior: projections on the two Krylov vectors V = (F
-  /// r, F M_II F r) of the complement of the basis.
+  /// Contribution of the part to a Rayleigh-Ritz step from a motion D with the residual r = (K -
+  /// lambda M) D and the inertia g = M D, both on the interior: projections on the two Krylov
+  /// vectors V = (F r, F M_II F r) of the complement of the basis.
   struct Step {
     Eigen::Vector2d residual = Eigen::Vector2d::Zero();   ///< V' r
     Eigen::Vector2d inertia = Eigen::Vector2d::Zero();    ///< V' g
     Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();  ///< V' K_II V
-    Eigen::Matrix2d mass =
-        Eigen::Matrix2d::Zero();  ///< V' M_II V; zero rows where there is no vector
-    /// b' (V' (K - mu M) V)^-1 b with b = V' (r + (lambda - mu) g), by which m (lambda - mu) is too
-    /// large.
+    Eigen::Matrix2d mass = Eigen::Matrix2d::Zero();  ///< V' M_II V; zero rows for missing vectors
+    /// b' (V' (K - mu M) V)^-1 b with b = V' (r + (lambda - mu) g), the excess of m (lambda - mu).
     double excess(double lambda, double mu) const;
-    /// Lowest eigenvalue of (V' K V, V' M V): where `excess` has its first pole. Infinite without
-    /// vectors.
+    /// Lowest eigenvalue of (V' K V, V' M V), the first pole of `excess`. Infinite without vectors.
     double pole() const;
   };
   Step step(const Vector& r, const Vector& g) const;
@@ -56,7 +54,7 @@ class ResidualFlexibility {
   std::vector<Step> steps(const Matrix& R, const Matrix& G) const;
 
  private:
-  /// Of K_II, or, where the interior floats, of K_II + s M_II with a small s.
+  /// Factors K_II or, for a floating interior, K_II + s M_II with a small s.
   void factor(const model::Substructure& part, const reduction::Basis& basis,
               parallel::Ranks ranks);
 

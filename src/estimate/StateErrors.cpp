@@ -26,7 +26,7 @@ void StateErrors::setRated(Vector& states, const Vector& rated) const {
     states.segment(p * all, some) = rated.segment(p * some, some);
 }
 
-/// The states of a start elsewhere are those of the law there.
+/// States of a start with an error e are those of the law there.
 void StateErrors::begin(double t, const double* x, const Vector& e, const Vector& eDot) {
   const auto size = e.size();
   const Eigen::Map<const Vector> d(batch_->d(), size), v(batch_->v(), size);

@@ -22,7 +22,8 @@ Vector restricted(const Vector& x, const std::vector<int>& rows) {
   return out;
 }
 
-/// Appends the part of x that is M-orthogonal to the columns of Q; false when nothing is new.
+/// Appends the part of x that is M-orthogonal to the columns of Q; false if it is linearly
+/// dependent.
 bool append(const Sparse& M, Vector x, Matrix& Q) {
   const double before = std::sqrt(std::max(0.0, x.dot(M * x)));
   if (!(before > 0.0)) return false;

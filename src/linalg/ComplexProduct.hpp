@@ -9,8 +9,8 @@
 
 namespace tooljoint::linalg {
 
-/// A x, by two real products: a product of mixed types would copy A as complex. As many columns as
-/// x has.
+/// A x by two real products, with as many columns as x. A product of mixed types would copy A as
+/// complex.
 template <class Real2D, class Columns>
 Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Columns::ColsAtCompileTime> times(
     const Real2D& A, const Eigen::MatrixBase<Columns>& x) {

@@ -22,7 +22,7 @@ SymmetricPairs pairsOf(const Solver& solver) {
   return pairs;
 }
 
-/// Columns of U or of V.
+/// Number of columns of U or V.
 Eigen::Index columnsOf(SingularVectors which, Eigen::Index full, Eigen::Index thin) {
   return which == SingularVectors::Full ? full : which == SingularVectors::Thin ? thin : 0;
 }
@@ -60,7 +60,7 @@ SingularValues singularValues(Matrix A, SingularVectors left, SingularVectors ri
           jobOf(left), jobOf(right), asInt(m), asInt(n), A.data(), asInt(m), found.data(),
           parts.U.data(), asInt(m), Vt.data(), asInt(Vt.rows()), work.data(), size, nullptr, &info);
     };
-    call(-1);  // how much work it needs
+    call(-1);  // workspace query
     work.resize(static_cast<Eigen::Index>(work[0]));
     call(static_cast<int>(work.size()));
     if (info == 0) parts.values = found;
@@ -69,7 +69,7 @@ SingularValues singularValues(Matrix A, SingularVectors left, SingularVectors ri
   return parts;
 }
 
-/// Those of [Re A, -Im A; Im A, Re A], each of which is there twice.
+/// Those of [Re A, -Im A; Im A, Re A], in which each occurs twice.
 Vector singularValues(const Eigen::MatrixXcd& A) {
   Matrix both(2 * A.rows(), 2 * A.cols());
   both << A.real(), -A.imag(), A.imag(), A.real();
@@ -80,7 +80,7 @@ Vector singularValues(const Eigen::MatrixXcd& A) {
 DenseLu::DenseLu(const Matrix& A) : lu_(A) {}
 Matrix DenseLu::solve(const Matrix& b) const { return lu_.solve(b); }
 Vector DenseLu::solve(const Vector& b) const { return lu_.solve(b); }
-/// Eigen's estimate loses the NaN of a pivot that is zero.
+/// Eigen's estimate does not return the NaN of a zero pivot.
 double DenseLu::reciprocalCondition() const {
   const auto pivots = lu_.matrixLU().diagonal();
   return pivots.allFinite() && (pivots.array() != 0.0).all() ? lu_.rcond() : 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Decompositions of dense matrices behind plain functions: each of Eigen's costs a source that
-/// instantiates it seconds of compile time.
+/// Decompositions of dense matrices behind plain functions, because every source that instantiates
+/// one of Eigen's takes seconds longer to compile.
 #pragma once
 
 #include <Eigen/LU>
@@ -10,11 +10,11 @@
 
 namespace tooljoint::linalg {
 
-/// Eigenvalues in increasing order and their vectors in the columns.
+/// Eigenvalues in increasing order, with their vectors in the columns.
 struct SymmetricPairs {
   Vector values;
   Matrix vectors;
-  bool converged = true;  ///< the QR iteration
+  bool converged = true;  ///< of the QR iteration
 };
 /// A x = lambda x, x' x = 1. Reads the lower triangle.
 SymmetricPairs symmetricPairs(const Matrix& A);
@@ -30,10 +30,10 @@ struct SingularValues {
 };
 /// Thin: min(rows, columns) vectors; Full: a whole orthogonal matrix.
 enum class SingularVectors { None, Thin, Full };
-/// By LAPACK (GESVD). The values are NaN where A holds one, or the iteration does not converge.
+/// By LAPACK (GESVD). The values are NaN if A contains NaN or the iteration does not converge.
 SingularValues singularValues(Matrix A, SingularVectors left = SingularVectors::None,
                               SingularVectors right = SingularVectors::None);
-/// Decreasing.
+/// Singular values, decreasing.
 Vector singularValues(const Eigen::MatrixXcd& A);
 
 /// A = P' L U with partial pivoting.
@@ -43,7 +43,7 @@ class DenseLu {
   explicit DenseLu(const Matrix& A);
   Matrix solve(const Matrix& b) const;
   Vector solve(const Vector& b) const;
-  /// Estimate of 1 / cond(A) in the 1-norm; 0 where A has no inverse.
+  /// Estimate of 1 / cond(A) in the 1-norm; 0 if A is singular.
   double reciprocalCondition() const;
 
  private:
@@ -55,7 +55,7 @@ Matrix inverseOf(const Matrix& A);
 /// A^-1 b of a symmetric matrix, by L D L' with pivoting. Reads the lower triangle.
 Matrix solveSymmetric(const Matrix& A, const Matrix& b);
 Vector solveSymmetric(const Matrix& A, const Vector& b);
-/// The x of least |A x - b|, by QR with column pivoting.
+/// The x of smallest |A x - b|, by QR with column pivoting.
 Vector leastSquares(const Matrix& A, const Vector& b);
 
 }  // namespace tooljoint::linalg

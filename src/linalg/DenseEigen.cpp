@@ -42,8 +42,8 @@ double maxNorm(const Matrix& A) {
   return A.size() == 0 ? 0.0 : A.cwiseAbs().rowwise().sum().maxCoeff();
 }
 
-/// |Im s|, then Re s, then the negative imaginary part first; values that agree to rounding are
-/// equal.
+/// Order: |Im s|, then Re s, then the negative imaginary part first; values that agree to rounding
+/// are equal.
 bool comesFirst(const std::complex<double>& a, const std::complex<double>& b, double rounding) {
   if (std::abs(std::abs(a.imag()) - std::abs(b.imag())) > rounding)
     return std::abs(a.imag()) < std::abs(b.imag());
@@ -51,8 +51,8 @@ bool comesFirst(const std::complex<double>& a, const std::complex<double>& b, do
   return a.imag() < b.imag();
 }
 
-/// Of an eigenvalue, max |Q(s) phi| / (|s|^2 |M| + |s| |C| + |K|), Q(s) = s^2 M + s C + K, may be
-/// this much; refinements of one that has more.
+/// Largest residual of an eigenvalue, max |Q(s) phi| / (|s|^2 |M| + |s| |C| + |K|), Q(s) = s^2 M +
+/// s C + K; number of refinements for larger residuals.
 constexpr double mostResidual = 1e-8;
 constexpr int mostIterations = 3;
 
@@ -65,8 +65,8 @@ struct QuadraticPencil {
     const double size = std::norm(s) * normM + std::abs(s) * normC + normK;
     return size > 0.0 ? r.cwiseAbs().maxCoeff() / size : 0.0;
   }
-  /// y = Q(s)^-1 Q'(s) phi, s <- s - phi_k / y_k (Ruhe, SIAM J. Numer. Anal. 10 (1973) 674-689):
-  /// eigenvalues far below the largest one (strong damping) have lost digits to the QR iteration.
+  /// y = Q(s)^-1 Q'(s) phi, s <- s - phi_k / y_k (Ruhe, SIAM J. Numer. Anal. 10 (1973) 674-689).
+  /// The QR iteration loses digits of eigenvalues far below the largest one (strong damping).
   void refine(std::complex<double>& s, Eigen::VectorXcd& phi) const {
     const Eigen::MatrixXcd Q = s * s * M + s * C + K;
     const Eigen::VectorXcd y = Q.partialPivLu().solve(times(C, phi) + 2.0 * s * times(M, phi));
@@ -115,8 +115,8 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
   const auto& mu = pairs.values;
   std::sort(order.begin(), order.end(),
             [&](Eigen::Index a, Eigen::Index b) { return comesFirst(mu[a], mu[b], 0.0); });
-  // Equal up to rounding: an insertion sort keeps conjugates and repeated values in a defined
-  // order.
+  // An insertion sort keeps conjugates and repeated values that are equal up to rounding in a
+  // defined order.
   for (std::size_t i = 1; i < order.size(); ++i)
     for (std::size_t j = i; j > 0 && comesFirst(mu[order[j]], mu[order[j - 1]], 1e-11); --j)
       std::swap(order[j], order[j - 1]);
@@ -127,7 +127,7 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
     const Eigen::Index from = order[static_cast<std::size_t>(j)];
     std::complex<double> s = gamma * mu[from];
-    // Of x and y = mu x the larger one is the more accurate shape.
+    // The larger one of x and y = mu x is the more accurate shape.
     const Eigen::VectorXcd top = pairs.vectors.col(from).head(n),
                            bottom = pairs.vectors.col(from).tail(n);
     Eigen::VectorXcd phi = std::abs(mu[from]) > 1.0 ? bottom : top;

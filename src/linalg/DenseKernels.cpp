@@ -13,7 +13,7 @@ namespace {
 
 using Blas = Teuchos::BLAS<int, double>;
 
-/// A pivot below this part of its diagonal entry is rounding.
+/// A pivot below this part of its diagonal entry counts as rounding.
 constexpr double smallestPivot = 64 * std::numeric_limits<double>::epsilon();
 
 int rowsOf(const Matrix& A) { return static_cast<int>(A.rows()); }

@@ -19,7 +19,7 @@ void subtractSquare(const Matrix& Y, Matrix& C);
 /// A = L L'.
 class DenseCholesky {
  public:
-  /// False when A is not positive definite to working precision. Reads the lower triangle.
+  /// False if A is not positive definite to working precision. Reads the lower triangle.
   bool factor(Matrix A);
   /// L^-1 B and L^-T B, in place.
   void solveLower(Matrix& B) const;
@@ -31,7 +31,7 @@ class DenseCholesky {
   Matrix product() const;
 
  private:
-  Matrix L_;  ///< its lower triangle
+  Matrix L_;  ///< lower triangle
 };
 
 }  // namespace tooljoint::linalg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Numbers without structure that are the same in every run, on every rank and whatever ran before.
+/// Unstructured numbers that are the same in every run and on every rank, independent of earlier
+/// calls.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace tooljoint::linalg {
 
-/// rows x columns numbers in [-1, 1), a function of the arguments alone (splitmix64, Steele et al.
+/// rows x columns numbers in [-1, 1) that depend only on the arguments (splitmix64, Steele et al.
 /// 2014).
 inline Matrix scatteredNumbers(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
   Matrix numbers(rows, columns);
@@ -26,7 +27,7 @@ inline Matrix scatteredNumbers(Eigen::Index rows, Eigen::Index columns, std::uin
   return numbers;
 }
 
-/// Position of the entry of largest magnitude; of several that agree to 1e-6, the first.
+/// Position of the entry of largest magnitude; the first one of several that agree to 1e-6.
 inline Eigen::Index largestEntry(const Eigen::Ref<const Vector>& v) {
   const double largest = v.cwiseAbs().maxCoeff();
   Eigen::Index i = 0;

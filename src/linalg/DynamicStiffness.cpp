@@ -8,10 +8,10 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Relative change of an eigenvalue that ends its refinement, and the iterations allowed.
+/// Relative change of an eigenvalue at which its refinement ends, and the iteration limit.
 constexpr double refined = 1e-9;
 constexpr int mostRefinements = 20;
-/// Rounds of equilibration: each halves the exponent by which sizes differ.
+/// Rounds of equilibration; each halves the exponent of the ratio of sizes.
 constexpr int equilibrations = 8;
 
 }  // namespace
@@ -22,8 +22,8 @@ DynamicStiffness::DynamicStiffness(const Sparse& M, const Sparse& C, const Spars
   factors_.compute(rows_.asDiagonal() * Q * columns_.asDiagonal());
 }
 
-/// Rows and columns by the roots of their largest entries, again and again (D. Ruiz, report
-/// RAL-TR-2001-034), rounded to powers of two, which change no digit.
+/// Repeated scaling of rows and columns by the roots of their largest entries (D. Ruiz, report
+/// RAL-TR-2001-034), rounded to powers of two, which changes no digit.
 void DynamicStiffness::equilibrate(const ComplexSparse& Q) {
   rows_ = columns_ = Vector::Ones(Q.rows());
   Vector inRow(Q.rows()), inColumn(Q.rows());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The dynamic stiffness of a linear model: harmonic responses, and one damped mode at a time.
+/// Dynamic stiffness of a linear model, for harmonic responses and single damped modes.
 #pragma once
 
 #include <Eigen/SparseLU>
@@ -11,14 +11,14 @@
 
 namespace tooljoint::linalg {
 
-/// Q(s) = s^2 M + s C + K, factored; real square matrices of one size. Rows and columns are brought
-/// to one size first: pivots are chosen among entries of translations, rotations, modal amplitudes
-/// and massless dofs, whose sizes say nothing of each other.
+/// Factored Q(s) = s^2 M + s C + K; real square matrices of equal size. Rows and columns are
+/// equilibrated first, because pivots are chosen among entries of translations, rotations, modal
+/// amplitudes and massless dofs, whose sizes are not comparable.
 class DynamicStiffness {
  public:
   DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& K, std::complex<double> s);
 
-  /// Q(s) has no inverse: s is an eigenvalue to the last digit.
+  /// Q(s) is singular: s is an eigenvalue to the last digit.
   bool singular() const { return factors_.info() != Eigen::Success; }
   /// Q(s)^-1 f, column by column.
   Eigen::MatrixXcd solve(const Eigen::MatrixXcd& f) const;
@@ -41,12 +41,12 @@ struct DampedMode {
   Eigen::VectorXcd shape;
 };
 
-/// The mode that Newton's method for Q(s) phi = 0, e_k'phi = 1 finds from a guess (nonlinear
-/// inverse iteration; A. Ruhe, SIAM J. Numer. Anal. 10 (1973) 674-689):
+/// The mode to which Newton's method for Q(s) phi = 0, e_k'phi = 1 converges from a guess
+/// (nonlinear inverse iteration; A. Ruhe, SIAM J. Numer. Anal. 10 (1973) 674-689):
 ///
 ///     y = Q(s)^-1 Q'(s) phi,   s <- s - phi_k / y_k
 ///
-/// to a relative change of s of 1e-9. Nothing when it does not converge.
+/// to a relative change of s of 1e-9. Empty if it does not converge.
 std::optional<DampedMode> refine(const Sparse& M, const Sparse& C, const Sparse& K,
                                  DampedMode guess);
 

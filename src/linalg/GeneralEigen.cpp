@@ -8,10 +8,10 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Numbers of work for each row: LAPACK needs 4 at least, and takes blocks where there are more.
+/// Workspace numbers per row: LAPACK needs at least 4, and uses blocks if there are more.
 constexpr int workOfARow = 40;
 
-/// A column x + iy of a pair, and its conjugate.
+/// Column x + iy of a pair, and its conjugate.
 void setPair(const Matrix& V, Eigen::Index j, Eigen::MatrixXcd& vectors) {
   vectors.col(j).real() = vectors.col(j + 1).real() = V.col(j);
   vectors.col(j).imag() = V.col(j + 1);

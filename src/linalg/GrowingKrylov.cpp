@@ -12,7 +12,7 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// What is left of a vector after orthogonalisation below this fraction of it is rounding.
+/// A remainder after orthogonalisation below this fraction of the vector is rounding.
 constexpr double rounding = 1e-14;
 
 }  // namespace
@@ -92,7 +92,7 @@ void GrowingKrylov<Scalar>::step() {
     if (place >= 0) fresh.push_back(place);
     done_.push_back(now[j]);
   }
-  // the chain goes on before what waits beside it
+  // the current chain is continued before the waiting ones
   open_.insert(open_.begin(), fresh.begin(), fresh.end());
 }
 

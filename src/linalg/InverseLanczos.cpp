@@ -13,23 +13,24 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Pencils up to this size are solved dense.
+/// Pencils up to this size are solved by a dense method.
 constexpr int denseUpTo = 300;
-/// Pencils up to this size are solved dense when the iteration needs more than this part of it.
+/// Pencils up to this size are solved by a dense method if the iteration needs more than this
+/// fraction of the size.
 constexpr int denseAtMost = 3000;
 constexpr double denseShare = 0.3;
-/// Vectors of a block: repeated eigenvalues are found so many times.
+/// Vectors in a block, which is also the number of copies found of a repeated eigenvalue.
 constexpr int blockSize = 8;
-/// mu = 1 / lambda below this part of the largest is an infinite lambda (dofs without mass).
+/// mu = 1 / lambda below this part of the largest means an infinite lambda (massless dofs).
 constexpr double infinite = 1e-14;
-/// What is left of a vector of unit length when it depends on those before it.
+/// Remainder of a unit vector that is linearly dependent on earlier ones.
 constexpr double dependent = 1e-9;
 
 Matrix columnsOf(const Matrix& A, Eigen::Index first, Eigen::Index count) {
   return A.middleCols(first, count);
 }
 
-/// Number of the decreasing `mu` that are wanted.
+/// Number of wanted values among the decreasing `mu`.
 int wantedOf(const Vector& mu, const RitzRequest& request) {
   int wanted = 0;
   while (wanted < mu.size() && wanted < request.count && mu[wanted] * request.below > 1.0) ++wanted;
@@ -74,7 +75,7 @@ class Iteration {
       orthonormalise(Q, KQ);
       if (Q.cols() > 0 && size_ < nextCheck && size_ + blockSize < pencil_.size) continue;
       nextCheck = size_ + std::max(2 * blockSize, size_ / 6);
-      const Matrix coupling = transposedTimes(Q, K_W);  // what the next block has of W
+      const Matrix coupling = transposedTimes(Q, K_W);  // component of W in the next block
       if (converged(coupling, last)) break;
     }
     RitzVectors result;
@@ -87,7 +88,8 @@ class Iteration {
   }
 
  private:
-  /// Columns of Q against V and each other in the inner product of K; dependent ones are left out.
+  /// Orthonormalises the columns of Q against V and each other in the inner product of K; dependent
+  /// ones are dropped.
   void orthonormalise(Matrix& Q, Matrix& KQ) const {
     scale(Q, KQ);
     for (int pass = 0; pass < 2; ++pass) {
@@ -132,14 +134,14 @@ class Iteration {
     size_ = static_cast<int>(needed);
   }
 
-  /// The new columns of H = V' M V from M Q of the last block.
+  /// New columns of H = V' M V from M Q of the last block.
   void project(const Matrix& MQ, Eigen::Index last) {
     const Matrix columns = transposedTimes(columnsOf(V_, 0, size_), MQ);
     H_.block(0, size_ - last, size_, last) = columns;
     H_.block(size_ - last, 0, last, size_) = columns.transpose();
   }
 
-  /// Ritz values of H, and whether the wanted ones have converged.
+  /// Computes the Ritz values of H; true if the wanted ones have converged.
   bool converged(const Matrix& coupling, Eigen::Index last) {
     const Matrix H = H_.topLeftCorner(size_, size_);
     const auto pairs = symmetricPairs(0.5 * (H + H.transpose()));
@@ -148,7 +150,7 @@ class Iteration {
     finite_ = 0;
     while (finite_ < size_ && mu_[finite_] > infinite * mu_[0]) ++finite_;
     wanted_ = wantedOf(mu_.head(finite_), request_);
-    if (coupling.rows() == 0) return true;  // an invariant subspace: all there are
+    if (coupling.rows() == 0) return true;  // invariant subspace: contains all
     if (wanted_ == finite_ && wanted_ < request_.count) return false;
     const Matrix residual = coupling * Y_.block(size_ - last, 0, last, wanted_);
     for (int j = 0; j < wanted_; ++j)

@@ -14,7 +14,7 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Some columns of X by rows; W of them in memory, zero beyond the last one.
+/// Some columns of X, stored by rows: W columns in memory, zero beyond the last one.
 template <int W>
 struct Panel {
   using Row = Eigen::Array<double, 1, W>;
@@ -25,7 +25,7 @@ struct Panel {
     values.leftCols(count) = X.middleCols(first, count).array();
     values.rightCols(W - count).setZero();
   }
-  /// Columns of this panel in a row of a matrix.
+  /// The columns of this panel in a row of a matrix.
   template <class Row_>
   auto of(Row_&& row) const {
     return row.segment(first, count);
@@ -35,7 +35,7 @@ struct Panel {
   Eigen::Array<double, Eigen::Dynamic, W, order> values;
 };
 
-/// work(panel) for all columns of X, eight at a time, the last ones one or four.
+/// work(panel) for all columns of X: panels of eight, the last ones of four or one.
 template <class Work>
 void forEachPanel(const Matrix& X, const Work& work) {
   Eigen::Index first = 0;
@@ -65,7 +65,7 @@ Matrix multiplied(const Sparse& A, const Matrix& X, const Entry& entry) {
   return Y;
 }
 
-/// The residual of the columns of a panel; their backward error, infinite where one is no number.
+/// Residual of the columns of a panel; returns their backward error, infinite if one is not finite.
 template <int W>
 double residualOfPanel(const Sparse& A, const Panel<W>& panel, const Matrix& B, Matrix& values) {
   using Row = typename Panel<W>::Row;
@@ -89,7 +89,7 @@ double residualOfPanel(const Sparse& A, const Panel<W>& panel, const Matrix& B, 
     });
     panel.of(values.row(row)) = r.head(panel.count).matrix();
     for (Eigen::Index j = 0; j < panel.count; ++j) {
-      // A row whose products all nearly vanish is measured against |a_i| |x|_max instead.
+      // If all products of a row nearly vanish, it is measured against |a_i| |x|_max instead.
       if (d[j] <= few * rowSum * largest[j]) d[j] += rowSum * largest[j];
       finite = finite && std::isfinite(r[j]);
       if (r[j] != 0.0) worst = std::max(worst, std::abs(r[j]) / d[j]);
@@ -110,7 +110,8 @@ bool isExactlySymmetric(const Sparse& A) {
   if (A.rows() != A.cols() || !A.isCompressed()) return false;
   const int *begin = A.outerIndexPtr(), *column = A.innerIndexPtr();
   const double* value = A.valuePtr();
-  // Entries (i, j) with j < i, row by row, are those right of the diagonal of row j in turn.
+  // The entries (i, j) with j < i, row by row, correspond to those right of the diagonal of row j,
+  // in order.
   std::vector<int> next(begin, begin + A.rows());
   for (int i = 0; i < A.rows(); ++i) {
     int k = begin[i];

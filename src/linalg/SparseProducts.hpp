@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Products of a large sparse matrix with some columns, in one pass over its entries for eight
-/// columns instead of one for each.
+/// Products of a large sparse matrix with several columns: one pass over its entries for eight
+/// columns.
 #pragma once
 
 #include "common/Types.hpp"
@@ -10,14 +10,14 @@ namespace tooljoint::linalg {
 
 /// All entries are zero, or there are none.
 bool isZero(const Sparse& A);
-/// a_ij = a_ji for all entries, to the last bit.
+/// a_ij = a_ji for all entries, bitwise.
 bool isExactlySymmetric(const Sparse& A);
-/// A X, with the sums of each row in the order of its entries, as A * X.
+/// A X, with the sums of each row in the order of its entries, as in A * X.
 Matrix product(const Sparse& A, const Matrix& X);
-/// |A| |X|, by absolute values of the entries.
+/// |A| |X|, with absolute values of the entries.
 Matrix absoluteProduct(const Sparse& A, const Matrix& X);
 
-/// B - A X and its size beside what it is made of.
+/// B - A X, and its size relative to its terms.
 struct Residual {
   Matrix values;         ///< rows x columns
   double backwardError;  ///< linalg::backwardError

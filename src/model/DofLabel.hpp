@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a degree of freedom is: a component of a node that parts may share, a modal coordinate of
-/// one part, a mode of an interface, or a force that joins parts.
+/// Kinds of degrees of freedom: a component of a node that parts may share, a modal coordinate of
+/// one part, a mode of an interface, or a force between parts.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace tooljoint::model {
 
-/// Label of one degree of freedom. Interface dofs of two parts are joined when their labels are
+/// Label of one degree of freedom. Interface dofs of two parts are joined if their labels are
 /// equal.
 struct DofLabel {
   enum class Kind : std::uint8_t { Physical, Modal, Interface };
@@ -25,10 +25,10 @@ struct DofLabel {
                             ///< number, 0-based. Interface: number of the interface, 0-based.
   std::int32_t component =
       0;  ///< Physical: 0-based component of the node. Modal, Interface: mode number, 0-based.
-  std::int32_t part = shared;  ///< Physical, in a coupled model: the part (0-based) whose own dof
-                               ///< this is although others have one of that label
+  std::int32_t part = shared;  ///< Physical, in a coupled model: the part (0-based) that owns this
+                               ///< dof although others have one of that label
   std::int8_t force = 0;  ///< 1, 2: not a displacement, but one of the two multipliers whose sum is
-                          ///< the force that joins this dof of `part` to the rest
+                          ///< the force between this dof of `part` and the rest
 
   static DofLabel physical(std::int64_t node, std::int32_t component) {
     return {Kind::Physical, node, component};
@@ -51,8 +51,8 @@ struct DofLabel {
 /// Names of the physical components, e.g. {"u","v","w","theta_x","theta_y","theta_z"}.
 using ComponentNames = SharedList<std::string>;
 
-/// How a person knows the node of a label: "node 4 of part "mast"" where parts from files have
-/// numbers of their own. Empty: "node 17", as the label has it.
+/// User's name for the node of a label: "node 4 of part "mast"" if parts from files have their own
+/// numbers. Empty: "node 17", from the label.
 using NodeNamer = std::function<std::string(const DofLabel&)>;
 
 /// "theta_z of node 17", "theta_z of node 17 in part 2", "mode 3 of part 2", "the force on theta_z

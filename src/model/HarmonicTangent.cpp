@@ -35,10 +35,10 @@ struct Place {
   Vector d, v;
 };
 
-/// At this frequency [rad/s] the states of a set are evaluated: neither a fast nor a slow one
-/// follows it without a lag.
+/// Frequency [rad/s] at which the states of a set are evaluated: fast and slow states both have a
+/// lag.
 constexpr double lookedAt = 1.0;
-/// Smallest share of the tangent that is no rounding.
+/// Smallest part of the tangent that is not rounding.
 constexpr double rounding = 1e-12;
 
 bool isUnknown(const StatefulPointLaw& law, double t, const Place& place) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How a room that states nonlinear problems has them solved without knowing the solver:
-/// the program binds this callback to the NOX driver of src/statics, a test may bind it to
-/// anything.
+/// Callback by which a room solves its nonlinear problems without knowledge of the solver. The
+/// program binds it to the NOX driver of src/statics, a test to any other solver.
 #pragma once
 
 #include <functional>
@@ -12,16 +11,16 @@
 
 namespace tooljoint::model {
 
-/// What decides how much of a Newton step is taken, of at most what stepLimit() of the problem
-/// allows.
+/// Criterion for the length of a Newton step, up to the stepLimit() of the problem.
 enum class LineSearch {
-  None,      ///< nothing else
+  None,      ///< no other criterion
   Residual,  ///< halved until the scaled residual decreases
-  Work  ///< as far as the forces do work along it: right where they have a potential, however sharp
+  Work  ///< as far as the forces do work along it: suited to forces with a potential, even sharp
+        ///< ones
 };
 
-/// A request to a solver. The iteration has converged when max_i |scale_i r_i| <= tolerance
-/// and, if updateTolerance > 0, the full Newton step dx has become |dx| <= updateTolerance |x|.
+/// A request to a solver. The iteration has converged if max_i |scale_i r_i| <= tolerance and, for
+/// updateTolerance > 0, the full Newton step satisfies |dx| <= updateTolerance |x|.
 struct SolveRequest {
   std::string what;              ///< for messages: "the static equilibrium, lambda = 1e4 1/m"
   double tolerance = 1e-9;       ///< on the largest scaled residual
@@ -35,10 +34,10 @@ struct SolveOutcome {
   int iterations = 0;
   double residual = 0.0;  ///< max_i |scale_i r_i| at the end
   double update = 0.0;    ///< |dx|/|x| of the last step
-  std::string message;    ///< what went wrong, when it did
+  std::string message;    ///< reason for a failure
 };
 
-/// Solves problem(x) = 0 from the start x, overwriting x; never throws for mere non-convergence.
+/// Solves problem(x) = 0 from the start x, overwriting x; does not throw if it does not converge.
 using NonlinearSolver = std::function<SolveOutcome(const NonlinearProblem& problem, Vector& x,
                                                    const SolveRequest& request)>;
 

@@ -11,23 +11,24 @@
 
 namespace tooljoint::model {
 
-/// Named scalar law of time. Two laws with one name are the same law: coupling merges them by name.
+/// Named scalar law of time. Laws with the same name are the same law: coupling merges them by
+/// name.
 struct ScalarLaw {
   std::string name;                     ///< "1", "Omega", "sqrt|Omega|", "dOmega/dt", ...
   std::function<double(double)> value;  ///< value at time t [s]
-  /// Increasing times [s] at which the value or its rate changes at once: steps that choose their
-  /// length end there, and steps of one length are warned of what they miss.
+  /// Increasing times [s] at which the value or its rate jumps. Steps of variable length end there;
+  /// for steps of equal length the run warns of missed parts of the law.
   std::vector<double> corners = {};
 
   /// The law that is 1 at all times; every model has it at index 0.
   static ScalarLaw one() {
     return {kOne, [](double) { return 1.0; }};
   }
-  /// Whether it is one(): what it multiplies is constant.
+  /// Whether it is one(), so that its matrix or load is constant.
   bool isOne() const { return isOne(name); }
-  /// Whether a file, or a model that names its laws, means one().
+  /// Whether a name in a file or a model means one().
   static bool isOne(const std::string& name) { return name == kOne; }
-  /// The list of a model whose terms are all constant: ScalarLaw::one() alone.
+  /// Law list of a model with constant terms only: ScalarLaw::one().
   static const SharedList<ScalarLaw>& constant() {
     static const SharedList<ScalarLaw> list{one()};
     return list;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The one model every solver sees, full or reduced:
+/// The model for all solvers, full or reduced:
 ///
 ///     M q'' + (sum_i c_i(t) C_i) q' + (sum_i k_i(t) K_i) q = sum_j f_j(t) F_j + sum_p R_p'
 ///     f_p(d_p, d_p', t), d_p = offset_p + R_p q
@@ -23,7 +23,7 @@ namespace tooljoint::model {
 
 /// A constant matrix times a scalar law of time.
 struct MatrixTerm {
-  std::string name;     ///< what it models: "gyroscopic", "mud drag", ...
+  std::string name;     ///< modelled effect: "gyroscopic", "mud drag", ...
   SharedSparse matrix;  ///< dofs x dofs
   int law = 0;          ///< index into SecondOrderModel::laws
 };
@@ -35,7 +35,7 @@ struct LoadTerm {
   int law = 0;
 };
 
-/// A batch of points of the model that obey one law.
+/// A batch of points of the model with the same law.
 struct PointSet {
   std::string name;  ///< "contact"
   std::shared_ptr<const PointLaw> law;
@@ -46,7 +46,7 @@ struct PointSet {
 };
 
 /// Second-order model in coordinates q. A plain value: solvers compile it into their own kernels.
-/// Copies share its matrices, their terms and its laws until they are changed.
+/// Copies share its matrices, their terms and its laws until one of them is changed.
 struct SecondOrderModel {
   std::vector<DofLabel> dofs;
   ComponentNames componentNames;
@@ -79,10 +79,10 @@ struct SecondOrderModel {
   Vector pointForce(double t, const Vector& q, const Vector& qDot) const;
   /// -sum R' (df/dd) R: stiffness of the point laws about a state (set-up code and tests).
   Sparse pointStiffness(double t, const Vector& q, const Vector& qDot) const;
-  /// Dofs with a load but without an entry in M, C_i, K_i and the rows of points: nothing
-  /// determines their motion.
+  /// Dofs with a load but without an entry in M, C_i, K_i and the rows of points: their motion is
+  /// not determined.
   std::vector<int> loadsOnNothing() const;
-  /// Throws ModelError naming what is inconsistent (sizes, non-finite entries, law indices).
+  /// Throws ModelError with the inconsistency (sizes, non-finite entries, law indices).
   void validate() const;
 };
 

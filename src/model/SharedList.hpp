@@ -10,9 +10,9 @@
 
 namespace tooljoint::model {
 
-/// A value like std::vector that costs a pointer to copy: a hundred reduced parts that are
-/// identical hold one list of matrix terms. It reads as `const std::vector<T>&`; who changes it
-/// gets elements of its own.
+/// A value like std::vector that costs a pointer to copy: a hundred identical reduced parts hold
+/// one list of matrix terms. It is read as `const std::vector<T>&`; a changed copy has its own
+/// elements.
 template <class T>
 class SharedList {
  public:

@@ -11,9 +11,9 @@
 
 namespace tooljoint::model {
 
-/// A value like `Sparse`, always compressed, that costs a pointer to copy: a hundred reduced parts
-/// that are identical hold one mass matrix. It reads as any sparse expression of Eigen and as
-/// `const Sparse&`; who changes it gets storage of its own.
+/// A value like `Sparse`, always compressed, that costs a pointer to copy: a hundred identical
+/// reduced parts hold one mass matrix. It is read as any sparse expression of Eigen and as `const
+/// Sparse&`; a changed copy has its own storage.
 class SharedSparse : public Eigen::Map<const Sparse> {
   using View = Eigen::Map<const Sparse>;
 
@@ -33,10 +33,10 @@ class SharedSparse : public Eigen::Map<const Sparse> {
 
   operator const Sparse&() const { return *matrix_; }
   const Sparse& sparse() const { return *matrix_; }
-  /// True when both are the same storage.
+  /// Whether both share the same storage.
   bool sharesWith(const SharedSparse& other) const { return matrix_ == other.matrix_; }
 
-  /// As of Sparse. (Rows are walked with `SharedSparse::InnerIterator`.)
+  /// As in Sparse. (Iterate over rows with `SharedSparse::InnerIterator`.)
   Eigen::Diagonal<const Sparse> diagonal() const { return sparse().diagonal(); }
   void resize(Eigen::Index rows, Eigen::Index columns) { *this = Sparse(rows, columns); }
   template <class Iterator>
@@ -51,7 +51,7 @@ class SharedSparse : public Eigen::Map<const Sparse> {
     look(taken(matrix));
   }
   SharedSparse& operator*=(double factor) { return *this = *this * factor; }
-  /// Entry (i, j) for writing, until this matrix is copied; made if there is none.
+  /// Entry (i, j) for writing, until this matrix is copied; created if missing.
   double& coeffRef(Eigen::Index i, Eigen::Index j) {
     if (matrix_.use_count() > 1) look(std::make_shared<Sparse>(*matrix_));
     double* entry = &matrix_->coeffRef(i, j);
@@ -73,14 +73,15 @@ class SharedSparse : public Eigen::Map<const Sparse> {
     static const Storage none = std::make_shared<Sparse>();
     return none;
   }
-  /// The entries of a matrix, which is empty then: Eigen 3.4 moves sparse matrices by swap() alone.
+  /// Takes the entries of a matrix, which is empty afterwards: Eigen 3.4 moves sparse matrices only
+  /// by swap().
   static Storage taken(Sparse& matrix) {
     auto storage = std::make_shared<Sparse>();
     storage->swap(matrix);
     storage->makeCompressed();
     return storage;
   }
-  /// A Map is made to look elsewhere by building it anew (Eigen's own advice).
+  /// A Map is redirected by constructing it again (recommended by Eigen).
   void look(Storage matrix) {
     matrix_ = std::move(matrix);
     new (static_cast<View*>(this))

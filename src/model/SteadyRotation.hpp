@@ -12,19 +12,19 @@
 namespace tooljoint::model {
 
 /// The model with its laws of the rotary speed (SpeedLaw, laws::Turning) at this constant speed
-/// [rad/s]; loads that turn are zero in it. \param friction false: point laws without friction
+/// [rad/s]; rotating loads are zero in it. \param friction false: point laws without friction
 SecondOrderModel atSpeed(SecondOrderModel model, double speed, bool friction);
 
-/// Complex f of the loads of the model that turn with the string at this speed, Re(f exp(i speed
+/// Complex f of the loads of the model that rotate with the string at this speed, Re(f exp(i speed
 /// t)), dofs [N, N m]: mass unbalances.
 Eigen::VectorXcd turningLoad(const SecondOrderModel& model, double speed);
 
-/// Names of the laws of the matrices: those that follow the rotary speed, or the other ones (but
+/// Names of the laws of the matrices: those that depend on the rotary speed, or the others (except
 /// "1").
 std::vector<std::string> matrixLaws(const SecondOrderModel& model, bool ofSpeed);
 
-/// Of those that follow the speed, the ones that are not given for all of these speeds [rad/s], as
-/// text: "stiffness" (0 to 9549 rpm).
+/// Laws of speed that are not defined over this whole range of speeds [rad/s], as text: "stiffness"
+/// (0 to 9549 rpm).
 std::vector<std::string> matrixLawsBeyond(const SecondOrderModel& model, double least, double most);
 
 }  // namespace tooljoint::model

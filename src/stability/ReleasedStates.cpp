@@ -15,15 +15,16 @@ namespace tooljoint::stability {
 
 namespace {
 
-/// Part by which the states of point laws are let go in a step, at first, at least and at most,
-/// and iterations of each: short at first, where a neighbour may be as near as the mode moves.
+/// Step of the fraction by which the states of point laws are released: first, smallest and
+/// largest; iterations of each step. The first step is short because a neighbouring mode may be as
+/// close as the distance the mode moves.
 constexpr double firstStep = 1.0 / 32, leastStep = 1.0 / 128, longestStep = 0.25;
 constexpr int mostIterations = 30;
-/// MAC of a mode before and after a step, below which it is another one.
+/// If the MAC of a mode before and after a step is below this, it is another mode.
 constexpr double leastMac = 0.5;
-/// Relative change of s that ends them, and the steps before the last.
+/// Relative change of s at which the last step has converged, and the steps before it.
 constexpr double settled = 1e-7, onTheWay = 0.1;
-/// A change against the last one that is larger than this part of it converges slowly, or not.
+/// A change opposite to the last one and larger than this part of it means slow or no convergence.
 constexpr double toAndFro = 0.5;
 
 }  // namespace
@@ -37,7 +38,7 @@ std::optional<linalg::DampedMode> ReleasedStates::operator()(linalg::DampedMode 
       mode.s += Complex(0.0, 0.5 * std::abs(mode.s));
       next = iterated(to, mode, accuracy);
     } else if (next && !alike(mode, *next)) {
-      next.reset();  // a neighbour
+      next.reset();  // a neighbouring mode
     }
     if (next) {
       mode = std::move(*next);
@@ -68,7 +69,7 @@ std::optional<linalg::DampedMode> ReleasedStates::iterated(double a, linalg::Dam
     if (!next || next->s == 0.0) return std::nullopt;
     const Complex change = next->s - mode.s;
     if (std::abs(change) <= accuracy * std::abs(next->s)) return next;
-    // a delay throws s to and fro: half the way then
+    // with a delay s may oscillate: then half the change
     if ((std::conj(last) * change).real() < 0.0 && std::abs(change) > toAndFro * std::abs(last))
       part *= 0.5;
     last = change;

@@ -7,7 +7,7 @@ namespace tooljoint::stability {
 
 namespace {
 
-/// What is said of a growth rate that stands for the lowest modes alone.
+/// Added to a growth rate that is known only from the lowest modes.
 constexpr const char* unrefined =
     " The growth rate is that of the lowest modes alone: its refinement with all dofs did not "
     "converge.";

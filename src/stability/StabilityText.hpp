@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What is said of the stability of a state at rest.
+/// Texts about the stability of a state at rest.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 namespace tooljoint::stability {
 
 /// Verdict, mode and growth rate in words.
-/// \param leaver  what leaves the state without vibration, with its verb: "the string leaves it"
-/// \param place   name of the node ShapeOutline::node; not used where no node moves
+/// \param leaver what leaves the state without vibration, with its verb: "the string leaves it"
+/// \param place name of the node ShapeOutline::node; not used if no node moves
 std::string inWords(const StateStability& found, const std::string& leaver,
                     const std::string& place);
 

@@ -38,43 +38,43 @@ namespace tooljoint::stability {
 
 namespace {
 
-/// Modes of the symmetric tangent that the damped equations are projected on: so many beyond those
-/// of negative pivots, and at most; of models with few dofs more, for so many entries of all
+/// Modes of the symmetric tangent for the projection of the damped equations: number beyond those
+/// of negative pivots, and limit. Models with few dofs use more, for this many entries of all
 /// shapes.
 constexpr int modesBeyond = 12, mostModes = 60, mostBeyond = 80;
 constexpr int entriesOfShapes = 200000;
-/// A model of so few dofs is not projected on fewer modes than it has.
+/// For models with at most this many dofs all modes are used.
 constexpr int fewDofs = 60;
-/// Growing modes of the projection that are checked in the whole equations, where no states follow.
+/// Growing modes of the projection that are checked in the whole equations, without moving states.
 constexpr std::size_t mostRefined = 4;
-/// Part of the fastest growth that counts as fast.
+/// Part of the fastest growth above which growth counts as fast.
 constexpr double nearly = 0.8;
-/// Factor on a first-order estimate of what states make of a mode.
+/// Factor on a first-order estimate of the effect of states on a mode.
 constexpr double mayBe = 2.0;
-/// Share of a vector's size that is new beside those before it.
+/// Smallest remainder of a vector, relative to its size, that is independent of the earlier ones.
 constexpr double independent = 1e-6;
-/// Accuracy of these modes: they span a basis, and what grows in it is refined.
+/// Accuracy of these modes: they only span a basis, and growing modes found in it are refined.
 constexpr double basisAccuracy = 1e-4;
-/// Shift of the modes of a state that some motion leaves without any force [1/s2]: with one as
-/// small as the growth that is sought, that motion would hide the accuracy of all others.
+/// Shift of the modes of a state with a motion without any restoring force [1/s2]. With a shift as
+/// small as the growth to be found, that motion would degrade the accuracy of all others.
 constexpr double floatingShift = -1.0;
 /// Growth below this part of |s| is within the accuracy of s.
 constexpr double noGrowth = 1e-7;
 /// A motion with |Im s| below this part of Re s is no vibration: it grows by e^60 in half a period.
 /// A divergence under torque or rotation has such frequencies.
 constexpr double vibrating = 0.05;
-/// Stiffness between components below this part of the rows leaves each a system of its own.
+/// Stiffness between components below this part of the rows: they are nearly independent.
 constexpr double alone = 0.1;
 /// Skew stiffness below this part of the rows is rounding.
 constexpr double skewRounding = 1e-12;
-/// Beyond the rates of all motions with mass [1/s].
+/// Rate above those of all motions with mass [1/s].
 constexpr double fast = 1e8;
-/// Smallest part of the largest displacement that counts as a deflection of its own.
+/// Smallest part of the largest displacement that counts as a separate deflection.
 constexpr double deflection = 0.05;
 
 bool isGrowth(Complex s) { return s.real() > std::max(slowestGrowth, noGrowth * std::abs(s)); }
 
-/// The largest entry of each row in size.
+/// Largest absolute entry of each row.
 Vector largestOfRows(const Sparse& K) {
   Vector rows = Vector::Zero(K.rows());
   for (int i = 0; i < K.outerSize(); ++i)
@@ -83,8 +83,8 @@ Vector largestOfRows(const Sparse& K) {
   return rows;
 }
 
-/// The damping feeds some motion with energy: the symmetric part of C + 2 slowestGrowth (M +
-/// K/fast^2) has a negative eigenvalue. K stands for the mass where a dof has none.
+/// Whether the damping feeds energy into a motion: the symmetric part of C + 2 slowestGrowth (M +
+/// K/fast^2) has a negative eigenvalue. K replaces the mass at massless dofs.
 bool feeds(const estimate::Linearised& tangent, const Sparse& symmetricStiffness) {
   const Sparse C = reduction::symmetricPart(tangent.damping);
   if (linalg::isZero(C)) return false;
@@ -92,8 +92,8 @@ bool feeds(const estimate::Linearised& tangent, const Sparse& symmetricStiffness
   return linalg::negativeEigenvalues(Sparse(C + 2.0 * slowestGrowth * inertia)).value_or(1) > 0;
 }
 
-/// K has a skew part, friction acts at the points or the damping feeds a motion: it can grow
-/// without negative pivots.
+/// Whether motions can grow without negative pivots: K has a skew part, friction acts at the
+/// points, or the damping feeds a motion.
 bool canFlutter(const model::SecondOrderModel& model, const estimate::Linearised& tangent,
                 const Sparse& symmetricStiffness, double t) {
   if (Sparse(tangent.damping - model.dampingAt(t)).squaredNorm() > 0.0) return true;
@@ -106,8 +106,8 @@ bool canFlutter(const model::SecondOrderModel& model, const estimate::Linearised
   return false;
 }
 
-/// Whether these dofs are nearly a system of their own, as twist and stretch of a string are. The
-/// deflections of one that bends are none without its rotations.
+/// Whether these dofs are nearly independent of the other components, as torsion and stretch of a
+/// string are. Deflections in bending are not independent of the rotations.
 bool standAlone(const model::SecondOrderModel& model, const Sparse& K, const Vector& rows,
                 const std::vector<int>& dofs) {
   const int component = model.dofs[at(dofs.front())].component;
@@ -119,8 +119,8 @@ bool standAlone(const model::SecondOrderModel& model, const Sparse& K, const Vec
   return true;
 }
 
-/// Components that point laws join unsymmetrically, as a bit that cuts joins its advance to its
-/// turn.
+/// Components that point laws couple unsymmetrically, such as the advance and rotation of a cutting
+/// bit.
 std::map<int, std::set<int>> skewPairs(const model::SecondOrderModel& model, const Vector& rows,
                                        const Sparse& pointStiffness) {
   std::map<int, std::set<int>> pairs;
@@ -135,10 +135,10 @@ std::map<int, std::set<int>> skewPairs(const model::SecondOrderModel& model, con
   return pairs;
 }
 
-/// The lowest modes of each component alone (all other dofs held) on which a point law pushes the
-/// way it moves (rows of C = -df/dv with a negative diagonal), and of those that one joins
-/// unsymmetrically. Among the lowest modes of a long string, which bend it, the torsional ones that
-/// a bit law or falling friction drives are far away, and the axial ones by which a bit yields.
+/// Lowest modes of single components (all other dofs held): of those on which a point law acts in
+/// the direction of motion (rows of C = -df/dv with a negative diagonal), and of those that one
+/// couples unsymmetrically. The lowest modes of a long string are bending modes; torsional modes
+/// driven by a bit law or by falling friction, and axial modes of a bit, are far above them.
 std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model,
                                             const Sparse& symmetric, const Sparse& mass,
                                             const Sparse& pointDamping,
@@ -165,7 +165,7 @@ std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model
                  M = reduction::block(mass, dofs, dofs);
     linalg::EigenOptions options;
     options.tolerance = basisAccuracy;
-    // a bit law may push harder than the component alone resists
+    // a bit law may act more strongly than the resistance of the component alone
     if (linalg::eigenvaluesBelow(K, M, floatingShift) == 0) options.shift = floatingShift;
     const auto modes =
         linalg::lowestFiniteModes(K, M, std::min(sizeOf(dofs), modesBeyond), options);
@@ -176,7 +176,7 @@ std::vector<Matrix> modesOfDrivenComponents(const model::SecondOrderModel& model
   return all;
 }
 
-/// These columns and what is new in further ones, orthonormal in M.
+/// These columns and the independent parts of further ones, orthonormal in M.
 Matrix joined(const Sparse& mass, const Matrix& first, const std::vector<Matrix>& more) {
   if (more.empty()) return first;
   reduction::OrthonormalSet set(mass, independent, "The modes of the static state");
@@ -188,8 +188,8 @@ Matrix joined(const Sparse& mass, const Matrix& first, const std::vector<Matrix>
   return set.basis();
 }
 
-/// Growing modes of the equations projected on the columns of `basis`, the fastest first; with
-/// states that follow also the `others` least damped ones of those that the states may make grow.
+/// Growing modes of the equations projected on the columns of `basis`, the fastest first. With
+/// moving states also the `others` least damped modes that the states may make grow.
 std::vector<linalg::DampedMode> growingModes(const estimate::Linearised& tangent,
                                              const Matrix& basis, std::size_t others,
                                              const ReleasedStates* released) {
@@ -216,12 +216,12 @@ std::vector<linalg::DampedMode> growingModes(const estimate::Linearised& tangent
   return growing;
 }
 
-/// Modes of the whole equations nearest to a projected one that Newton's method does not refine.
+/// Number of modes of the whole equations nearest to a projected one that Newton's method does not
+/// refine.
 constexpr int nearestModes = 6;
 
-/// What a growing mode of the projection stands for in the whole equations: the mode it is refined
-/// to, else the one that grows fastest of those nearest to it. Nothing where these could not be
-/// found.
+/// Mode of the whole equations for a growing mode of the projection: the refined mode, or else the
+/// fastest growing one of those nearest to it. Empty if these are not found.
 std::optional<linalg::DampedMode> ofWholeEquations(const estimate::Linearised& tangent,
                                                    const linalg::DampedMode& ritz) {
   const Sparse &M = tangent.mass, &C = tangent.damping, &K = tangent.stiffness;
@@ -243,12 +243,12 @@ struct GrowingMode {
   bool refined;  ///< with the whole equations
 };
 
-/// Modes that decay while states are held and are followed all the same: at most, and of all dofs
-/// together, as each takes a score of factorisations.
+/// Decaying modes with held states that are followed nevertheless: limit, and limit times the
+/// number of dofs, because each takes about twenty factorisations.
 constexpr std::size_t mostReleased = 24;
 constexpr int dofsReleased = 60000;
-/// Growth of a motion that takes no work but rounding: |s|^2 |phi'M phi| of the size of what
-/// rounding leaves of phi'K phi.
+/// Whether the growth of a motion without work is rounding: |s|^2 |phi'M phi| is of the size of the
+/// rounding error of phi'K phi.
 bool isRigidMotion(const estimate::Linearised& tangent, const linalg::DampedMode& mode) {
   const Vector size = mode.shape.cwiseAbs();
   const Sparse absolute = tangent.stiffness.cwiseAbs();
@@ -256,10 +256,10 @@ bool isRigidMotion(const estimate::Linearised& tangent, const linalg::DampedMode
          linalg::roundingOf(tangent.stiffness) * size.dot(absolute * size);
 }
 
-/// Of the modes that grow nearly as fast as the fastest one, that of lowest frequency: the
-/// overtones of a string that friction drives grow as fast as its fundamental. `most`: so many of
-/// the projection are refined, and more until one grows. Nothing where the whole equations have
-/// none.
+/// The mode of lowest frequency among those that grow nearly as fast as the fastest one, because
+/// overtones of a string driven by friction grow as fast as its fundamental. `most` modes of the
+/// projection are refined, and more until one grows. Empty if the whole equations have no growing
+/// mode.
 std::optional<GrowingMode> mostTelling(const estimate::Linearised& tangent,
                                        std::vector<linalg::DampedMode> ritz, std::size_t most,
                                        const ReleasedStates* released) {
@@ -290,11 +290,11 @@ std::optional<GrowingMode> mostTelling(const estimate::Linearised& tangent,
   return *best;
 }
 
-/// A chain of which a rank would have fewer dofs than this is left to all ranks alike.
+/// A chain with fewer dofs per rank than this is computed by all ranks alike.
 constexpr int fewestDofs = 2000;
 
-/// This rank's share in the modes of a model whose dofs stand node by node, coupled to those of the
-/// nodes beside only; null where they do not, on one rank and where it is too short.
+/// Share of this rank in the modes of a model whose dofs are ordered by nodes, each coupled only to
+/// its adjacent nodes. Null for other models, on one rank, and if the chain is too short.
 std::shared_ptr<const linalg::ChainShare> shareOf(const model::SecondOrderModel& model,
                                                   const Sparse& K, const Sparse& M) {
   std::vector<int> nodeOf;
@@ -309,10 +309,10 @@ std::shared_ptr<const linalg::ChainShare> shareOf(const model::SecondOrderModel&
   return linalg::ChainShare::of(linalg::firstRows(nodeOf), fewestDofs);
 }
 
-/// Translations [m] below this part of the largest entry [rad] belong to a torsional mode.
+/// Translations [m] below this part of the largest entry [rad] are part of a torsional mode.
 constexpr double leastShare = 1e-3;
 
-/// Of the translations, or of the rotations, of a shape; empty where they are no part of it.
+/// Outline of the translations, or of the rotations, of a shape; empty if they are no part of it.
 ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape,
                        coupling::ComponentKind kind) {
   using Motion = Eigen::Matrix<double, 1, 6>;
@@ -390,7 +390,7 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   if (found.negativePivots == 0) {
     const double slowest = slowestGrowth * slowestGrowth;
     const bool floats = linalg::eigenvaluesBelow(symmetric, tangent.mass, slowest) > 0;
-    options.shift = floats ? floatingShift : -4 * slowest;  // below all
+    options.shift = floats ? floatingShift : -4 * slowest;  // below all eigenvalues
   }
   const int beyond = std::clamp(entriesOfShapes / model.size(), modesBeyond, mostBeyond);
   const int wanted = model.size() <= std::max(fewDofs, beyond)
@@ -429,7 +429,7 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   found.growthRate = worst->mode.s.real();
   if (std::abs(worst->mode.s.imag()) > vibrating * worst->mode.s.real())
     found.frequency = std::abs(worst->mode.s.imag()) / constants::twoPi;
-  // at the phase at which its largest entry is largest
+  // at the phase of its largest entry
   Eigen::Index largest = 0;
   worst->mode.shape.cwiseAbs().maxCoeff(&largest);
   found.shape = (worst->mode.shape / worst->mode.shape[largest]).real();

@@ -8,7 +8,7 @@
 namespace tooljoint::statics {
 namespace {
 
-/// Chains of which a rank would have fewer unknowns are evaluated by all ranks alike.
+/// Chains with fewer unknowns per rank than this are evaluated by all ranks alike.
 constexpr int fewestRows = 700;
 
 template <class Work>
@@ -21,7 +21,7 @@ std::exception_ptr errorOf(const Work& work) {
   return nullptr;
 }
 
-/// Throws on all ranks what the lowest of those that failed has caught.
+/// Throws, on all ranks, the error of the lowest rank that failed.
 void throwAlike(const std::exception_ptr& error) {
   parallel::agree([&] {
     if (error) std::rethrow_exception(error);

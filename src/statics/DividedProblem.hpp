@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A chain problem whose rows are evaluated by several ranks, each its own; unknowns and residuals
-/// are whole and alike on all of them, so that every rank takes the same decisions.
+/// A chain problem with its rows divided among ranks. Unknowns and residuals are complete and equal
+/// on all ranks, so that every rank takes the same decisions.
 #pragma once
 
 #include <memory>
@@ -14,16 +14,15 @@ namespace tooljoint::statics {
 
 class DividedProblem final : public model::InUnknownsOf<model::NonlinearProblem> {
  public:
-  /// Null on one rank, where the problem is no chain, and where it is too short to divide. The same
+  /// Null on one rank, if the problem is no chain, and if it is too short to divide. The same
   /// decision on all ranks of parallel::communicator(), which all have the same problem.
   static std::unique_ptr<DividedProblem> of(const model::NonlinearProblem& problem);
 
-  /// Bit by bit as on one rank. Collective; what the problem throws on one of the ranks is thrown
-  /// on all.
+  /// Bitwise as on one rank. Collective; an error of the problem on one rank is thrown on all.
   void residual(const Vector& x, Vector& r) const override;
-  /// The whole of it, by every rank alike.
+  /// The whole matrix, by every rank alike.
   void jacobian(const Vector& x, Sparse& J) const override { problem_.jacobian(x, J); }
-  /// The rows share().around(). Collective; errors as those of residual().
+  /// The rows share().around(). Collective; errors as in residual().
   void jacobianRows(const Vector& x, Sparse& J) const;
   const linalg::ChainShare& share() const { return *share_; }
   const std::shared_ptr<const linalg::ChainShare>& sharedShare() const { return share_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What one solve leaves to the next of problems on one pattern: the order and the fill of factors.
+/// Memory from one solve to the next for problems on one pattern: the order and the fill of
+/// factors.
 #pragma once
 
 #include <memory>
@@ -11,7 +12,7 @@
 namespace tooljoint::statics {
 
 struct NewtonMemory {
-  linalg::DofNamer name;  ///< of the unknowns of the present problem
+  linalg::DofNamer name;  ///< of the unknowns of the current problem
   std::unique_ptr<linalg::DirectSolver> factors;
   std::unique_ptr<linalg::DividedChain> chain;  ///< of a divided problem
   Sparse pattern;                               ///< of `chain`

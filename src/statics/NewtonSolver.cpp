@@ -28,13 +28,13 @@ namespace {
 using linalg::scientific;
 
 constexpr double linearTolerance = 1e-10;  ///< of the preconditioned linear residual
-/// GMRES steps behind a factor of the very Jacobian: rounding is left to iterate on, and what a few
-/// steps do not gain, many do not either.
+/// GMRES steps with an exact factor of the Jacobian as preconditioner: only rounding is left to
+/// iterate on, and many steps gain no more than a few.
 constexpr int linearIterations = 8;
-/// Scaled residual up to which a solution may end where rounding keeps it above its tolerance.
+/// Largest scaled residual at which a solution limited by rounding is accepted.
 constexpr double mostRounding = 1e-6;
 
-/// Belos behind Thyra with our parameters and the deck's over them.
+/// Belos behind Thyra, with the parameters set here, overridden by those of the deck.
 Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(
     int n, const Teuchos::ParameterList* belos) {
   const auto list = Teuchos::parameterList("Belos");
@@ -46,8 +46,8 @@ Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(
   gmres.set("Verbosity", 0);
   list->sublist("VerboseObject").set("Verbosity Level", "none");
   if (belos != nullptr) list->setParameters(*belos);
-  // On the left the size of the step decides, whatever the units of the rows; not every method of
-  // Belos can do that.
+  // With the preconditioner on the left the size of the step decides, independent of the units of
+  // the rows; not every method of Belos supports that.
   const char* side = "Left Preconditioner If Unspecified";
   const bool known = list->isType<std::string>("Solver Type");
   const std::string method = known ? list->get<std::string>("Solver Type") : "";
@@ -72,7 +72,7 @@ Teuchos::RCP<Teuchos::ParameterList> noxParameters(
   list->sublist("Direction").set("Method", "Newton");
   newton.set("Forcing Term Method", "Constant");
   newton.set("Rescue Bad Newton Solve",
-             true);  // GMRES that falls short still gives a descent direction; the search judges it
+             true);  // an inexact direction still descends; the search tests it
   newton.sublist("Linear Solver").set("Tolerance", linearTolerance);
   Teuchos::ParameterList& lineSearch = list->sublist("Line Search");
   lineSearch.set("Method", "User Defined");
@@ -85,7 +85,7 @@ Teuchos::RCP<Teuchos::ParameterList> noxParameters(
   printing.set("Output Stream", nowhere);
   printing.set("Error Stream", nowhere);
   if (nox != nullptr) {
-    if (nox->isSublist("Printing")) {  // whoever sets the printing wants to see it
+    if (nox->isSublist("Printing")) {  // output is wanted if the printing is set
       printing.remove("Output Stream", false);
       printing.remove("Error Stream", false);
     }
@@ -107,8 +107,8 @@ double scaledResidual(const Vector& r, const Vector& scale, int* worst) {
   return largest;
 }
 
-/// What rounding may leave of the scaled residual: some roundings, of the unknowns and on the way,
-/// 4 epsilon max_i scale_i sum_j |J_ij x_j|.
+/// Rounding error of the scaled residual: some roundings, of the unknowns and of the operations, 4
+/// epsilon max_i scale_i sum_j |J_ij x_j|.
 double roundingOf(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x) {
   Sparse jacobian;
   problem.jacobian(x, jacobian);
@@ -123,7 +123,7 @@ bool stagnates(const std::vector<double>& history) {
          history.back() > 0.5 * history[history.size() - 1 - iterations];
 }
 
-/// One NOX solve with all that has to live as long as it.
+/// One NOX solve, with all objects that must live as long.
 class Newton {
  public:
   Newton(const model::NonlinearProblem& problem, const Vector& start, const Vector& residual,
@@ -186,7 +186,8 @@ class Newton {
   }
 
  private:
-  /// What more iterations would not reduce, and rounding explains, is solved.
+  /// Whether more iterations would not reduce the residual and rounding explains it; then it is
+  /// solved.
   bool isAtRounding(NewtonReport& report, NOX::StatusTest::StatusType status) const {
     if (status != NOX::StatusTest::Failed && !stagnates(report.history)) return false;
     const double rounding =
@@ -231,7 +232,7 @@ std::string explain(const NewtonReport& report, const NewtonOptions& options,
   return text;
 }
 
-/// A sentence for a tolerance that double precision may not allow, else nothing.
+/// A sentence if double precision does not allow the tolerance, else empty.
 std::string explainRounding(const model::NonlinearProblem& problem, const Vector& scale,
                             const Vector& x, const NewtonOptions& options) {
   if (!x.allFinite()) return "";
@@ -293,7 +294,7 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
   newton.account(report);
   report.residual = scaledResidual(newton.model().residual(x), scale, &worst);
   if (!stopped.empty()) report.converged = false;
-  // The last word is ours: recomputed, not NOX's.
+  // the recomputed residual decides, not NOX's
   if (!(report.residual <= std::max(options.tolerance, report.rounding))) report.converged = false;
   if (!stopped.empty())
     report.message =

@@ -25,12 +25,12 @@ namespace tooljoint::statics {
 
 namespace {
 
-/// What the observer ends a path with.
+/// Thrown when the observer ends a path.
 struct Stop {};
 
-/// Parameters this near, relative to the range, are the same.
+/// Parameters closer than this, relative to the range, are equal.
 constexpr double sameParameter = 1e-9;
-/// A step of the length s becomes s (1 + growth ((n_max - n)/n_max)^2) after n iterations.
+/// A step of length s becomes s (1 + growth ((n_max - n)/n_max)^2) after n iterations.
 constexpr double growth = 1.0;
 
 Teuchos::RCP<Teuchos::ParameterList> locaParameters(const PathOptions& options, double scale) {
@@ -44,12 +44,12 @@ Teuchos::RCP<Teuchos::ParameterList> locaParameters(const PathOptions& options, 
   stepper.set("Max Value", options.to / scale);
   stepper.set("Max Steps", options.maxSteps);
   stepper.set("Max Nonlinear Iterations", options.maxIterations);
-  // Tangents get the length 1, and the parameter keeps its scale: a contribution to that length is
-  // never above 1.
+  // Tangents are scaled to length 1, and the parameter keeps its scale: its contribution to that
+  // length is never above 1.
   stepper.set("Enable Arc Length Scaling", true);
   stepper.set("Initial Scale Factor", 1.0);
   stepper.set("Max Arc Length Parameter Contribution", 2.0);
-  // otherwise LOCA would go to a bound after the last step
+  // otherwise LOCA would continue to a bound after the last step
   stepper.set("Return Failed on Reaching Max Steps", true);
   stepper.set("Bordered Solver Method", "Bordering");
   loca.sublist("Predictor").set("Method", "Tangent");
@@ -70,17 +70,17 @@ Teuchos::RCP<Teuchos::ParameterList> locaParameters(const PathOptions& options, 
   return list;
 }
 
-/// sqrt(x'x) of a vector of x and parameter, by the weights of the problem.
+/// sqrt(x'x) of a vector of x and parameter, with the weights of the problem.
 double lengthOf(const LOCA::MultiContinuation::AbstractStrategy& group,
                 const NOX::Abstract::Vector& x) {
   return std::sqrt(group.computeScaledDotProduct(x, x));
 }
 
-/// Length of the last Newton step of a state, at most.
+/// Largest length of the last Newton step of a state.
 constexpr double smallUpdate = 1e-6;
 
-/// Converged when the last Newton step is small by the weights of the problem: where hardly
-/// anything resists a motion, a small residual does not say that a state is near.
+/// Converged if the last Newton step is small in the weights of the problem. If a motion meets
+/// hardly any resistance, a small residual does not mean that a solution is near.
 class SmallUpdate : public NOX::StatusTest::Generic {
  public:
   NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic& solver,
@@ -106,11 +106,12 @@ class SmallUpdate : public NOX::StatusTest::Generic {
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
 };
 
-/// A step may end this many times its length away: the path turns by 60 degrees. Behind a sharper
-/// turn, as where a contact closes, a solution can be on another part of the path.
+/// Limit of the distance to the solution over the length of the step: the path turns by 60 degrees.
+/// After a sharper turn, such as at a closing contact, a solution may be on another part of the
+/// path.
 constexpr double farthest = 2.0;
 
-/// LOCA's stepper, which takes neither long steps over bifurcations nor steps to far-off solutions.
+/// LOCA's stepper, without long steps over bifurcations and without steps to distant solutions.
 class PathStepper : public LOCA::Stepper {
  public:
   using LOCA::Stepper::Stepper;
@@ -139,15 +140,15 @@ class PathStepper : public LOCA::Stepper {
     return dynamic_cast<PathGroup&>(*group.getBaseLevelUnderlyingGroup());
   }
 
-  /// From the last point of the path.
+  /// Distance from the last point of the path.
   double distance() const {
     const auto moved = curGroupPtr->getX().clone(NOX::DeepCopy);
     moved->update(-1.0, prevGroupPtr->getX(), 1.0);
     return lengthOf(*curGroupPtr, *moved);
   }
 
-  std::optional<bool> grew_;   ///< the parameter, in the last step
-  std::optional<int> pivots_;  ///< negative ones at the end of it
+  std::optional<bool> grew_;   ///< whether the parameter grew in the last step
+  std::optional<int> pivots_;  ///< negative pivots at its end
 };
 
 Teuchos::RCP<NOX::StatusTest::Combo> statusTests(const PathOptions& options) {
@@ -181,7 +182,7 @@ void check(const model::ParametricProblem& problem, const Vector& start,
         formatNumber(options.largestStep) + ".");
 }
 
-/// \param began the first point was found
+/// \param began whether the first point was found
 void conclude(const PathOptions& options, bool began, bool stopped, const std::string& thrown,
               PathReport& report) {
   const double same = sameParameter * (options.to - options.from);
@@ -225,7 +226,7 @@ PathReport followPath(const model::ParametricProblem& problem, const Vector& sta
       problem, problem.residualScale(), problem.pathWeights(), scale, nullptr, nullptr});
   const double slack = sameParameter * (options.to - options.from);
   const auto observe = [&](double parameter, const Vector& x) {
-    // the last step but one may lead beyond the end
+    // the last step but one may pass the end
     if (parameter > options.to + slack || parameter < options.from - slack) return;
     report.parameter = parameter;
     report.steps = points++;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A ParametricProblem as a group of LOCA on rank-local vectors. Included by PathContinuation.cpp
-/// only.
+/// A ParametricProblem as a group of LOCA on rank-local vectors. Included only by
+/// PathContinuation.cpp.
 #pragma once
 
 #include <LOCA_MultiContinuation_AbstractGroup.H>
@@ -35,18 +35,18 @@ inline void fromEigenVector(const Vector& from, NOX::Abstract::Vector& to) {
   for (int i = 0; i < static_cast<int>(from.size()); ++i) x(i) = from[i];
 }
 
-/// What all copies of a group share.
+/// Data shared by all copies of a group.
 struct PathContext {
   const model::ParametricProblem& problem;
   Vector scale;              ///< of the residual
   Vector weights;            ///< of the length of the path
-  double parameterScale;     ///< LOCA's parameter is p over this
-  std::exception_ptr error;  ///< what the problem threw, if anything
+  double parameterScale;     ///< LOCA's parameter is p divided by this
+  std::exception_ptr error;  ///< exception of the problem, if any
   /// Takes a converged point of the path.
   std::function<void(double parameter, const Vector& x)> accept;
 };
 
-/// Keeps what the problem throws, so that the driver can distinguish it from LOCA's own exceptions.
+/// Keeps exceptions of the problem, so that the driver can distinguish them from LOCA's own.
 template <class Work>
 void guarded(PathContext& context, Work&& work) {
   try {
@@ -139,12 +139,12 @@ class PathGroup : public LOCA::MultiContinuation::AbstractGroup {
       for (Sparse::InnerIterator it(*matrix, row); it; ++it)
         it.valueRef() *= context_->scale[row];  // dF/dx = S J
     linalg::DirectSolverOptions options;
-    options.checkSingular = false;  // turning points and bifurcations are on the way
+    options.checkSingular = false;  // turning points and bifurcations are on the path
     try {
       factors_ = std::make_shared<const linalg::DirectSolver>(
           *matrix, [this](int i) { return context_->problem.unknownName(i); }, options);
     } catch (const ModelError&) {
-      return NotConverged;  // the step is tried again in half
+      return NotConverged;  // the step is repeated with half the length
     }
     jacobian_ = matrix;
     return Ok;
@@ -242,8 +242,8 @@ class PathGroup : public LOCA::MultiContinuation::AbstractGroup {
     return found;
   }
 
-  /// Whether the parameter grows along the path, which has come from another point of it: with t =
-  /// (-J^-1 dF/dq, 1), t'(x - x_0, q - q_0) > 0. None where J cannot be solved with.
+  /// Whether the parameter grows along the path from another point of it: with t = (-J^-1 dF/dq,
+  /// 1), t'(x - x_0, q - q_0) > 0. Empty if J is singular.
   std::optional<bool> parameterGrows(const PathGroup& from) {
     Teuchos::ParameterList none;
     NOX::LAPACK::Vector slope(x_, NOX::ShapeCopy);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The line search and the step test handed to NOX. Included by NewtonSolver.cpp only.
+/// Line search and step test for NOX. Included only by NewtonSolver.cpp.
 #pragma once
 
 #include <NOX_Abstract_Group.H>
@@ -23,17 +23,18 @@
 
 namespace tooljoint::statics {
 
-/// s is accepted when |F(x + s dx)| <= (1 - armijo s) |F(x)|, F the scaled residual, or, towards
-/// the critical point, when r(x + s dx)' dx <= workLeft |r(x)' dx|.
+/// s is accepted if |F(x + s dx)| <= (1 - armijo s) |F(x)|, F the scaled residual, or, for the
+/// critical point, if |r(x + s dx)' dx| <= workLeft |r(x)' dx| (at the step limit also if r(x + s
+/// dx)' dx is negative).
 constexpr double armijo = 1e-4, workLeft = 0.5;
-/// Halvings of one step, or cuts of its bracket; then the best one tried is taken.
+/// Limit of halvings of one step, or of cuts of its bracket; then the best one tried is taken.
 constexpr int maxHalvings = 16;
-/// Searches in a row that may end without a decrease before the solver gives up.
+/// Limit of consecutive searches without a decrease before the solver gives up.
 constexpr int maxFailedSearches = 4;
 /// Absolute part of the step test, for solutions near zero.
 constexpr double updateFloor = 1e-14;
 
-/// What the line search has done, shared with the step test and the report.
+/// Record of the line search, shared with the step test and the report.
 struct SearchRecord {
   double step = 1.0;  ///< s of the last step x + s dx
   int halvings = 0;
@@ -45,7 +46,7 @@ inline Vector vectorOf(const NOX::Abstract::Vector& x) {
   return toEigenVector(dynamic_cast<const NOX::Thyra::Vector&>(x).getThyraRCPVector());
 }
 
-/// The step limit of the problem, backtracking on the scaled residual from that limit,
+/// Applies the step limit of the problem, then backtracking on the scaled residual from that limit,
 /// or the critical point below it.
 class StepSearch : public NOX::LineSearch::Generic {
  public:
@@ -72,7 +73,7 @@ class StepSearch : public NOX::LineSearch::Generic {
   }
 
  private:
-  /// Where steps of any length are tried.
+  /// Data for steps of any length.
   struct Line {
     NOX::Abstract::Group& group;
     const Vector& x;
@@ -83,7 +84,7 @@ class StepSearch : public NOX::LineSearch::Generic {
     return x.allFinite() && dx.allFinite() ? problem_.stepLimit(x, dx) : 1.0;
   }
 
-  /// F at the end of the step s, left in the group.
+  /// Evaluates F at the end of the step s; the group holds the result.
   bool evaluate(const Line& line, double s) const {
     const auto there = line.group.getX().clone(NOX::ShapeCopy);
     fromEigenVector(problem_.moved(line.x, line.dx, s),
@@ -97,7 +98,7 @@ class StepSearch : public NOX::LineSearch::Generic {
     for (int k = 0; k <= maxHalvings; ++k) {
       if (!evaluate(line, step)) return false;
       const double after = line.group.getNormF();
-      // Armijo, or already as good as requested (there rounding decides about a decrease)
+      // Armijo, or already within the tolerance (where rounding decides about a decrease)
       if (std::isfinite(after) && (after <= (1.0 - armijo * step) * before || solved(line.group))) {
         record_.failuresInARow = 0;
         return true;
@@ -109,17 +110,16 @@ class StepSearch : public NOX::LineSearch::Generic {
       step *= 0.5;
       ++record_.halvings;
     }
-    // No decrease: take the best of what was tried and hope for a better direction from there, a
-    // few times.
+    // No decrease: take the best step tried, a few times, because the next direction may be better.
     ++record_.failuresInARow;
     const bool hopeless = bestStep == 0.0 || record_.failuresInARow >= maxFailedSearches;
     step = hopeless ? 0.0 : bestStep;
     return evaluate(line, step) && !hopeless;
   }
 
-  /// From the step limit, unless work is still done there, to the zero of g(s) = r(x + s dx)' dx by
-  /// regula falsi that cuts at least a tenth off its bracket (Brune, Knepley, Smith and Tu 2015). A
-  /// direction that is none of descent is taken as it is.
+  /// From the step limit, unless work is still done there, to the zero of g(s) = r(x + s dx)' dx,
+  /// by regula falsi that cuts at least a tenth off its bracket (Brune, Knepley, Smith and Tu
+  /// 2015). A direction that is no descent direction is taken in full.
   bool criticalPoint(const Line& line, const Vector& start, double& step) {
     const Vector unscaled = line.dx.cwiseQuotient(scale_);  // F = S r
     const double before = start.dot(unscaled), enough = workLeft * std::abs(before);
@@ -140,7 +140,7 @@ class StepSearch : public NOX::LineSearch::Generic {
       step = std::clamp(cut, low + edge, high - edge);
       ++record_.halvings;
     }
-    step = low > 0.0 ? low : step;  // the force jumps there: stay before it
+    step = low > 0.0 ? low : step;  // the force jumps there: stay below it
     return evaluate(line, step);
   }
 
@@ -148,8 +148,7 @@ class StepSearch : public NOX::LineSearch::Generic {
     return group.getF().norm(NOX::Abstract::Vector::MaxNorm) <= options_.tolerance;
   }
 
-  /// |J dx + F| / |F| with the Jacobian itself, whatever the linear solver says about its own
-  /// success.
+  /// |J dx + F| / |F| with the Jacobian itself, independent of the linear solver's own result.
   void recordLinearResidual(const NOX::Abstract::Group& start,
                             const NOX::Abstract::Vector& direction) {
     const auto residual = direction.clone(NOX::ShapeCopy);
@@ -181,7 +180,7 @@ class StepSearchFactory : public NOX::LineSearch::UserDefinedFactory {
   Teuchos::RCP<NOX::LineSearch::Generic> search_;
 };
 
-/// Converged when the last full Newton step is small: |dx| <= tolerance |x| + floor, or nothing is
+/// Converged if the last full Newton step is small, |dx| <= tolerance |x| + floor, or if nothing is
 /// left to solve.
 class SmallStep : public NOX::StatusTest::Generic {
  public:

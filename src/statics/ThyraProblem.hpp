@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A NonlinearProblem as a Thyra model evaluator on rank-local Tpetra vectors. Included by
-/// NewtonSolver.cpp only.
+/// A NonlinearProblem as a Thyra model evaluator on rank-local Tpetra vectors. Included only by
+/// NewtonSolver.cpp.
 #pragma once
 
 #include <Thyra_DefaultPreconditioner.hpp>
@@ -36,8 +36,8 @@ inline void fromEigenVector(const Vector& from, const Teuchos::RCP<Thyra::Vector
   for (Eigen::Index i = 0; i < from.size(); ++i) host(static_cast<std::size_t>(i), 0) = from[i];
 }
 
-/// F(x) = S r(x) with S the residual scale of the problem, W = S dr/dx, and a factor of W. Of a
-/// divided problem every rank has its rows of W and its share of the factor.
+/// F(x) = S r(x) with S the residual scale of the problem, W = S dr/dx, and a factor of W. If the
+/// problem is divided, each rank holds its own rows of W and its part of the factor.
 class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
  public:
   /// \param residual  at the start
@@ -110,7 +110,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     return residual_;
   }
   int factorisations() const { return factorisations_; }
-  /// The error the problem threw while NOX was running, if any.
+  /// The error of the problem while NOX was running, if any.
   std::exception_ptr problemError() const { return problemError_; }
 
  private:
@@ -142,7 +142,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     jacobianAt_ = x;
   }
 
-  /// W, of a divided problem the rows of this rank and those around.
+  /// Evaluates W; for a divided problem the rows of this rank and those around.
   void evaluateJacobian(const Vector& x) const {
     guarded([&] {
       if (divided_ != nullptr)
@@ -179,8 +179,8 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     looked_ = true;
   }
 
-  /// False on all ranks: pivots are needed beside those inside of nodes, or W looks singular, which
-  /// the factors of the whole of it decide.
+  /// False on all ranks if pivots between nodes are needed, or if W looks singular; the factors of
+  /// the whole W then decide.
   bool updateSharedFactors() const {
     auto& chain = memory_.chain;
     const bool isKnown =
@@ -195,8 +195,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
            chain->resistance(jacobian_) > linalg::DirectSolverOptions().singularTolerance;
   }
 
-  /// Keeps what the problem throws, so that the driver can distinguish it from NOX's own
-  /// exceptions.
+  /// Keeps exceptions of the problem, so that the driver can distinguish them from NOX's own.
   template <class Work>
   void guarded(Work&& work) const {
     try {
@@ -219,7 +218,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   Sparse pattern_;  ///< the Jacobian at the start
   mutable std::optional<Vector> jacobianAt_;
   mutable bool isWhole_ = false;  ///< every rank has all rows of W
-  mutable bool looked_ = false;   ///< the factors of the whole W were made in this solve
+  mutable bool looked_ = false;   ///< the whole W was factored in this solve
   mutable Vector residualAt_, residual_;
   mutable int factorisations_ = 0;
   mutable std::exception_ptr problemError_;

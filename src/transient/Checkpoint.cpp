@@ -20,7 +20,7 @@ void serialize(Archive& archive, State& state) {
 
 template <class Archive>
 void serialize(Archive& archive, Counters& c) {
-  // long has another size on other machines
+  // long has a different size on other machines
   const auto portable = [&archive](long& count) {
     auto number = static_cast<std::int64_t>(count);
     archive(number);
@@ -42,14 +42,14 @@ namespace {
 
 constexpr char magic[] = "Tooljoint checkpoint";
 constexpr std::size_t magicLength = sizeof magic - 1;
-/// Counts up whenever the body or anything that an integrator, a point batch or a ledger saves
-/// changes.
+/// Incremented whenever the format of the body changes, or of what an integrator, a point batch or
+/// the ledger saves.
 constexpr std::uint32_t layout = 26;
 constexpr std::size_t digestLength = 64;  ///< hexadecimal digits
 constexpr std::size_t headerLength =
     magicLength + sizeof layout + sizeof(std::uint64_t) + digestLength;
 
-/// Numbers of the header have their lowest byte first.
+/// The numbers in the header are little-endian.
 template <class Number>
 std::string littleEndian(Number number) {
   std::string bytes;
@@ -81,7 +81,7 @@ void transfer(Archive& archive, Point& point) {
                   ". Go on with the program that wrote it, or run the deck from the start.");
 }
 
-/// The part of the file behind the header, proved to be what was written.
+/// Body of the file, verified against the length and the SHA-256 in the header.
 std::string verifiedBody(const std::string& bytes, const std::string& file) {
   const auto damaged = [&file](const std::string& what) {
     throw FileError("The checkpoint \"" + file + "\" is damaged: " + what +
@@ -133,7 +133,7 @@ void Checkpoint::write(const std::string& file) const {
   try {
     io::writeText(file, encode());
   } catch (const FileError&) {
-    std::remove((file + ".part").c_str());  // what it takes may be what the results lack
+    std::remove((file + ".part").c_str());  // on a full disk the results may need this space
     throw;
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Everything a run needs to go on as if it had never stopped: same steps, same factors, same
+/// Everything a run needs to continue as if it had never stopped: same steps, same factors, same
 /// numbers.
 #pragma once
 
@@ -18,31 +18,30 @@ namespace tooljoint::transient {
 /// SHA-256 of the body) and a body in the portable binary format of cereal; docs/file-formats.md
 /// describes it.
 struct Checkpoint {
-  std::string run;      ///< what the run computes, a line "PATH = VALUE" per input; empty when the
-                        ///< caller says nothing
-  std::string program;  ///< version and commit of the program that wrote it
+  std::string run;              ///< inputs of the run, a line "PATH = VALUE" each; may be empty
+  std::string program;          ///< version and commit of the program that wrote it
   std::string integrator;       ///< its name in the deck
   std::string model;            ///< digest of the model and the options (ModelIdentity)
-  int ranks = 1;                ///< of the run that wrote it
-  std::vector<double> figures;  ///< of the model, as other ranks find it
+  int ranks = 1;                ///< number of ranks of the run that wrote it
+  std::vector<double> figures;  ///< of the model, comparable between numbers of ranks
   State state;                  ///< in dofs of the model
   Counters counters;
   long contactEvaluations = 0;
-  long samples = 0;            ///< samples handed out so far
-  int runawaySamples = 0;      ///< samples in a row with an energy balance that is wrong
-  std::vector<double> memory;  ///< of the model, the integrator, the point batches and the ledger
-  CarriedMemory carried;       ///< of the integrator, vectors in dofs of the model
-  std::vector<int> shares;  ///< of a divided motion: numbers of each rank in `memory`; else empty
-  std::vector<double>
-      recorder;  ///< of the sink of the samples, set by whoever keeps the checkpoint
-  std::map<std::string, std::uint64_t> rows;  ///< rows of each time series of the results, likewise
+  long samples = 0;              ///< samples handed out so far
+  int runawaySamples = 0;        ///< samples in a row with an energy balance that is wrong
+  std::vector<double> memory;    ///< of the model, the integrator, the points and the ledger
+  CarriedMemory carried;         ///< by the integrator; vectors in dofs of the model
+  std::vector<int> shares;       ///< size of each rank's part of `memory`; empty if not divided
+  std::vector<double> recorder;  ///< memory of the sample sink, set by the owner of the checkpoint
+  std::map<std::string, std::uint64_t> rows;  ///< rows of each time series, set likewise
 
   /// The file as bytes.
   std::string encode() const;
-  /// Verifies all bytes before it uses one. `file` is what errors call them. Throws FileError.
+  /// Verifies all bytes before any is used. `file` is the name used in error messages. Throws
+  /// FileError.
   static Checkpoint decode(const std::string& bytes, const std::string& file);
 
-  /// Write to / read from a file. Throw FileError; the file is complete, on the disk, or not there.
+  /// Write to / read from a file. Throw FileError; then the file is either complete or absent.
   void write(const std::string& file) const;
   static Checkpoint read(const std::string& file);
 };

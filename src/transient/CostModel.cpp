@@ -11,20 +11,20 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Relaxations in a usual step, and solves and products of the phase correction beside them.
+/// Relaxations in a usual step; the phase correction adds these solves and products.
 constexpr double relaxations = 2;
 constexpr double phaseSolves = 1, phaseProducts = 2;
-/// A law at one point, with its logarithms, roots and arctangents, and the compliance of the point.
+/// Law at one point (logarithms, roots, arctangents), with the compliance of the point.
 constexpr double lawWork = 150;
 /// Vectors read or written once per dof in a step.
 constexpr double implicitVectors = 40, explicitVectors = 30;
 
-/// Time of a multiplication in a block that is not six by six, against one in a block that is
-/// (their kernel is unrolled), and of one in a row of a point, which is gathered entry by entry.
+/// Cost of a multiplication relative to one in a 6 x 6 block, whose kernel is unrolled: in a block
+/// of another size, and in a row of a point, which is gathered entry by entry.
 constexpr double oddBlock = 2.5, gathered = 4;
 
-/// Multiplications of a product with these values: whole blocks where one has entries beside its
-/// diagonal.
+/// Multiplications of a product with these values. A block with off-diagonal entries counts whole,
+/// a diagonal one by its diagonal, a zero block not at all.
 double productWork(const linalg::BlockPattern& pattern, const double* values) {
   double work = 0;
   for (int b = 0; b < pattern.blocks(); ++b)
@@ -41,7 +41,7 @@ double productWork(const linalg::BlockPattern& pattern, const double* values) {
   return work;
 }
 
-/// Mean time of a multiplication in a factor on this pattern.
+/// Mean cost of a multiplication in a factor on this pattern.
 double pace(const linalg::BlockPattern& pattern) {
   double all = 0, odd = 0;
   for (int b = 0; b < pattern.blocks(); ++b)
@@ -73,8 +73,8 @@ CostModel costModel(const model::SecondOrderModel& source, const TransientOption
   };
   const double mass = work(1, 0, 0), damping = work(0, 1, 0), stiffness = work(0, 0, 1);
 
-  // At each evaluation rows of points near contact are gathered and scattered; clearances of all
-  // are read once.
+  // Each evaluation gathers and scatters the rows of points near contact. The clearances of all
+  // points are read once.
   Vector q(model.size());
   model.toPositions(source.initialDisplacement, q);
   double near = 0, rows = 0, all = 0;

@@ -30,8 +30,8 @@ double MissingModes::driveOf(const Mode& mode, const State& state) {
   return sum;
 }
 
-// Trapezoidal rule, with l q'' h the change of l q': it has no numerical damping, and a jump of
-// velocity within a step counts whole.
+// Trapezoidal rule in which the change of l q' replaces l q'' h: no numerical damping, and a jump
+// of velocity within a step counts in full.
 void MissingModes::step(const State& from, const State& to) {
   const double h = to.t - from.t;
   for (auto& mode : modes_) {

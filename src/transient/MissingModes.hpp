@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Whether a reduced motion excites modes of its parts that the basis does not have. A part without
-/// modes follows its boundary like a spring, and nothing of its own motion shows what is missing. A
-/// mode phi of its interior with its boundary held, phi' M phi = 1, would be driven by
+/// Whether a reduced motion excites modes of its parts that the basis lacks. A part without modes
+/// follows its boundary like a spring; its own motion does not show what is missing. A mode phi of
+/// its interior with its boundary held, phi' M phi = 1, would obey
 ///
 ///     eta'' + c eta' + w^2 eta = -l q'',   l = phi' M Phi,   c = phi' C phi,
 ///
-/// with q the coordinates of the coupled model. The sum of eta'^2 over that of v'M v, in the mean
-/// over samples, is the part of the kinetic energy that such modes would have. How they would act
-/// back on the boundary is not in it.
+/// with q the coordinates of the coupled model. The sum of eta'^2 over that of v'M v, both averaged
+/// over the samples, is the fraction of the kinetic energy that such modes would have. Their
+/// reaction on the boundary is neglected.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@
 
 namespace tooljoint::transient {
 
-/// A mode of a part that is not in its basis.
+/// A mode of a part that the basis does not contain.
 struct MissingMode {
   double omega = 0;    ///< w [rad/s]
   double damping = 0;  ///< c [1/s]
@@ -45,7 +45,7 @@ class MissingModes {
   };
   struct Mode {
     double omega, damping;
-    std::vector<Entry> row;  ///< empty on ranks that do not hold all of it
+    std::vector<Entry> row;  ///< empty on ranks that hold only a part of it
     double drive = 0;        ///< l q'
     double eta = 0, velocity = 0;
     double energy = 0;  ///< sum of eta'^2
@@ -54,7 +54,7 @@ class MissingModes {
 
   const CompiledModel* model_;
   std::vector<Mode> modes_;
-  double whole_ = 0;  ///< sum of v'M v, of this rank
+  double whole_ = 0;  ///< sum of v'M v on this rank
 };
 
 }  // namespace tooljoint::transient

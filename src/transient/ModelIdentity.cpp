@@ -15,14 +15,14 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Intervals of the window at whose ends laws of time are evaluated.
+/// Intervals of the window; laws of time are evaluated at their ends.
 constexpr int lawIntervals = 32;
-/// How far beyond its clearance a point is moved, and how fast it moves there, to see its force
-/// [m], [m/s].
+/// Distance beyond its clearance to which a point is moved to evaluate its force [m], and its speed
+/// there [m/s].
 constexpr double probeDepth = 1e-3, probeSpeed = 0.1;
 
-/// Takes the digest of what is added, and its figures. The length stands before each array, so that
-/// different data never make the same bytes.
+/// Digest and figures of the added data. The length precedes each array, so that different data
+/// never give the same bytes.
 class Summary {
  public:
   void add(double x) {
@@ -56,8 +56,8 @@ class Summary {
   ModelIdentity identity() { return {sha256_.digest(), figures_}; }
 
  private:
-  /// sum |x_i| and sum w_i x_i with weights between -1/2 and 1/2 that no two entries share; what is
-  /// infinite is left out.
+  /// sum |x_i| and sum w_i x_i, with different weights between -1/2 and 1/2; infinite entries are
+  /// left out.
   void note(const double* x, std::size_t count) {
     constexpr double golden = 0.6180339887498949;
     double size = 0, weighted = 0;
@@ -92,7 +92,7 @@ void addLaws(const model::SecondOrderModel& model, const TransientOptions& optio
   }
 }
 
-/// The forces of a law whose states, if it has any, are those of a start.
+/// Forces of a law, at its initial states if it has any.
 class ForcesAtStart {
  public:
   ForcesAtStart(const model::PointLaw& law, double t, const Vector& d, const Vector& v)
@@ -125,8 +125,8 @@ class ForcesAtStart {
   Vector x_, g_;
 };
 
-/// Forces at the start, and with every point moved just beyond its clearance, each way along each
-/// coordinate that decides about it.
+/// Forces at the start, and with every point moved just beyond its clearance in both directions
+/// along each of its coordinates.
 void addPoints(const model::PointSet& set, const model::SecondOrderModel& model, double t,
                Summary& summary) {
   const auto& law = *set.law;
@@ -154,7 +154,7 @@ void addPoints(const model::PointSet& set, const model::SecondOrderModel& model,
     }
 }
 
-/// In the order of the names.
+/// In alphabetical order.
 void addList(const Teuchos::ParameterList& list, Summary& summary) {
   std::map<std::string, std::string> values;
   for (auto it = list.begin(); it != list.end(); ++it) {
@@ -179,7 +179,7 @@ void addOptions(const TransientOptions& options, Summary& summary) {
   addList(withDefaults(options.own, registry.find(options.integrator).parameters), summary);
 }
 
-/// Part of the size of an array that rounding may change.
+/// Relative change of an array that counts as rounding.
 constexpr double rounding = 1e-7;
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Is this the model, and are these the steps, that a checkpoint came from?
+/// Whether a checkpoint belongs to this model and these steps.
 #pragma once
 
 #include <string>
@@ -11,20 +11,20 @@
 
 namespace tooljoint::transient {
 
-/// Of everything a motion depends on: dofs, matrices, loads, laws of time (at 33 times of the
-/// window), point laws (their forces at the start and beyond their clearance in each direction),
-/// initial state, and the options but for progress and, where the integrator can go on from
-/// anywhere, the checkpoint interval.
+/// Identity of everything a motion depends on: dofs, matrices, loads, laws of time (at 33 times of
+/// the window), point laws (forces at the start and beyond the clearance in each direction),
+/// initial state, and the options. Progress is excluded, and the checkpoint interval if the
+/// integrator can continue from any state.
 struct ModelIdentity {
   std::string digest;  ///< SHA-256, 64 hexadecimal digits
-  /// The same in numbers: of each matrix, vector and law sum |a_i| and a weighted sum. A static
-  /// state that another number of ranks has found changes them in the last digits.
+  /// The same as numbers: sum |a_i| and a weighted sum for each matrix, vector and law. A static
+  /// state computed by another number of ranks changes them in the last digits.
   std::vector<double> figures;
 };
 
 ModelIdentity identityOf(const model::SecondOrderModel& model, const TransientOptions& options);
 
-/// Whether two lists of figures are of one model but for rounding.
+/// Whether two lists of figures agree up to rounding.
 bool agree(const std::vector<double>& figures, const std::vector<double>& others);
 
 }  // namespace tooljoint::transient

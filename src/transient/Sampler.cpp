@@ -31,8 +31,8 @@ void Sampler::step(const State& from, const State& to) {
   }
 }
 
-/// Cubic Hermite in q from (q, v), in v from (v, a); linear in a. x in (0, 1) is the place in the
-/// step.
+/// Cubic Hermite interpolation: q from (q, v), v from (v, a); a linear. x in (0, 1) is the position
+/// in the step.
 const State& Sampler::between(const State& from, const State& to, double x) {
   const double h = to.t - from.t;
   const double h00 = (1 + 2 * x) * (1 - x) * (1 - x), h10 = x * (1 - x) * (1 - x) * h;
@@ -57,7 +57,7 @@ void Sampler::give(double t, const State& state) {
   if (!failure_) guard([&] { pass(t); });
 }
 
-/// Keeps the first that is thrown.
+/// Keeps the first exception.
 template <class Work>
 void Sampler::guard(const Work& work) {
   try {

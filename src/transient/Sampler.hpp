@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// From accepted steps to samples at equal times.
+/// Samples at equal times from accepted steps.
 #pragma once
 
 #include <exception>
@@ -9,19 +9,19 @@
 
 namespace tooljoint::transient {
 
-/// Hands out samples at start + k * interval.
+/// Samples at start + k * interval.
 class Sampler {
  public:
-  /// \param done   samples handed out before
-  /// \param share  of this rank, null for a motion that is not divided
+  /// \param done samples written before
+  /// \param share share of this rank, null for an undivided motion
   Sampler(const CompiledModel& model, const TransientOptions& options, SampleSink& sink, long done,
           const RankShare* share);
   long count() const { return count_; }
-  /// What the sink of this rank has thrown. The other ranks of a divided motion do not know of it:
-  /// the run collects from all of them and then throws on all.
+  /// Exception of the sink of this rank. In a divided motion the run collects it from all ranks and
+  /// then throws on all.
   const std::exception_ptr& failure() const { return failure_; }
 
-  /// All samples in (from.t, to.t]; those that fall on the end of the step are the state itself.
+  /// All samples in (from.t, to.t]. A sample at the end of the step is the state itself.
   void step(const State& from, const State& to);
   void first(const State& state) { give(state.t, state); }
 
@@ -36,10 +36,10 @@ class Sampler {
   const RankShare* share_;
   double begin_, end_, interval_;
   SampleSink& sink_;
-  ShareSink* gathering_ = nullptr;  ///< the sink, where it gathers
+  ShareSink* gathering_ = nullptr;  ///< the sink, if it gathers from the ranks
   long count_;
   State middle_;
-  Vector q_, v_, a_;  ///< of the whole, in dofs
+  Vector q_, v_, a_;  ///< of the whole model, in dofs
   Vector x_;          ///< states of the point laws of all ranks
   std::exception_ptr failure_;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What an implicit step can do where its equations are hard, from the usual to the last resort.
-/// Each is counted where it is used and can be left out of a run, so that what it wins is measured
-/// (docs/strategies.md).
+/// Strategies of an implicit step for equations that are hard to solve, from the usual one to the
+/// last resort. Uses are counted, and each strategy can be left out of a run, so that its benefit
+/// can be measured (docs/strategies.md).
 #pragma once
 
 #include <array>
@@ -26,18 +26,18 @@ constexpr std::size_t strategyCount = 8;
 struct StrategyName {
   const char* deck;      ///< in the parameter Leave Out
   const char* summary;   ///< key in summary.json
-  bool ofPoint = false;  ///< used at one point, on the rank that has it
+  bool ofPoint = false;  ///< used at single points, counted on their ranks
 };
 constexpr std::array<StrategyName, strategyCount> strategyNames{{
     {"Relaxation", "relaxation"},            // of the point forces, with a factor kept over steps
-    {"Near Solves", "near_solves"},          // of what a few points reach, instead of all
-    {"Points Alone", "points_alone", true},  // those whose force jumps, each with its own Newton
+    {"Near Solves", "near_solves"},          // only where the forces of a few points reach
+    {"Points Alone", "points_alone", true},  // points whose force jumps, each by its own Newton
     {"Point Paths", "point_paths", true},    // pseudo-time and path following at such a point
-    {"Turns", "turns"},                      // every fourth point moves while the others stand
+    {"Turns", "turns"},                      // every fourth point is corrected, the others are held
     {"Resting Impacts", "resting_impacts",
      true},                                  // on walls too stiff for the step, without rebound
     {"Newton", "newton"},                    // for the whole model, with renewed tangents
-    {"Troubled Points", "troubled_points"},  // of its line search, solved together
+    {"Troubled Points", "troubled_points"},  // of the line search, solved together
 }};
 
 using StrategySet = std::bitset<strategyCount>;
@@ -45,20 +45,20 @@ using StrategySet = std::bitset<strategyCount>;
 inline bool holds(const StrategySet& set, Strategy one) {
   return set[static_cast<std::size_t>(one)];
 }
-/// Uses of each in a run.
+/// Uses of each strategy in a run.
 using StrategyCounts = std::array<long, strategyCount>;
 
-/// What a step may do, and what it has done.
+/// Strategies that a step may use, with their counts.
 class Strategies {
  public:
   void leaveOut(const StrategySet& left) { left_ = left; }
-  /// Uses are added here from now on.
+  /// Counts further uses in `counts`.
   void countIn(StrategyCounts& counts) { counts_ = &counts; }
   bool has(Strategy one) const { return !holds(left_, one); }
   void count(Strategy one) {
     if (counts_ != nullptr) ++(*counts_)[static_cast<std::size_t>(one)];
   }
-  /// Whether it may be used; counted as a use where it may.
+  /// Whether the strategy may be used; if so, its use is counted.
   bool use(Strategy one) {
     if (has(one)) count(one);
     return has(one);

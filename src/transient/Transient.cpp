@@ -33,7 +33,7 @@
 namespace tooljoint::transient {
 namespace {
 
-/// A displacement, rotation or modal coordinate beyond this is a run that has blown up.
+/// The run has diverged when a displacement, rotation or modal coordinate is above this.
 constexpr double blowUp = 1e6;
 
 double cpuSeconds() {
@@ -42,7 +42,7 @@ double cpuSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Not a number, infinite or absurdly large: say when and where.
+/// Throws with time and dof if a value is not a number, infinite or absurdly large.
 void checkFinite(const CompiledModel& model, const Integrator& integrator, const State& from,
                  const State& to) {
   if (to.x.size() > 0 && model.cut().any(!to.x.allFinite()))
@@ -72,7 +72,7 @@ long contactEvaluations(const CompiledModel& model) {
   return std::lround(model.cut().sum(static_cast<double>(sum)));
 }
 
-/// One run: the loop and what surrounds it.
+/// One run: the time loop with start, checkpoints and report.
 class Run {
  public:
   Run(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink,
@@ -199,18 +199,18 @@ class Run {
           "the same deck.");
   }
 
-  /// Bit by bit; of other ranks but for rounding, since they find the static state in sums of other
-  /// order.
+  /// Equal digest; between numbers of ranks figures equal up to rounding, since sums of the static
+  /// state have another order.
   bool isOfThisModel(const Checkpoint& point) {
     return point.model == identity().digest ||
            (point.ranks != parallel::size() && agree(point.figures, identity().figures));
   }
 
-  /// Ranks with a memory of their own.
+  /// Number of ranks with their own memory.
   std::size_t shares() const { return share_ ? static_cast<std::size_t>(model_.cut().ranks()) : 0; }
 
-  /// Of a motion that was divided otherwise: ledger and step error begin anew at the state, since
-  /// what they and the points remember belongs to the ranks that wrote it.
+  /// Takes the state of a motion that was divided in another way. The ledger and the step error
+  /// restart there, because their memory and that of the points belong to the ranks that wrote it.
   void takeState(const Checkpoint& point) {
     const auto text = [](std::size_t n) {
       return n == 0 ? std::string("undivided") : "divided among " + std::to_string(n) + " ranks";
@@ -222,7 +222,7 @@ class Run {
     model_.setTime(state_.t);
   }
 
-  /// The acceleration that prepare() has replaced, and what the integrator carries.
+  /// Restores the acceleration, which prepare() has overwritten, and the carried memory.
   void takeMemory(const Checkpoint& point) {
     setState(point.state);
     CarriedMemory carried = point.carried;
@@ -254,17 +254,17 @@ class Run {
           "The checkpoint holds another amount of memory than this program reads. Go on with the "
           "program that wrote it.");
     memory = first;
-    model_.restore(memory);  // the others have taken it to other times
+    model_.restore(memory);  // the other restores have set other times
     countOn(point);
   }
 
-  /// What was done again to get here is not counted twice.
+  /// Excludes work that was repeated to resume.
   void countOn(const Checkpoint& point) {
     integrator_->counters() = point.counters;
     evaluationsBefore_ = point.contactEvaluations - contactEvaluations(model_);
   }
 
-  /// From dofs of the model.
+  /// From dofs of the model to positions.
   void setState(const State& dofs) {
     state_ = dofs;
     model_.toPositions(dofs.q, state_.q);
@@ -286,7 +286,7 @@ class Run {
     return *identity_;
   }
 
-  /// Hand a checkpoint to whoever keeps it.
+  /// Passes a checkpoint to its keeper.
   void keepCheckpoint() {
     if (!hooks_.keep) return;
     const auto point = checkpoint();
@@ -298,7 +298,7 @@ class Run {
     }
   }
 
-  /// An error that one rank has met outside the steps is thrown on all of them.
+  /// An error that one rank meets outside the steps is thrown on all ranks.
   void throwFailures() const {
     if (!share_) return;
     auto failure = failure_ ? failure_ : sampler_.failure();
@@ -344,7 +344,7 @@ class Run {
     return point;
   }
 
-  /// True when stopped before the end.
+  /// True if stopped before the end.
   bool loop() {
     std::unique_ptr<Progress> bar;
     if (options_.progress)
@@ -394,7 +394,7 @@ class Run {
     return true;
   }
 
-  /// Of an integrator that does not judge its steps itself. False when stopped before it is done.
+  /// For integrators that do not judge their own steps. False if stopped early.
   bool judgeSteps() try {
     if (integrator_->judgesSteps()) return true;
     if (!stepError_) {
@@ -410,7 +410,7 @@ class Run {
     return false;
   }
 
-  /// `span` [s] of the motion from a state on, to be compared with others.
+  /// Comparison over `span` [s] of the motion from a state on.
   StepComparison again(const State& from, double span) {
     return {model_,
             [this] { return make(); },
@@ -420,7 +420,7 @@ class Run {
             [this] { return isStopped(); }};
   }
 
-  /// Whole checkpoint intervals up to t: the same for a run and for the one that goes on from its
+  /// Whole checkpoint intervals up to t: the same number in a run and in one restarted from its
   /// checkpoint.
   long checkpointIntervals(double t) const {
     if (!(options_.checkpointInterval > 0)) return 0;
@@ -444,24 +444,24 @@ class Run {
   const RunHooks& hooks_;
   const model::SecondOrderModel& whole_;
   std::unique_ptr<Integrator> integrator_;
-  std::unique_ptr<RankShare> share_;  ///< null: all ranks do the same
+  std::unique_ptr<RankShare> share_;  ///< null: all ranks compute the same
   CompiledModel model_;
   Sampler sampler_;
   std::optional<Sampler> watcher_;
   EnergyLedger ledger_;
   EnergyVerdict energy_;
-  std::optional<StepError> stepError_;  ///< of equal steps
-  std::optional<LawWatch> laws_;        ///< of others
+  std::optional<StepError> stepError_;  ///< for equal steps
+  std::optional<LawWatch> laws_;        ///< for other steps
   std::optional<CutOffEnergy> cutOffEnergy_;
   std::optional<MissingModes> missing_;
-  std::optional<double> judged_;  ///< what it comes to at the end
+  std::optional<double> judged_;  ///< step error at the end
   State state_, next_;
   long evaluationsBefore_ = 0;
-  std::optional<ModelIdentity> identity_;  ///< found when it is needed
+  std::optional<ModelIdentity> identity_;  ///< computed on demand
   std::exception_ptr failure_;             ///< of a checkpoint on this rank
 };
 
-/// A force that joins parts, with -flexibility for stiffness and a mass: an eigenvalue omega^2 < 0.
+/// An interface force has the stiffness -flexibility: with a mass, omega^2 < 0.
 void refuseForcesWithMass(const model::SecondOrderModel& model) {
   const Vector mass = model.mass.diagonal();
   for (std::size_t i = 0; i < model.dofs.size(); ++i)

@@ -9,7 +9,7 @@ namespace tooljoint::transient {
 
 namespace {
 
-/// Of the errors of a motion.
+/// Limits of the errors of a motion.
 void addLimits(deck::ListSpec& spec) {
   const TransientOptions usual;
   spec.real("Step Error Warning", "", usual.stepErrorWarning, deck::Range::positive(),
@@ -84,8 +84,8 @@ deck::ListSpec parameters() {
 
 namespace {
 
-/// A motion of more steps would take years, and of more samples would fill any disk: slips in a
-/// number.
+/// More steps than this would take years, and more samples would fill any disk: such values are
+/// typing errors.
 constexpr double mostSteps = 1e12;
 constexpr double mostSamples = 1e8;
 

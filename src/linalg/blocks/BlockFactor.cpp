@@ -25,8 +25,7 @@ void clear(std::vector<std::uint64_t>& bits, std::size_t i) {
   bits[i / word] &= ~(std::uint64_t{1} << (i % word));
 }
 
-/// act(i) for each bit i that is set, upwards or downwards; those that act() sets further on are
-/// met too.
+/// act(i) for each set bit i, upwards or downwards, including bits that act() sets further ahead.
 template <class Act>
 TOOLJOINT_INLINED void upwards(const std::vector<std::uint64_t>& bits, const Act& act) {
   for (std::size_t w = 0; w < bits.size(); ++w)
@@ -48,9 +47,9 @@ TOOLJOINT_INLINED void downwards(const std::vector<std::uint64_t>& bits, const A
 
 }  // namespace
 
-/// Blocks are taken by least work width * (width of the later neighbours)^2; ties go to the one
-/// that waited longest, which makes a chain shrink from both ends in turn and so gives the
-/// processor two independent sweeps.
+/// Blocks are eliminated by least work, width * (width of the later neighbours)^2. Of equal ones
+/// the one that has waited longest comes first. So a chain is eliminated from both ends in turn,
+/// which gives the processor two independent sweeps.
 void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence,
                         std::vector<std::vector<int>>& later) const {
   const int n = pattern.blocks(), interior = pattern.interiorBlocks();
@@ -143,7 +142,7 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
   panel_.assign(std::max(panel, inverted * inverted), 0.0);
 }
 
-/// Blocks of two blocks of the cut: those of the pattern and the fill between them.
+/// Lists the blocks between blocks of the cut: those of the pattern and the fill.
 void BlockFactor::listCut(const BlockPattern& pattern,
                           const std::map<std::pair<int, int>, std::size_t>& fill) {
   const auto add = [&](int i, int j, std::size_t offset) {
@@ -157,7 +156,8 @@ void BlockFactor::listCut(const BlockPattern& pattern,
   for (const auto& [blocks, offset] : fill) add(blocks.first, blocks.second, offset);
 }
 
-/// The way down reads L pivot by pivot, the way up D^-1 and W from the last pivot to the first.
+/// Storage order: the forward sweep reads L pivot by pivot, the backward sweep D^-1 and W from the
+/// last pivot to the first.
 void BlockFactor::pack() {
   std::size_t down = 0, up = 0;
   const auto take = [](std::size_t& next, int rows, int columns) {
@@ -213,7 +213,7 @@ TOOLJOINT_CLONES int BlockFactor::factorInterior() {
     for (int i = 0; i < p.width; ++i) {
       double size = 0;
       for (int j = 0; j < p.width; ++j) size = std::max(size, std::abs(D[j * p.width + i]));
-      // an empty row, or not a number; at the cut another rank may have it
+      // an empty row, or NaN; at the cut another rank may have entries
       if (!(size > 0) && k < eliminated_) return p.start + i;
       scale_[at(p.start + i)] = size;
     }
@@ -395,7 +395,7 @@ void BlockFactor::reserveInverse() {
 
 void BlockFactor::invert(const std::vector<char>& wanted) {
   reserveInverse();
-  // A pivot is needed when it is wanted or couples to an earlier one that is needed.
+  // A pivot is needed if it is wanted or couples to an earlier needed one.
   std::vector<char>& needed = inverted_;
   needed.assign(wanted.begin(), wanted.end());
   for (const Pivot& p : pivots_)
@@ -427,8 +427,7 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
     kernel::solveLarge(w, w, up_.data() + p.up, &swaps_[at(p.start)], diagonal);
   }
   const int count = p.couplingEnd - p.couplingBegin;
-  const Update* updates =
-      updates_.data() + eliminations_[k].updateBegin;  // count x count, row by row
+  const Update* updates = updates_.data() + eliminations_[k].updateBegin;  // count x count, by rows
   for (int a = 0; a < count; ++a) {
     const std::size_t c = at(p.couplingBegin + a);
     const int size = couplings_[c].width * w;
@@ -461,7 +460,7 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
   }
 }
 
-/// But for what the last pivot adds to the meeting.
+/// Forward sweep, without the contribution of the last pivot to the meeting block.
 TOOLJOINT_CLONES void BlockFactor::downPivots(const std::vector<int>& pivots, double* x) const {
   for (std::size_t k = 0; k + 1 < pivots.size(); ++k) sweepDown(pivots_[at(pivots[k])], x);
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// LU of a block-sparse matrix with partial pivoting inside diagonal blocks. Order and fill are
-/// found once; factor() and solve() allocate nothing. The elimination order takes blocks of least
-/// work first, so a chain becomes a block-tridiagonal sweep from both ends, modes that hang between
-/// two nodes are eliminated before the sweep, a loop or a star costs its own small fill, and any
-/// other graph still factors correctly.
+/// found once; factor() and solve() do not allocate. Blocks of least work are eliminated first. So
+/// a chain becomes a block-tridiagonal sweep from both ends, modes that couple only to two nodes
+/// are eliminated before the sweep, and a loop or a star costs its own small fill. Any other graph
+/// is factored correctly too.
 ///
-/// Of a matrix that is divided among ranks (RankCut), each rank eliminates its interior; what is
-/// left at the cut is summed over the ranks and factored by all of them alike. factor() and the
+/// If the matrix is divided among ranks (RankCut), each rank eliminates its interior. The Schur
+/// complement at the cut is summed over the ranks and factored by all of them. factor() and the
 /// solutions are then collective, with right-hand sides that are partial at the cut:
 ///
 ///     S = sum over the ranks of A_CC - A_CI A_II^-1 A_IC,
@@ -33,38 +33,38 @@ class BlockFactor {
 
   bool empty() const { return pivots_.empty(); }
 
-  /// Values to fill before factor(), laid out as in the pattern (BlockPattern::storage() doubles).
+  /// Values to set before factor(), in the layout of the pattern (BlockPattern::storage() doubles).
   double* values() { return values_.data(); }
 
-  /// Factor what stands in values() (destroyed). Returns -1, or the position of the dof whose pivot
-  /// vanished, the number of positions when it vanished on another rank (nothing usable is left
-  /// then).
+  /// Factors the matrix in values(), which is overwritten. Returns -1, or the position of the dof
+  /// whose pivot vanished (the number of positions if it vanished on another rank). After a failure
+  /// the factors are unusable.
   int factor();
 
   /// x := A^-1 x, in positions.
   void solve(double* x) const;
 
-  /// Of a chain: the blocks before the last one to be eliminated, and those behind it, are two
-  /// sweeps that meet there and need nothing of each other before. Two processes may do one each;
-  /// factors and solutions are those of factor() and solve(), bit by bit.
+  /// For a chain: the blocks before the last eliminated one, and those after it, form two sweeps
+  /// that meet there and are independent before. Two processes may compute one each; factors and
+  /// solutions are bitwise equal to those of factor() and solve().
   class TwoSweeps;
   bool hasTwoSweeps() const;
 
-  /// The same for an x that is zero outside the blocks `live` (any order, repeated or not). What
-  /// falls below `small` in units of `weight` (forces on the way down, displacements on the way up)
-  /// is dropped, so that the cost is that of the blocks a local force reaches; `live` then holds
-  /// those where x is not zero, each once. In a stiff chain that is a few neighbours.
+  /// The same for an x that is zero outside the blocks `live` (in any order, repetitions allowed).
+  /// Entries below `small` in units of `weight` (forces in the forward sweep, displacements in the
+  /// backward sweep) are dropped, so the cost is that of the blocks reached by a local force: a few
+  /// neighbours in a stiff chain. Afterwards `live` lists the nonzero blocks of x, each once.
   void solveNear(double* x, std::vector<int>& live, const double* weight, double small) const;
 
-  /// Blocks of A^-1 on the pattern, for what `wanted` names of the diagonal blocks (and everything
-  /// that takes): the recursion of Takahashi, Fagan and Chen (1973), which never leaves the fill.
-  /// After factor(); costs about as much.
+  /// Blocks of A^-1 on the pattern, for the diagonal blocks selected by `wanted` (and all blocks
+  /// these need), by the recursion of Takahashi, Fagan and Chen (1973), which stays within the
+  /// fill. Call after factor(); the cost is about the same.
   ///
   ///     Z_Lk = -Z_LL A_Lk D_k^-1,   Z_kL = -W_kL Z_LL,   Z_kk = D_k^-1 - W_kL Z_Lk
   void invert(const std::vector<char>& wanted);
-  /// Allocates what the first invert() would.
+  /// Allocates the memory of the first invert().
   void reserveInverse();
-  /// Values of the last invert(), laid out as in the pattern.
+  /// Values of the last invert(), in the layout of the pattern.
   const double* inverse() const { return inverse_.data(); }
 
   /// Multiplications of one solve, the measure of cost per step.
@@ -73,14 +73,14 @@ class BlockFactor {
   std::size_t fill() const { return values_.size() - patternStorage_; }
 
  private:
-  // What solve() reads is kept apart from what only factor() and invert() do, and short: beside
-  // blocks of six it is a tenth of all.
-  using Offset = std::uint32_t;  ///< in down_ or up_, doubles
+  // The indices that solve() reads are separate from those of factor() and invert(), and short:
+  // with blocks of six they are a tenth of all data read.
+  using Offset = std::uint32_t;  ///< doubles, in down_ or up_
   struct Coupling {
     int block;
     int start;  ///< first position of the later block i
     int width;
-    Offset down;  ///< L_ik = A_ik D_k^-1 (A_ik beside blocks too large to invert)
+    Offset down;  ///< L_ik = A_ik D_k^-1 (A_ik for blocks too large to invert)
     Offset up;    ///< W_ki = D_k^-1 A_ki
   };
   struct Pivot {
@@ -91,7 +91,7 @@ class BlockFactor {
     Offset up;  ///< D_k^-1, or its factors
     bool inverted() const;
   };
-  /// Of a coupling, in values_.
+  /// Offsets of a coupling in values_.
   struct Place {
     std::size_t lower;  ///< A_ik
     std::size_t upper;  ///< A_ki
@@ -101,19 +101,19 @@ class BlockFactor {
     int i;               ///< coupling numbers
     int j;
   };
-  /// Of a pivot.
+  /// Data of a pivot for factor().
   struct Elimination {
     std::size_t diagonal;  ///< in values_
     int updateBegin, updateEnd;
   };
 
-  /// What solveNear() follows beside the couplings.
+  /// Data of solveNear() besides the couplings.
   struct Near {
-    std::vector<int> begin, earlier;             ///< per pivot: those before it that couple to it
-    mutable std::vector<std::uint64_t> reached;  ///< one bit per pivot, none between calls
+    std::vector<int> begin, earlier;             ///< per pivot: earlier ones that couple to it
+    mutable std::vector<std::uint64_t> reached;  ///< one bit per pivot, cleared between calls
   };
 
-  /// Of two blocks of the cut, in values_ and in the inverse.
+  /// A pair of blocks of the cut, in values_ and in the inverse.
   struct CutBlock {
     std::size_t offset;
     int row, column;  ///< first positions
@@ -139,7 +139,7 @@ class BlockFactor {
   void order(const BlockPattern& pattern, std::vector<int>& sequence,
              std::vector<std::vector<int>>& later) const;
 
-  std::vector<Pivot> pivots_;   ///< those of the interior, then the blocks of the cut
+  std::vector<Pivot> pivots_;   ///< interior, then the blocks of the cut
   std::size_t eliminated_ = 0;  ///< pivots of the interior
   std::vector<Coupling> couplings_;
   std::vector<Elimination> eliminations_;  ///< of pivots_
@@ -148,44 +148,44 @@ class BlockFactor {
   std::vector<int> pivotOf_;  ///< of each block
   Near near_;
   BlockValues values_;
-  BlockValues down_, up_;       ///< what the two sweeps of a solve read, in the order they read it
+  BlockValues down_, up_;       ///< data of the two sweeps of a solve, in reading order
   BlockValues inverse_;         ///< allocated by the first invert()
-  std::vector<char> inverted_;  ///< per pivot: taken along by invert()
+  std::vector<char> inverted_;  ///< per pivot: included in invert()
   std::vector<double> scale_;
   std::vector<double> workScale_;
   mutable std::vector<double> work_;
   std::vector<double> panel_;
   std::vector<int> swaps_;
-  std::unique_ptr<CutFactor> cut_;  ///< null where nothing is divided
+  std::unique_ptr<CutFactor> cut_;  ///< null if not divided
   std::vector<CutBlock> cutBlocks_;
   int size_ = 0;
   std::size_t patternStorage_ = 0;
-  bool far_ = false;  ///< sweeps read more than a near cache holds
+  bool far_ = false;  ///< the sweeps exceed a near cache
   double solveWork_ = 0;
 };
 
 class BlockFactor::TwoSweeps {
  public:
-  /// Of factors with hasTwoSweeps(), which must outlive the object.
+  /// For factors with hasTwoSweeps(), which must outlive the object.
   explicit TwoSweeps(BlockFactor& factor);
 
-  /// First position of the block where the sweeps meet, and the position behind it.
+  /// First position of the block where the sweeps meet, and the position after it.
   int meetingBegin() const { return factor_.pivots_.back().start; }
   int meetingEnd() const { return meetingBegin() + factor_.pivots_.back().width; }
 
-  /// Factors the values of the blocks of one sweep (0 before the meeting, 1 behind it) and of the
-  /// meeting. False: a pivot vanished.
+  /// Factors the values of the blocks of one sweep (0 before the meeting block, 1 after it) and
+  /// their contribution to the meeting block. False if a pivot vanishes.
   bool factorSweep(int sweep) { return factor_.factorPivots(pivots_[at(sweep)]) < 0; }
-  /// What the meeting needs of a sweep, factored here, or for one that was factored elsewhere.
+  /// Data of a sweep for the meeting block: of one factored here, or from another process.
   std::size_t factorsLength(int sweep) const;
   void copyFactors(int sweep, double* to) const;
   void takeFactors(int sweep, const double* from);
-  /// Before the sweeps: keeps the diagonal block of the meeting. After them: factors it.
+  /// Before the sweeps: stores the diagonal block of the meeting. After them: factors it.
   void keepMeeting();
   bool factorMeeting();
 
-  /// The way down of a sweep; the meeting, once x has the positions of the last blocks of both; the
-  /// way up.
+  /// Forward sweep; solution at the meeting block, once x has the positions of the last blocks of
+  /// both sweeps; backward sweep.
   void down(int sweep, double* x) const;
   int lastBegin(int sweep) const { return last(sweep).start; }
   int lastWidth(int sweep) const { return last(sweep).width; }
@@ -197,8 +197,8 @@ class BlockFactor::TwoSweeps {
   const Pivot& last(int sweep) const { return factor_.pivots_[at(pivots_[at(sweep)].back())]; }
 
   BlockFactor& factor_;
-  std::vector<int> pivots_[2];  ///< of the sweeps, as they are eliminated
-  std::vector<int> lasts_;      ///< the last of each, in the order of elimination
+  std::vector<int> pivots_[2];  ///< of each sweep, in elimination order
+  std::vector<int> lasts_;      ///< last pivot of each, in elimination order
   std::vector<double> diagonal_;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The few dense operations block solvers are made of, on raw column-major storage. Blocks of 6 x 6
-/// (one node of a spatial beam) are unrolled; blocks up to 64 keep an explicit inverse, larger ones
-/// a pivoted LU. Nothing here allocates for blocks below about 600 rows.
+/// Dense operations of block solvers on raw column-major storage. Blocks of 6 x 6 (one node of a
+/// spatial beam) are unrolled. Blocks up to 64 have an explicit inverse, larger ones a pivoted LU.
+/// Nothing allocates for blocks below about 600 rows.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ namespace tooljoint::linalg::kernel {
 constexpr int largestInverse = 64;
 
 // Functions that spend their time in these kernels are compiled twice, for any x86-64 and for one
-// with AVX2 and FMA, and the loader chooses. The two differ in the last bit.
+// with AVX2 and FMA; the loader selects one. Their results differ in the last bit.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define TOOLJOINT_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
@@ -24,7 +24,7 @@ constexpr int largestInverse = 64;
 #define TOOLJOINT_CLONES
 #endif
 
-/// For what such functions call: inlined, it is compiled for their machine.
+/// For functions called by them: inlined, they are compiled for the same machine.
 #if defined(__GNUC__)
 #define TOOLJOINT_INLINED inline __attribute__((always_inline))
 #else
@@ -72,7 +72,7 @@ struct Six {
   }
 };
 
-/// even + odd += sign A x, A of six rows: two sums in the time of one.
+/// even + odd += sign A x, A of six rows: two independent sums.
 template <int sign = 1>
 TOOLJOINT_INLINED void addPairs(int columns, const double* A, const double* x, Six& even,
                                 Six& odd) {
@@ -106,12 +106,12 @@ TOOLJOINT_INLINED void addSixTransposed(const double* A, const double* x, Six& y
 #endif
 }
 
-/// Matrices of more doubles than this (4 MB) are prefetched: shorter ones stay in caches that are
-/// fast enough, and prefetching costs time.
+/// Matrices with more doubles than this (4 MB) are prefetched. Shorter ones stay in fast caches,
+/// and prefetching costs time.
 constexpr std::size_t nearCache = std::size_t{1} << 19;
 
-/// Ask for what a sweep over a long array reads some blocks (8 kB) after `A`; beyond its end that
-/// does nothing.
+/// Prefetches the data that a sweep over a long array reads some blocks (8 kB) after `A`; beyond
+/// its end this has no effect.
 TOOLJOINT_INLINED void fetchAhead(const double* A, int count) {
 #if defined(__GNUC__)
   constexpr int ahead = 1024, line = 8;  // doubles
@@ -126,7 +126,7 @@ using MutableBlock = Eigen::Map<Eigen::MatrixXd>;
 using ConstSegment = Eigen::Map<const Eigen::VectorXd>;
 using MutableSegment = Eigen::Map<Eigen::VectorXd>;
 
-/// y += sign A x by four columns at a time.
+/// y += sign A x, four columns at a time.
 template <int sign>
 TOOLJOINT_INLINED void addColumns(int rows, int columns, const double* __restrict A,
                                   const double* __restrict x, double* __restrict y) {
@@ -145,7 +145,7 @@ TOOLJOINT_INLINED void addColumns(int rows, int columns, const double* __restric
   }
 }
 
-/// The same with the sums in registers, even and odd columns apart.
+/// The same with the sums in registers, separate for even and odd columns.
 template <int rows, int sign>
 TOOLJOINT_INLINED void addFewRows(int columns, const double* A, const double* x, double* y) {
   constexpr int quads = rows / 4, rest = rows % 4;
@@ -177,8 +177,8 @@ TOOLJOINT_INLINED void addSixRows(int columns, const double* A, const double* x,
   even.to(y);
 }
 
-/// y += sign A x; y and x do not overlap. Nodes have six dofs, and modes of a straight run come in
-/// pairs, one for each plane of bending.
+/// y += sign A x; y and x do not overlap. Special cases: nodes with six dofs, and the paired modes
+/// of a straight run, one for each plane of bending.
 template <int sign>
 TOOLJOINT_INLINED void addProduct(int rows, int columns, const double* A, const double* x,
                                   double* y) {
@@ -272,7 +272,7 @@ TOOLJOINT_INLINED void multiplySmall(int rows, int inner, int columns, const dou
 /// Pivots smaller than this times the scale of their row count as zero.
 constexpr double smallestPivot = 1e-14;
 
-/// Replace the N x N block a by its inverse: Gauss-Jordan with pivoting on scaled rows. scale[i] >
+/// Replaces the N x N block a by its inverse: Gauss-Jordan with pivoting on scaled rows. scale[i] >
 /// 0 is the size of row and column i before elimination. Returns -1, or the position of the first
 /// unusable pivot.
 template <int N>
@@ -287,7 +287,7 @@ int invert(double* a, const double* scale) {
       const double size = std::abs(a[i * N + k]) / s[i];
       if (size > best) best = size, p = i;
     }
-    if (!(best > smallestPivot)) return k;  // also catches NaN
+    if (!(best > smallestPivot)) return k;  // also true for NaN
     swapped[k] = p;
     if (p != k) {
       for (int j = 0; j < N; ++j) std::swap(a[k * N + j], a[p * N + j]);
@@ -319,9 +319,9 @@ void solveLarge(int n, int columns, const double* lu, const int* pivots, double*
 int invertLarge(int n, double* a, const double* scale, double* workScale, int* pivots,
                 double* panel);
 
-/// Factor a diagonal block: explicit inverse up to largestInverse (panel has room for n x n), by
-/// Gauss and Jordan at once where widths are common (nodes, modes in pairs), LU above. Returns -1
-/// or the position of the bad pivot.
+/// Factors a diagonal block. Up to largestInverse it is an explicit inverse (panel has room for n x
+/// n), by Gauss-Jordan for common widths (nodes, pairs of modes); above it is LU. Returns -1 or the
+/// position of the bad pivot.
 inline int factorBlock(int n, double* a, const double* scale, double* workScale, int* pivots,
                        double* panel) {
   switch (n) {

@@ -17,7 +17,8 @@ namespace tooljoint::linalg {
 namespace {
 
 /// Sums of products of 6 x 6 blocks and vectors. Two columns of a block are three quads: rows 0 to
-/// 3 of one, rows 4 and 5 of one with 0 and 1 of the other, rows 2 to 5 of the other.
+/// 3 of the first, rows 4 and 5 of the first with rows 0 and 1 of the second, rows 2 to 5 of the
+/// second.
 struct SixSum {
   kernel::Quad a{0, 0, 0, 0}, m{0, 0, 0, 0}, b{0, 0, 0, 0};
   TOOLJOINT_INLINED void addTwoColumns(const double* A, const double* x) {
@@ -63,7 +64,7 @@ class Families {
   std::vector<int> parent_;
 };
 
-/// Number per dof of the block it belongs to, in order of first appearance.
+/// Number of the block of each dof, in order of first appearance.
 int number(const std::vector<std::pair<int, int>>& key, std::vector<int>& block) {
   std::map<std::pair<int, int>, int> seen;
   for (std::size_t i = 0; i < key.size(); ++i)
@@ -104,7 +105,7 @@ BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices,
   std::vector<int> block(at(n));
   const int groups = number(key, block);
 
-  // Blocks with one closed neighbourhood and one class are indistinguishable: merge them.
+  // Blocks with the same closed neighbourhood and class are indistinguishable: merge them.
   const auto graph = blockGraph(matrices, block, groups);
   std::vector<int> kindOf(at(groups), 0);
   for (int i = 0; i < n; ++i) kindOf[at(block[at(i)])] = kind[at(i)];
@@ -149,7 +150,7 @@ BlockPattern::BlockPattern(BlockPartition partition, const std::vector<const Spa
     rowBegin_.push_back(static_cast<int>(column_.size()));
   }
   offset_.resize(column_.size());
-  for (const bool below : {false, true})  // what a symmetric product reads stands together
+  for (const bool below : {false, true})  // the blocks read by a symmetric product are contiguous
     for (int b = 0; b < blocks(); ++b)
       for (int e = rowBegin(b); e < rowBegin(b + 1); ++e) {
         if ((column(e) < b) != below) continue;
@@ -221,7 +222,7 @@ BlockProduct::BlockProduct(const BlockPattern& pattern,
   sum_.assign(at(widest), 0.0);
 }
 
-/// The entries of a block row that are not zero in all samples.
+/// Entries of a block row that are nonzero in any sample.
 BlockProduct::Row BlockProduct::listRow(const BlockPattern& pattern,
                                         const std::vector<const BlockValues*>& samples, int block,
                                         std::vector<Entry>& entries) const {
@@ -301,7 +302,7 @@ TOOLJOINT_INLINED void BlockProduct::addEntries(const Row& row, int begin, int e
   }
 }
 
-/// even + odd += A_ij x_j over some entries of a row of six.
+/// even + odd += A_ij x_j over some entries of a six-row block row.
 TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* values,
                                             const double* x, kernel::Six& even,
                                             kernel::Six& odd) const {

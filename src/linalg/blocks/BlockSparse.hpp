@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Square matrices made of dense blocks of varying size on one symmetric pattern: how dofs are
-/// gathered into blocks, where a block stands in storage, and products that skip blocks which are
-/// zero or only diagonal.
+/// Square matrices of dense blocks of varying size on one symmetric pattern: partition of the dofs
+/// into blocks, storage of the blocks, and products that skip zero blocks and off-diagonal entries
+/// of diagonal blocks.
 ///
-/// All matrices of a model share one pattern, hence one storage layout: a sum of matrices is a sum
+/// All matrices of a model share one pattern and so one storage layout: a sum of matrices is a sum
 /// of arrays.
 #pragma once
 
@@ -25,7 +25,7 @@ struct Six;
 
 using BlockValues = std::vector<double, LargePages<double>>;
 
-/// Which dofs form a block. Positions are dofs renumbered so that blocks are contiguous.
+/// Partition of the dofs into blocks. Positions are dofs renumbered so that blocks are contiguous.
 struct BlockPartition {
   std::vector<int> start;     ///< block -> its first position; size blocks()+1
   std::vector<int> position;  ///< dof -> position
@@ -33,15 +33,17 @@ struct BlockPartition {
   int blocks() const { return static_cast<int>(start.size()) - 1; }
 };
 
-/// Gather dofs into blocks. Dofs of one group (a node, the modes of a part) stay together unless
-/// the matrices do not couple them at all, in which case each family (lateral, axial ...) gets
-/// blocks of its own; groups of one class that see exactly the same neighbours (a dense interface)
-/// become one block. \param matrices  patterns to unite, all of one size \param group     group
-/// number per dof \param kind      class per dof; only groups of one class may be merged
+/// Gathers dofs into blocks. Dofs of one group (a node, the modes of a part) stay together, except
+/// when the matrices do not couple them at all: then each family (lateral, axial ...) has its own
+/// blocks. Groups of one class with exactly the same neighbours (a dense interface) become one
+/// block.
+/// \param matrices patterns to unite, all of one size
+/// \param group group number per dof
+/// \param kind class per dof; only groups of one class may be merged
 BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices,
                              const std::vector<int>& group, const std::vector<int>& kind);
 
-/// Symmetric pattern of dense column-major blocks, diagonal blocks included, sorted by row then
+/// Symmetric pattern of dense column-major blocks, diagonal blocks included, sorted by row, then
 /// column.
 class BlockPattern {
  public:
@@ -62,13 +64,13 @@ class BlockPattern {
   std::size_t offset(int entry) const { return offset_[static_cast<std::size_t>(entry)]; }
   /// Entry of block (row, column), -1 if it is not in the pattern.
   int find(int row, int column) const;
-  /// Number of doubles a matrix on this pattern takes.
+  /// Number of doubles of a matrix on this pattern.
   std::size_t storage() const { return storage_; }
-  /// Address of a scalar entry given by positions, which must be in the pattern.
+  /// Address of a scalar entry by its positions, which must be in the pattern.
   std::size_t address(int rowPosition, int columnPosition) const;
 
-  /// From now on this is what one rank has of a pattern that is divided among ranks; the blocks of
-  /// the cut are the last ones.
+  /// Makes this the part of one rank in a pattern divided among ranks; the blocks of the cut are
+  /// the last ones.
   void divide(RankCut cut) { cut_ = std::make_shared<const RankCut>(std::move(cut)); }
   const RankCut& cut() const { return *cut_; }
   const std::shared_ptr<const RankCut>& sharedCut() const { return cut_; }
@@ -93,38 +95,38 @@ struct BlockRange {
   int begin, end;
 };
 
-/// Blocks in runs of about so many positions, a length at which several vectors stay in a near
-/// cache. Blocks of the cut are no part of a run with others.
+/// Runs of blocks with about this many positions, so that several vectors of this length stay in a
+/// near cache. Blocks of the cut form separate runs.
 std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions);
 
-/// y += A x for matrices on one pattern; which blocks are zero or diagonal, and whether all is
-/// symmetric, is found once, from samples that have every nonzero the products will see. Matrices
-/// that do not fit a near cache are prefetched, and where blocks below the diagonal mirror
-/// those above they are not read: they were seen a row ago. That is so for stiffness under varying
-/// torque too, whose skew part stands in the diagonal blocks of beams.
+/// y += A x for matrices on one pattern. Zero blocks, diagonal blocks and symmetry are found once,
+/// from samples that contain every nonzero of later products. Matrices larger than a near cache are
+/// prefetched. If blocks below the diagonal mirror those above, they are not read, because their
+/// values were read in an earlier row. This also holds for stiffness under varying torque, whose
+/// skew part is in the diagonal blocks of beams.
 class BlockProduct {
  public:
   BlockProduct() = default;
-  /// \param like  another product on the pattern: where both read the same blocks alike, they share
-  /// the list of these
+  /// \param like another product on the pattern; if both read the same blocks in the same way, they
+  /// share the list of blocks
   BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples,
                const BlockProduct* like = nullptr);
   bool empty() const { return layout_ == nullptr || layout_->rows.empty(); }
-  /// Whether both have one list of blocks, which is then read once where they follow each other.
+  /// Whether both share one list of blocks, which is then read once in consecutive products.
   bool shares(const BlockProduct& other) const { return layout_ == other.layout_; }
-  /// |A_ij - A_ji| <= 1e-12 sqrt(A_ii A_jj) in all samples: what assembly in rotated frames leaves.
+  /// |A_ij - A_ji| <= 1e-12 sqrt(A_ii A_jj) in all samples: rounding of assembly in rotated frames.
   bool isSymmetric() const { return symmetric_; }
   /// y += factor A x, vectors in positions.
   void addTo(const double* values, const double* x, double* y, double factor = 1.0) const {
     if (!empty()) addRows(0, static_cast<int>(layout_->rows.size()), values, x, y, factor);
   }
-  /// The same for the rows of these blocks alone.
+  /// The same for the rows of these blocks only.
   void addTo(const double* values, const double* x, double* y, double factor,
              BlockRange range) const {
     if (!empty()) addRows(firstRow(range.begin), firstRow(range.end), values, x, y, factor);
   }
-  /// x' A x, and the part of it that the rows of some blocks add: of a symmetric A half the blocks
-  /// are read.
+  /// x' A x, and the contribution of the rows of some blocks. For a symmetric A half the blocks are
+  /// read.
   double form(const double* values, const double* x) const {
     return empty() ? 0.0 : formRows(0, static_cast<int>(layout_->rows.size()), values, x);
   }
@@ -161,17 +163,17 @@ class BlockProduct {
     int begin;
     int end;
     int diagonal;  ///< first entry on or above the diagonal
-    bool inSix;    ///< six rows, summed in registers (where blocks are prefetched, all of six
-                   ///< columns)
+    bool inSix;    ///< six rows, summed in registers (if prefetched, only with six columns
+                   ///< throughout)
     bool operator==(const Row& other) const {
       return start == other.start && width == other.width && begin == other.begin &&
              end == other.end && diagonal == other.diagonal && inSix == other.inSix;
     }
   };
-  /// What is read beside the values: as much as an eighth of them.
+  /// Data read besides the values: up to an eighth of their size.
   struct Layout {
     std::vector<Row> rows;
-    std::vector<int> firstRow;  ///< block -> first of rows from there on
+    std::vector<int> firstRow;  ///< block -> its first row in rows, or the next one
     std::vector<Entry> entries;
     bool operator==(const Layout& other) const {
       return rows == other.rows && firstRow == other.firstRow && entries == other.entries;
@@ -182,7 +184,7 @@ class BlockProduct {
   std::shared_ptr<const Layout> layout_;
   bool symmetric_ = false;
   bool mirrored_ = false;  ///< A_ij = A_ji' for i != j; diagonal blocks need not be symmetric
-  bool far_ = false;       ///< matrices are longer than a near cache
+  bool far_ = false;       ///< matrices exceed a near cache
   mutable std::vector<double> sum_;
 };
 

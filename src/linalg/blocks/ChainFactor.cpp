@@ -9,10 +9,10 @@
 namespace tooljoint::linalg {
 namespace {
 
-/// Dofs of a node of a spatial beam.
+/// Dofs of a beam node in space.
 constexpr int nodeDofs = 6;
 
-/// First row of each run of rows with one pattern, and the number of rows at the end.
+/// First row of each run of rows with equal pattern, and the number of rows at the end.
 std::vector<int> runsOfOnePattern(const Sparse& A) {
   const int* start = A.outerIndexPtr();
   const int* column = A.innerIndexPtr();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// LU of a sparse matrix by the blocks that its pattern shows: the dofs of a node stand in rows of
-/// one pattern. The string of beams, whose blocks of six form a chain, costs O(n).
+/// LU of a sparse matrix with the blocks found in its pattern: the rows of the dofs of a node have
+/// equal patterns. A string of beams, whose blocks of six form a chain, costs O(n).
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ namespace tooljoint::linalg {
 class ChainFactor {
  public:
   /// Whether blocks have three dofs or more on average and no row has more than 18 entries: a chain
-  /// of nodes of up to six dofs. Other matrices are left to a general sparse solver.
+  /// of nodes with up to six dofs. Other matrices are left to a general sparse solver.
   static bool isChain(const Sparse& A);
 
   ChainFactor() = default;
@@ -22,21 +22,21 @@ class ChainFactor {
   explicit ChainFactor(const Sparse& A);
 
   bool empty() const { return factor_.empty(); }
-  /// Factors A, which has the pattern of the symbolic phase. False: a pivot vanished.
+  /// Factors A, which has the pattern of the symbolic phase. False if a pivot vanishes.
   bool factor(const Sparse& A);
   /// x := A^-1 x, x of size() entries.
   void solve(double* x) const { factor_.solve(x); }
-  /// For two ranks that do half of it each: fill() instead of factor(), then the sweeps.
+  /// For two ranks that compute half each: fill() instead of factor(), then the sweeps.
   bool hasTwoSweeps() const { return factor_.hasTwoSweeps(); }
   BlockFactor& blocks() { return factor_; }
-  /// The values of rows begin ... end - 1 of A, all others zero.
+  /// Sets the values of rows begin ... end - 1 of A, all others zero.
   void fill(const Sparse& A, int begin, int end);
   /// Entries of both factors.
   long entries() const { return static_cast<long>(storage_); }
 
  private:
   BlockFactor factor_;
-  std::vector<std::size_t> address_;  ///< in BlockFactor::values() of each entry of A
+  std::vector<std::size_t> address_;  ///< of each entry of A, in BlockFactor::values()
   std::size_t storage_ = 0;           ///< length of BlockFactor::values()
 };
 

@@ -15,7 +15,7 @@ CutFactor::CutFactor(std::shared_ptr<const RankCut> cut)
       workScale_(swaps_.size(), 0.0),
       right_(Vector::Zero(cut_->total())) {}
 
-/// What is not a number is no matrix one can solve with.
+/// A matrix with NaN or infinite entries cannot be factored.
 bool CutFactor::factor(bool failed) {
   if (failed) sum_.setConstant(NAN);
   cut_->sumAll(sum_.data(), static_cast<std::size_t>(sum_.size()));

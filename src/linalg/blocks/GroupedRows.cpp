@@ -9,7 +9,7 @@
 namespace tooljoint::linalg {
 namespace {
 
-/// Fewer rows or columns than this do not pay for gathering them.
+/// Gathering does not pay for fewer rows or columns than this.
 constexpr std::size_t fewest = 4;
 
 }  // namespace

@@ -21,18 +21,18 @@ void shareLargePages(std::size_t bytes) {
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
     bytes = std::min<std::size_t>(bytes, limit.rlim_cur / 8);
   if (bytes < 2 * page) return;
-  // Arrays of up to 32 MB (no more can be set) stand side by side in the heap, and what is given
-  // back to it stays there.
+  // Arrays of up to 32 MB (the largest possible setting) are placed in the heap, and memory freed
+  // there stays in the heap.
   mallopt(M_MMAP_THRESHOLD, 16 * page);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-  // The heap grows by all of it at once, of which only the beginning has been written to: pages are
-  // chosen at the first write.
+  // The heap grows by the whole size at once, of which only the beginning has been written: the
+  // kernel selects pages at the first write.
   mallopt(M_TOP_PAD,
           static_cast<int>(std::min<std::size_t>(bytes, std::numeric_limits<int>::max())));
   const auto end = [] { return reinterpret_cast<std::uintptr_t>(sbrk(0)); };
   const std::uintptr_t before = end();
-  // What was free already is taken first. Where the heap does not grow (a limit, another allocator)
-  // nothing is requested.
+  // Memory that is already free is taken first. If the heap does not grow (a limit, another
+  // allocator), nothing is requested.
   std::vector<void*> held;
   for (std::size_t size = 0; size < bytes && end() == before; size += page) {
     held.push_back(std::malloc(page));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Allocator for arrays that are read from end to end in every step: aligned for vector loads, and
-/// on large pages (2 MB, where the system gives them) once they are too long for caches, which
-/// reads a fifth faster.
+/// Allocator for arrays that are read from end to end in every step. They are aligned for vector
+/// loads, and on large pages (2 MB, if the system provides them) once they exceed the caches, which
+/// makes reading a fifth faster.
 #pragma once
 
 #include <cstdlib>
@@ -30,7 +30,7 @@ struct LargePages {
     if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     if (unit == page)
-      madvise(memory, whole, MADV_HUGEPAGE);  // advice: without it the array is slower
+      madvise(memory, whole, MADV_HUGEPAGE);  // advice only: without it the array is slower
 #endif
     return static_cast<T*>(memory);
   }
@@ -40,12 +40,12 @@ struct LargePages {
   friend bool operator!=(const LargePages&, const LargePages&) { return false; }
 };
 
-/// Arrays too short for large pages of their own share them: what the process allocates next, up to
-/// so many bytes, is taken from memory that requests them, address space until it is written to (an
-/// eighth of what a limit allows at most). Many vectors read one after the other are then read a
-/// tenth faster. To be called where a program begins: what is free already is not requested again.
-/// Does nothing for a few megabytes, without glibc, or where the heap cannot grow. By default
-/// enough for the vectors of a million dofs.
+/// Shared large pages for arrays too short to have their own. Later allocations of the process, up
+/// to this many bytes, come from memory with large pages requested. It is only address space until
+/// it is written (at most an eighth of a limit). Many vectors read one after the other are then
+/// read a tenth faster. To be called at the start of a program, because memory that is already free
+/// is not requested again. Does nothing for a few megabytes, without glibc, or if the heap cannot
+/// grow. The default is enough for the vectors of a million dofs.
 void shareLargePages(std::size_t bytes = std::size_t{1} << 30);
 
 }  // namespace tooljoint::linalg

@@ -12,10 +12,10 @@
 namespace tooljoint::linalg {
 namespace {
 
-/// Numbers of a message beside those of the cut.
+/// Numbers in a message besides those of the cut.
 constexpr std::size_t mostNumbers = 16;
 
-/// Keeps a NaN.
+/// The larger value; keeps a NaN.
 double larger(double a, double b) { return b <= a ? a : (a != a ? a : b); }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Vectors and matrices that are divided among ranks at a cut: a rank holds its interior positions
-/// and, after them, those of the cut that it shares with others,
+/// Vectors and matrices divided among ranks at a cut. A rank holds its interior positions and,
+/// after them, those of the cut that it shares with others,
 ///
-///     x = [x_I  x_C],   A = sum over the ranks of their A,   x the same on all that hold it.
+///     x = [x_I  x_C],   A = sum over the ranks of their A,   x equal on all ranks that hold it.
 ///
-/// Products with the A of a rank are partial at the cut: their sum over the ranks is the product.
-/// Sums are taken in the order of the ranks, so that every rank has the same, bit by bit.
+/// Products with the A of one rank are partial at the cut: their sum over the ranks is the product.
+/// Sums are taken in the order of the ranks, so all ranks have bitwise equal results.
 #pragma once
 
 #include <string>
@@ -18,31 +18,32 @@ namespace tooljoint::linalg {
 
 class RankCut {
  public:
-  /// One rank that holds everything: every operation is local and costs nothing.
+  /// One rank that holds everything: every operation is local and free.
   RankCut() = default;
-  /// \param interior  positions that this rank alone holds, before those of the cut
+  /// \param interior positions held by this rank alone, before those of the cut
   /// \param number    of each position of the cut on this rank, in the numbering of the whole cut
-  /// \param total     positions of the whole cut
+  /// \param total number of positions of the whole cut
   /// \param own       whether this rank counts a position of the cut in sums over all positions
-  /// Made by all ranks of parallel::communicator() at once.
+  /// Constructed by all ranks of parallel::communicator() at once.
   RankCut(int interior, std::vector<int> number, int total, std::vector<char> own);
 
   bool isDivided() const { return ranks_ > 1; }
   int ranks() const { return ranks_; }
-  /// Positions before the cut; all, where nothing is divided.
+  /// Number of positions before the cut; all if not divided.
   int interior(int size) const { return isDivided() ? interior_ : size; }
   int total() const { return total_; }
-  /// Messages that all ranks have exchanged up to now.
+  /// Number of messages exchanged by all ranks so far.
   long messages() const { return messages_; }
   /// Whether this rank counts a position.
   bool owns(int position) const {
     return position < interior_ || !isDivided() ||
            own_[static_cast<std::size_t>(position - interior_)] != 0;
   }
-  /// Number of a position of the cut in the whole cut.
+  /// Number of a cut position in the whole cut.
   int number(int position) const { return number_[static_cast<std::size_t>(position - interior_)]; }
 
-  // Over the ranks; collective, the same result on all of them. A maximum keeps a NaN.
+  // Reductions over the ranks; collective, with the same result on all ranks. A maximum keeps a
+  // NaN.
   /// Maxima of `largest`, sums of `sums`, in one message.
   void reduce(double* largest, int maxima, double* sums, int count) const;
   double largest(double value) const;
@@ -50,17 +51,17 @@ class RankCut {
   bool any(bool value) const;
   /// Sum over the ranks below this one.
   double before(double value) const;
-  /// The text of the rank with the largest size, of the lowest of these.
+  /// The text of the rank with the largest size; of equal ones, the lowest rank.
   std::string ofLargest(double size, const std::string& text) const;
-  /// Partial x -> the same on all ranks that share it; x is a whole vector, or its cut alone.
+  /// Partial x -> equal on all ranks that share it; x is a complete vector, or its cut only.
   void complete(double* x) const { completeCut(x + interior_); }
   void completeCut(double* cut) const;
-  /// x the same on all ranks -> partial: zero at the cut but for the rank that counts it.
+  /// x equal on all ranks -> partial: zero at the cut except on the rank that counts the position.
   void divide(double* x) const;
-  /// The cut of a whole vector -> its numbers in the whole cut, and back.
+  /// Cut of a complete vector -> entries of the whole cut, and back.
   void collect(const double* x, double* whole) const;
   void spread(const double* whole, double* x) const;
-  /// Sum over the ranks of arrays of one length.
+  /// Sum over the ranks of arrays of equal length.
   void sumAll(double* values, std::size_t count) const;
 
  private:

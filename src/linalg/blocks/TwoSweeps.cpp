@@ -98,7 +98,7 @@ void BlockFactor::TwoSweeps::keepMeeting() {
   diagonal_.assign(D, D + width * width);
 }
 
-/// Row sizes are those before elimination.
+/// The sizes of the rows are those before elimination.
 bool BlockFactor::TwoSweeps::factorMeeting() {
   const Pivot& m = factor_.pivots_.back();
   double* D = factor_.values_.data() + factor_.eliminations_.back().diagonal;

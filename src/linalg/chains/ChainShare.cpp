@@ -14,7 +14,7 @@
 namespace tooljoint::linalg {
 namespace {
 
-/// Fewer nodes of a rank are not worth a message.
+/// Fewer nodes per rank are not worth a message.
 constexpr int fewestNodes = 3;
 
 }  // namespace
@@ -48,7 +48,7 @@ RowRange ChainShare::around() const {
   return rows(std::max(0, begin(rank_) - 1), std::min(begin(rank_ + 1) + 1, begin_.back()));
 }
 
-/// A message is the rows of a rank, column by column, and a number that says whether it has failed.
+/// A message contains the rows of a rank, column by column, and a flag for failure.
 bool ChainShare::gather(double* columns, int count, bool failed) const {
   int place = 0;
   for (int r = 0; r < ranks(); ++r) {
@@ -96,7 +96,7 @@ void ChainShare::gatherEnds(double* columns, int count, int row) const {
   }
 }
 
-/// A number that says whether a rank has failed follows what it has.
+/// The data of a rank are followed by a flag for failure.
 bool ChainShare::exchangeEnds(const std::vector<double>& mine, std::array<std::size_t, 2> lengths,
                               std::vector<double>& all, bool failed) const {
   std::fill(counts_.begin(), counts_.end(), 1);

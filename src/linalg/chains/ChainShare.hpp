@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The share of one rank in work on the rows of a chain of nodes: vectors are whole and alike on
-/// all ranks, rows are computed by the rank that has their node, and brought together.
+/// Share of one rank in work on the rows of a chain of nodes. All ranks hold equal, complete
+/// vectors; each computes the rows of its nodes, and the rows are then gathered.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@
 
 namespace tooljoint::linalg {
 
-/// First row of each node that has any, and the number of rows at the end, from the node of each
-/// row (ascending).
+/// First row of each node with rows, and the number of rows at the end, from the node of each row
+/// (ascending).
 std::vector<int> firstRows(const std::vector<int>& nodeOf);
 
 class ChainShare {
  public:
-  /// That of parallel::rank(), of about as many nodes as the others have. \param first  first row
-  /// of each node, and the number of rows at the end. Null on one rank, and where a rank would have
-  /// less than `fewestRows`, or less than three nodes. The same decision on all ranks.
+  /// Share of parallel::rank(); all ranks have about equally many nodes. \param first first row of
+  /// each node, and the number of rows at the end. Null on one rank, and if a rank would have less
+  /// than `fewestRows` or less than three nodes. The same decision on all ranks.
   static std::shared_ptr<const ChainShare> of(std::vector<int> first, int fewestRows);
 
   int ranks() const { return static_cast<int>(begin_.size()) - 1; }
@@ -30,25 +30,25 @@ class ChainShare {
   int size() const { return first_.back(); }
   /// First row of each node, and size().
   const std::vector<int>& first() const { return first_; }
-  /// First node of a rank; that of the number of ranks is the number of nodes.
+  /// First node of a rank; the number of nodes for rank = ranks().
   int begin(int rank) const { return begin_[static_cast<std::size_t>(rank)]; }
   /// Rows of this rank.
   RowRange own() const { return rows(begin(rank_), begin(rank_ + 1)); }
-  /// And those of the node before and of the node behind them.
+  /// The same with the rows of the adjacent nodes on both sides.
   RowRange around() const;
 
-  // Over the ranks of parallel::communicator(); collective, the same result on all of them.
-  /// Columns of `size()` rows, of which each rank has its own -> whole columns. Whether one of the
-  /// ranks says that it has failed; the columns are then of no use.
+  // Over the ranks of parallel::communicator(); collective, with the same result on all ranks.
+  /// Columns of `size()` rows with the own rows of each rank -> complete columns. True if one of
+  /// the ranks has failed; the columns are then invalid.
   bool gather(double* columns, int count, bool failed = false) const;
-  /// Columns of which the first rank has the rows before `row` and the last one those from there
-  /// on.
+  /// The same for columns with the rows before `row` on the first rank and the others on the last
+  /// rank.
   void gatherEnds(double* columns, int count, int row) const;
-  /// What the first and the last rank have, `lengths` numbers of each, one after the other. Whether
-  /// one of the ranks says that it has failed.
+  /// Data of the first and the last rank, `lengths` numbers of each, one after the other. True if
+  /// one of the ranks has failed.
   bool exchangeEnds(const std::vector<double>& mine, std::array<std::size_t, 2> lengths,
                     std::vector<double>& all, bool failed = false) const;
-  /// The values of all rows of a compressed matrix, whose pattern is that of the chain.
+  /// The values of all rows of a compressed matrix with the pattern of the chain.
   void gatherRows(Sparse& A) const;
   double largest(double value) const;
   bool any(bool value) const { return largest(value ? 1.0 : 0.0) > 0.0; }

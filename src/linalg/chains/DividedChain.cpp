@@ -17,7 +17,7 @@ DividedChain::DividedChain(std::shared_ptr<const ChainShare> share, const Sparse
   chain_ = ChainFactor(A);
   if (!chain_.hasTwoSweeps()) return;
   auto sweeps = std::make_unique<BlockFactor::TwoSweeps>(chain_.blocks());
-  // two ranks have the rows of their sweeps without a message
+  // two ranks hold the rows of their sweeps without a message
   const int before = share_->first()[at(share_->begin(1))];
   if (share_->ranks() == 2 && sweeps->meetingBegin() != before) return;
   sweeps_ = std::move(sweeps);
@@ -74,7 +74,7 @@ Matrix DividedChain::solve(const Matrix& b) const {
   return x;
 }
 
-/// Row by row in four partial sums, as Tpetra forms it on one rank.
+/// Row by row in four partial sums, as in Tpetra on one rank.
 Matrix DividedChain::multiply(const Sparse& A, const Matrix& x) const {
   const auto own = share_->own();
   const int *start = A.outerIndexPtr(), *column = A.innerIndexPtr();

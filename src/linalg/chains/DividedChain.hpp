@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// LU of a chain of nodes by ranks: the first rank eliminates from the first node, the last rank
-/// from the last one, and all of them have the node where they meet. Factors and solutions are
-/// those of ChainFactor, bit by bit, whatever the number of ranks.
+/// LU of a chain of nodes divided among ranks. The first rank eliminates from the first node, the
+/// last rank from the last node, and all ranks hold the node where they meet. Factors and solutions
+/// are bitwise equal to those of ChainFactor for any number of ranks.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,9 @@
 
 namespace tooljoint::linalg {
 
-/// Matrices have the whole pattern on every rank and values in the rows ChainShare::around() at
-/// least. Vectors are whole and alike on all ranks. Every operation is collective.
+/// Matrices have the whole pattern on every rank, with values at least in the rows
+/// ChainShare::around(). Vectors are complete and equal on all ranks. Every operation is
+/// collective.
 class DividedChain {
  public:
   /// Symbolic phase for matrices on the pattern of A (compressed).
@@ -23,25 +24,25 @@ class DividedChain {
   DividedChain(const DividedChain&) = delete;
   DividedChain& operator=(const DividedChain&) = delete;
 
-  /// Whether matrices on the pattern can be factored so. The same on all ranks.
+  /// Whether matrices on the pattern can be factored in this way. The same on all ranks.
   bool suits() const { return sweeps_ != nullptr; }
-  /// False on all ranks: a pivot vanished, or one of the ranks says that it has failed. A is whole
-  /// afterwards where there are more than two ranks.
+  /// False on all ranks if a pivot vanishes or a rank has failed. With more than two ranks, A is
+  /// complete afterwards.
   bool factor(Sparse& A, bool failed = false);
   /// A^-1 b.
   Matrix solve(const Matrix& b) const;
-  /// A x, bit by bit as by Tpetra on one rank.
+  /// A x, bitwise as by Tpetra on one rank.
   Matrix multiply(const Sparse& A, const Matrix& x) const;
-  /// The rows of A x that are this rank's, sums in the order of the entries. Not collective.
+  /// Rows of A x on this rank, with sums in the order of the entries. Not collective.
   void multiplyOwn(const Sparse& A, const Matrix& x, Matrix& y) const;
-  /// How much the matrix resists the motion that it resists least: |R A v| / |R |A| |v| |, R A C of
-  /// order one, v from two inverse iterations; as DirectSolver measures it.
+  /// Resistance to the least resisted motion: |R A v| / |R |A| |v| |, R A C of order one, v from
+  /// two inverse iterations, as in DirectSolver.
   double resistance(const Sparse& A) const;
 
   const ChainShare& share() const { return *share_; }
 
  private:
-  /// That of this rank; -1: none.
+  /// Sweep of this rank; -1: none.
   int sweep() const;
 
   std::shared_ptr<const ChainShare> share_;

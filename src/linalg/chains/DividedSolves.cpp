@@ -10,7 +10,8 @@
 namespace tooljoint::linalg {
 namespace {
 
-/// Backward error of a refined solution that factors with pivots inside of nodes are good for.
+/// Largest backward error of a refined solution for which factors with pivoting inside nodes
+/// suffice.
 constexpr double chainError = 1e-13;
 constexpr int refinementsAtMost = 3;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Checked solutions with a chain that all ranks have, each rank computing its rows.
+/// Checked solutions with a chain held by all ranks, each rank computing its own rows.
 #pragma once
 
 #include <memory>
@@ -11,16 +11,16 @@
 
 namespace tooljoint::linalg {
 
-/// Vectors are whole and alike on all ranks. Every operation is collective.
+/// Vectors are complete and equal on all ranks. Every operation is collective.
 class DividedSolves {
  public:
-  /// Factors A; nothing on all ranks where a pivot vanishes.
+  /// Factors A; null on all ranks if a pivot vanishes.
   static std::unique_ptr<DividedSolves> of(std::shared_ptr<const ChainShare> share, Sparse A);
 
-  /// A^-1 b, refined and with the backward error of DirectSolver; nothing on all ranks where it
-  /// stays above 1e-13. Of b the rows of this rank are read alone.
+  /// A^-1 b, refined and with the backward error of DirectSolver; empty on all ranks if that stays
+  /// above 1e-13. Only the rows of this rank are read from b.
   std::optional<Matrix> solve(const Matrix& b) const;
-  /// B x, and the rows of it that are this rank's, the others zero.
+  /// B x; its rows on this rank, the others zero.
   Matrix multiply(const Sparse& B, const Matrix& x) const;
   Matrix ownRows(const Sparse& B, const Matrix& x) const;
 

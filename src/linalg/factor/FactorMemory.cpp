@@ -33,8 +33,8 @@ std::optional<long> freeAddresses() {
   return std::max(0L, static_cast<long>(limit.rlim_cur) - taken) / megabyte;
 }
 
-/// Of the control group, version 2 as containers and job schedulers set it. Files that are only
-/// kept in memory give way.
+/// Free memory of the control group, version 2 as set by containers and job schedulers. Cached
+/// files are released on demand and count as free.
 std::optional<long> freeOfGroup() {
   const std::string group = "/sys/fs/cgroup/memory.";
   long most = 0, taken = 0, files = 0;

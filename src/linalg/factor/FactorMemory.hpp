@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Memory for factors: what is free, and the refusal where it is too little.
+/// Memory for factors: free memory, and the error if it is not enough.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,20 +10,20 @@
 
 namespace tooljoint::linalg {
 
-/// A model is too large for the memory there is (exit code 3).
+/// A model is too large for the available memory (exit code 3).
 struct MemoryError : ModelError {
   using ModelError::ModelError;
 };
 
-/// Memory that this process may still take [MB]: the least of what Linux says is free, what the
-/// limit of its address space leaves (ulimit -v), and what its control group leaves; none where
-/// nothing tells. Memory that was freed, and that the C library keeps for later, is given back
-/// before.
+/// Memory available to this process [MB]: the least of the memory that Linux reports free, the rest
+/// of its address space limit (ulimit -v), and the rest of its control group; empty if all are
+/// unknown. Freed memory that the C library keeps is returned first.
 std::optional<long> freeMegabytes();
 
-/// Throws MemoryError: the factors of a matrix with so many rows need more than there is.
-/// \param available [MB]; none: not known
-/// \param divided the need is that of one rank of several
+/// Throws MemoryError: the factors of a matrix with this many rows need more than the available
+/// memory.
+/// \param available [MB]; empty: not known
+/// \param divided `needed` is that of one rank of several
 [[noreturn]] void refuseMemory(Eigen::Index rows, long needed, std::optional<long> available,
                                bool divided = false);
 

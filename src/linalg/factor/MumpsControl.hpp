@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Numbers of MUMPS (Users' guide 5.5) and of how it is used here. Included by sources of factors
-/// only.
+/// Parameters of MUMPS (Users' guide 5.5) and of its use here. Included only by sources of factors.
 #pragma once
 
 #include <dmumps_c.h>
@@ -9,9 +8,9 @@
 
 namespace tooljoint::linalg::mumps {
 
-/// Columns solved at a time: enough for level-3 BLAS, little memory beside the factors.
+/// Columns solved at once: enough for level-3 BLAS, little memory compared with the factors.
 inline constexpr int blockOfColumns = 64;
-/// Room beside the estimate of the analysis that pivoting may take [%], at first and at most.
+/// Memory for pivoting in addition to the estimate of the analysis [%], at first and at most.
 inline constexpr int firstRoom = 30, mostRoom = 500;
 
 /// Jobs.
@@ -19,7 +18,7 @@ inline constexpr int initialise = -1, finish = -2, analyse = 1, decompose = 2, s
 /// Errors (section 8).
 inline constexpr int realRoom = -8, noRoom = -9, singular = -10, noMemory = -13, notDefinite = -40;
 
-/// An instance of MUMPS that is ended with its owner. Numbers count from 1, as in the guide.
+/// An instance of MUMPS that ends with its owner. Indices start at 1, as in the guide.
 struct Instance {
   DMUMPS_STRUC_C id{};
   bool open = false;
@@ -38,7 +37,7 @@ struct Instance {
     dmumps_c(&id);
   }
 
-  /// A new instance without output, with an ordering that this MUMPS has and deems best.
+  /// A new instance without output, with the ordering that this MUMPS selects as best.
   /// \param kind SYM of the guide
   void begin(int kind, MPI_Comm comm) {
     close();

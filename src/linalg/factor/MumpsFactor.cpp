@@ -19,9 +19,9 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Below it KLU2 is as fast for solids: 0.1 s.
+/// With fewer rows KLU2 is as fast for solids: 0.1 s.
 constexpr int fewRows = 2000;
-/// Entries of a row of a string: its node and two neighbours, six dofs each. Solids have 81.
+/// Entries in a row of a string: its node and two neighbours, six dofs each. Solids have 81.
 constexpr int entriesOfAString = 18;
 using namespace mumps;
 
@@ -30,16 +30,15 @@ using namespace mumps;
 struct MumpsFactor::Impl : mumps::Instance {
   bool factored = false;
   Symmetry symmetry = Symmetry::None;
-  std::vector<int> rows, columns;  ///< of the entries that were analysed, counted from 1
-  std::optional<long> memory;      ///< [MB] given, instead of what is free
+  std::vector<int> rows, columns;  ///< of the analysed entries, starting at 1
+  std::optional<long> memory;      ///< given limit [MB] instead of free memory
   MPI_Comm comm = MPI_COMM_SELF;
 
-  ~Impl() { close(); }  // while the entries are there
+  ~Impl() { close(); }  // while the entries exist
 
   bool divided() const { return comm != MPI_COMM_SELF; }
 
-  /// What the rank of the least may take [MB], of the memory that it shares with others of its
-  /// machine.
+  /// Available memory of the rank with the least [MB], if ranks on one machine share its memory.
   std::optional<long> available() const {
     auto megabytes = memory ? memory : freeMegabytes();
     if (!divided()) return megabytes;
@@ -60,8 +59,8 @@ struct MumpsFactor::Impl : mumps::Instance {
     begin(kind == Symmetry::None ? 0 : kind == Symmetry::Definite ? 1 : 2, comm);
   }
 
-  /// visit(row, column, value) of the entries that MUMPS reads: of a symmetric A those of its lower
-  /// triangle.
+  /// visit(row, column, value) for the entries that MUMPS reads: the lower triangle of a symmetric
+  /// A.
   template <class Visit>
   void forEachRead(const Sparse& A, const Visit& visit) const {
     const bool half = symmetry != Symmetry::None;
@@ -113,7 +112,8 @@ struct MumpsFactor::Impl : mumps::Instance {
     if (most && needed > *most) refuseMemory(A.rows(), needed, most, divided());
   }
 
-  /// With room for pivots that the analysis did not foresee. MUMPS does not read the entries again.
+  /// Increases the memory for pivots if the analysis did not foresee them. MUMPS does not read the
+  /// entries again.
   void decomposeEntries(const Sparse& A) {
     std::vector<double> values;
     values.reserve(rows.size());
@@ -166,7 +166,7 @@ Matrix MumpsFactor::solve(const Matrix& b) const {
 }
 
 long MumpsFactor::entries() const {
-  // INFOG(29): entries of the factors, in millions with a minus where they are many
+  // INFOG(29): entries of the factors; large numbers are negative and in millions
   const long entries = impl_->info(29);
   return entries < 0 ? -1000000L * entries : entries;
 }
@@ -181,7 +181,7 @@ bool suitsMumps(const Sparse& A) {
 }
 
 bool isDefinite(const Sparse& A, double tolerance) {
-  Sparse lowered = withoutZeros(A);  // masses often couple each direction with itself alone
+  Sparse lowered = withoutZeros(A);  // masses often couple each direction only with itself
   for (int i = 0; i < A.rows(); ++i) lowered.coeffRef(i, i) *= 1.0 - tolerance;
   return MumpsFactor().factor(lowered, MumpsFactor::Symmetry::Definite);
 }

@@ -17,10 +17,10 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Parts of a cut may differ so much from half of the weight.
+/// Allowed deviation of the parts of a cut from half of the weight.
 constexpr double imbalance = 0.1;
 
-/// Two sides and what separates them, vertices of the whole graph.
+/// Two sides and their separator, as vertices of the whole graph.
 struct Cut {
   std::vector<int> left, right, separator;
 };
@@ -37,7 +37,7 @@ int weightOf(const Graph& graph, const std::vector<int>& vertices) {
   return sum;
 }
 
-/// The graph of these vertices (increasing).
+/// The subgraph of these vertices (increasing).
 Graph induced(const Graph& graph, const std::vector<int>& vertices) {
   std::vector<int> number(at(graph.size()), -1);
   for (int i = 0; i < sizeOf(vertices); ++i) number[at(vertices[at(i)])] = i;
@@ -52,7 +52,7 @@ Graph induced(const Graph& graph, const std::vector<int>& vertices) {
   return part;
 }
 
-/// Number of the connected component of each vertex.
+/// Connected component of each vertex.
 std::vector<int> components(const Graph& graph, int& count) {
   std::vector<int> component(at(graph.size()), -1), open;
   count = 0;
@@ -74,7 +74,7 @@ std::vector<int> components(const Graph& graph, int& count) {
   return component;
 }
 
-/// One level of nested dissection of a connected graph: 0 and 1 the sides, 2 the separator.
+/// One level of nested dissection of a connected graph: 0 and 1 are the sides, 2 the separator.
 std::vector<int> bisect(Graph& graph) {
   const int n = graph.size();
   SCOTCH_Context context;
@@ -106,7 +106,7 @@ std::vector<int> bisect(Graph& graph) {
   SCOTCH_graphExit(&whole);
   SCOTCH_contextExit(&context);
 
-  // Blocks under the root, which is the last one, go to the lighter side.
+  // The last block is the root; the blocks below it go to the lighter side.
   std::vector<int> side(at(n), 2);
   int load[2] = {0, 0};
   for (SCOTCH_Num b = 0; b + 1 < blocks; ++b) {
@@ -119,7 +119,7 @@ std::vector<int> bisect(Graph& graph) {
   return side;
 }
 
-/// Components of a graph that is not connected, heaviest first to the lighter side.
+/// Distributes the components of a disconnected graph, heaviest first, to the lighter side.
 std::vector<int> dealComponents(const Graph& graph, const std::vector<int>& component, int count) {
   std::vector<int> weight(at(count), 0), side(at(count), 0), result(at(graph.size()));
   for (int v = 0; v < graph.size(); ++v) weight[at(component[at(v)])] += graph.weights[at(v)];
@@ -135,7 +135,7 @@ std::vector<int> dealComponents(const Graph& graph, const std::vector<int>& comp
   return result;
 }
 
-/// No side is empty, or there is no cut.
+/// Neither side is empty, or there is no cut.
 Cut cut(const Graph& graph, const std::vector<int>& vertices) {
   Graph part = induced(graph, vertices);
   int count = 0;

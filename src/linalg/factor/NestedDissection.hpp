@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Nested dissection of a graph (A. George, SIAM J. Numer. Anal. 10 (1973) 345-363) by Scotch:
-/// parts that no edge joins, and the separators between them.
+/// parts without edges between them, and their separators.
 #pragma once
 
 #include <vector>
 
 namespace tooljoint::linalg {
 
-/// An undirected graph; every edge stands in the lists of both of its vertices, none joins a vertex
-/// to itself.
+/// An undirected graph: every edge is in the lists of both of its vertices, and no edge joins a
+/// vertex to itself.
 struct Graph {
   std::vector<int> offsets;     ///< vertices + 1
   std::vector<int> neighbours;  ///< of vertex v: offsets[v] to offsets[v + 1]
@@ -18,8 +18,8 @@ struct Graph {
   int size() const { return static_cast<int>(weights.size()); }
 };
 
-/// Pieces of a graph, children before parents. A leaf is a part, any other piece is the separator
-/// of its two subtrees, possibly empty; an edge joins vertices of one piece, or of a piece and one
+/// Pieces of a graph, children before parents. A leaf is a part; any other piece is the separator
+/// of its two subtrees, possibly empty. An edge joins vertices of one piece, or of a piece and one
 /// of its ancestors.
 struct Dissection {
   std::vector<std::vector<int>> vertices;  ///< of each piece, increasing
@@ -29,8 +29,8 @@ struct Dissection {
   int pieces() const { return static_cast<int>(vertices.size()); }
 };
 
-/// Cuts the heaviest part in two until there are `parts`, fewer where none can be cut any more. The
-/// same in every run. Throws Error (Internal) when Scotch fails.
+/// Cuts the heaviest part in two until there are `parts`, or fewer if none can be cut any more. The
+/// same in every run. Throws Error (Internal) if Scotch fails.
 Dissection dissect(const Graph& graph, int parts);
 
 }  // namespace tooljoint::linalg

@@ -19,12 +19,12 @@ using namespace mumps;
 
 struct PartialFactor::Impl : mumps::Instance {
   int inner = 0;
-  std::vector<int> rows, columns, others;  ///< counted from 1
+  std::vector<int> rows, columns, others;  ///< indices start at 1
   std::vector<double> values;
 
-  ~Impl() { close(); }  // while the entries are there
+  ~Impl() { close(); }  // while the entries exist
 
-  /// Entries of the lower triangle; whether the pattern is another one.
+  /// Takes the entries of the lower triangle; true if the pattern has changed.
   bool take(const Sparse& A) {
     const std::vector<int> rowsBefore = std::move(rows), columnsBefore = std::move(columns);
     rows.clear(), columns.clear(), values.clear();
@@ -91,7 +91,7 @@ bool PartialFactor::factor(const Sparse& A, int inner, Matrix& schur) {
   if (m.status() < 0) m.fail();
   if (m.info(12) > 0) return false;  // negative pivots
   if (rest == 0) m.release();        // solutions need no entries
-  // by rows, hence the upper triangle of a matrix by columns
+  // by rows, so the upper triangle of a column-major matrix
   schur.triangularView<Eigen::StrictlyLower>() = schur.transpose();
   return true;
 }
@@ -104,14 +104,14 @@ Matrix PartialFactor::solve(const Matrix& b) const {
   m.id.rhs = x.data();
   m.id.nrhs = static_cast<MUMPS_INT>(x.cols());
   m.id.lrhs = static_cast<MUMPS_INT>(x.rows());
-  m.control(26) = 0;  // of the inner rows
+  m.control(26) = 0;  // for the inner rows
   m.call(substitute);
   if (m.status() < 0) m.fail();
   return x.topRows(m.inner);
 }
 
 long PartialFactor::entries() const {
-  // INFOG(29): entries of the factors, in millions with a minus where they are many
+  // INFOG(29): entries of the factors; large numbers are negative and in millions
   const long entries = impl_->info(29);
   return entries < 0 ? -1000000L * entries : entries;
 }

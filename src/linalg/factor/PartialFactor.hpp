@@ -18,9 +18,9 @@ class PartialFactor {
   PartialFactor& operator=(PartialFactor&&) noexcept;
 
   /// Factors A_ii, the first `inner` rows of the symmetric A = [A_ii A_ib; A_bi A_bb], of which the
-  /// lower triangle is read; the ordering is kept while the pattern is the same and some rows are
-  /// left. False: A_ii is not positive definite to working precision. `schur` becomes A_bb - A_bi
-  /// A_ii^-1 A_ib, full. On this rank alone. ModelError when memory does not suffice, and for other
+  /// lower triangle is read. The ordering is kept as long as the pattern is the same and some rows
+  /// are left. False if A_ii is not positive definite to working precision. `schur` becomes A_bb -
+  /// A_bi A_ii^-1 A_ib, full. On this rank alone. ModelError if memory is not enough, and for other
   /// failures of MUMPS.
   bool factor(const Sparse& A, int inner, Matrix& schur);
   /// A_ii^-1 b, neither refined nor checked.

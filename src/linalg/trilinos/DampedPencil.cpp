@@ -12,7 +12,7 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Relative change of a value by Newton's method up to which the mode is the same.
+/// Largest relative change of a value by Newton's method for which the mode counts as the same.
 constexpr double sameValue = 1e-6;
 
 double rowNorm(const Sparse& A) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the ways to damped modes share: the scaled matrices of s^2 M + s C + K, and what is done
-/// with pairs that were found. Included by sources of damped modes only.
+/// Common parts of the solvers for damped modes: the scaled matrices of s^2 M + s C + K, and the
+/// treatment of found pairs. Included only by sources of damped modes.
 #pragma once
 
 #include <complex>
@@ -16,15 +16,15 @@
 
 namespace tooljoint::linalg {
 
-/// Relative error of s - sigma, sigma the shift, that is accepted beside the rounding of K: the
-/// last of the eight digits that are printed. Values of a Krylov space that has converged are
-/// better by some orders; what is above this bound is not rounding but a space that is too small.
+/// Accepted relative error of s - sigma, with sigma the shift, in addition to the rounding of K:
+/// the last of the eight printed digits. Values of a converged Krylov space are better by some
+/// orders; an error above this bound is not rounding but means that the space is too small.
 inline constexpr double acceptedError = 1e-8;
-/// Columns of a start block: as many as a free body in space has rigid-body motions, and two more.
+/// Columns of a start block: the six rigid-body motions of a free body in space, and two more.
 inline constexpr int startColumns = 8;
-/// Block steps after a second start, which finds what the first one missed.
+/// Block steps after a second start, which finds values missed by the first one.
 inline constexpr int controlSteps = 5;
-/// Up to this size the inverse is formed whole.
+/// Up to this size the whole inverse is formed.
 inline constexpr int denseBelow = 80;
 
 /// M, C and K with rows and columns scaled by powers of two near 1 / sqrt(M_ii): translations,
@@ -35,8 +35,8 @@ struct ScaledPencil {
   bool singularMass = false;
   EnergyRounding rounding;  ///< of shapes in scaled coordinates
 
-  /// ModelError: the matrices are not square and of one size. \param given isRounding's bound for K
-  /// where empty
+  /// ModelError: the matrices are not square or differ in size. \param given isRounding's bound for
+  /// K if empty
   ScaledPencil(const Sparse& m, const Sparse& c, const Sparse& k, const EnergyRounding& given);
   ScaledPencil(const ScaledPencil&) = delete;
   ScaledPencil& operator=(const ScaledPencil&) = delete;
@@ -49,19 +49,19 @@ struct DampedModes {
   std::vector<ComplexVector> vectors;
 };
 
-/// |s| at which s is zero but for the rounding of K: |s|^2 phi'|M|phi + |s| phi'|C|phi of the size
-/// of what rounding leaves of phi'K phi.
+/// Whether s is zero up to the rounding of K: |s|^2 phi'|M|phi + |s| phi'|C|phi is of the size of
+/// the rounding of phi'K phi.
 bool isZero(const ScaledPencil& pencil, Complex s, const ComplexVector& phi);
 
-/// What rounding of K makes of s - shift, relative.
+/// Relative error of s - shift due to rounding of K.
 double roundingOfValue(const ScaledPencil& pencil, Complex distance, const ComplexVector& phi);
 
-/// The mode that Newton's method finds from a pair far from the shift, where (L - sigma)^-1 has few
-/// digits of it; none where that is another one.
+/// Mode found by Newton's method from a pair far from the shift, for which (L - sigma)^-1 has few
+/// digits; empty if it converges to another mode.
 std::optional<DampedMode> refinedMode(const ScaledPencil& pencil, Complex s,
                                       const ComplexVector& phi);
 
-/// The first `count` of them by |s|, in the coordinates of the unscaled matrices, with residuals.
+/// The `count` modes of smallest |s|, in the coordinates of the unscaled matrices, with residuals.
 QuadraticModes presented(const ScaledPencil& pencil, const DampedModes& found, int count);
 
 }  // namespace tooljoint::linalg

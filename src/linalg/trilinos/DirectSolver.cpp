@@ -37,7 +37,7 @@ void requireSquareAndFinite(const Sparse& A, const DofNamer& name) {
                          nameOf(name, static_cast<int>(it.col())) + ".");
 }
 
-/// Factors R and C of the equilibrated matrix R A C, whose rows and columns are of order one; 1 for
+/// Factors R and C of the equilibrated matrix R A C, with rows and columns of order one; 1 for
 /// empty ones.
 struct Equilibration {
   Vector rows, columns;
@@ -55,19 +55,20 @@ struct Equilibration {
   }
 };
 
-/// Backward error of a chain's refined solution beyond which KLU2 takes over: its blocks needed
-/// pivots from outside.
+/// Backward error of a chain's refined solution above which KLU2 is used: pivots inside the blocks
+/// were not enough.
 constexpr double chainResidual = 1e-13;
-/// Columns solved and checked at a time, so that many right-hand sides of a large matrix need
-/// little memory beside the solution.
+/// Columns solved and checked at once, so that many right-hand sides of a large matrix need little
+/// memory besides the solution.
 constexpr Eigen::Index blockOfColumns = 64;
-/// Rows from which a chain is factored by blocks. Below it, both take less than a millisecond.
+/// Rows from which a chain is factored by blocks. For fewer both methods take less than a
+/// millisecond.
 constexpr int longChain = 600;
 
-/// Amesos2's KLU2 on one matrix; only this class knows Amesos2.
+/// Amesos2's KLU2 for one matrix; no other class uses Amesos2.
 class Klu2 {
  public:
-  /// False when KLU2 met a pivot that is exactly zero.
+  /// False if KLU2 finds a pivot that is exactly zero.
   bool factor(const Sparse& A) {
     if (matrix_.is_null() || !samePattern(pattern_, A)) {
       map_ = serialMap(static_cast<int>(A.rows()));
@@ -95,7 +96,7 @@ class Klu2 {
     try {
       work();
     } catch (const std::runtime_error&) {  // "KLU2 numeric factorization failed"
-      matrix_ = Teuchos::null;             // start over next time
+      matrix_ = Teuchos::null;             // start anew next time
       return false;
     }
     return true;
@@ -107,14 +108,15 @@ class Klu2 {
   Sparse pattern_;
 };
 
-/// The factors of one matrix: by blocks where it is a long chain of nodes, by MUMPS where it is
-/// large and the factors fill, else by KLU2. Blocks pivot inside blocks only, so KLU2 takes over
-/// where that is not enough.
+/// Factors of one matrix: by blocks for a long chain of nodes, by MUMPS for a large matrix with
+/// much fill, else by KLU2. Pivoting of the block factors is limited to the blocks; KLU2 is used if
+/// that is not enough.
 class Factors {
  public:
   explicit Factors(parallel::Ranks ranks) : filled_({}, ranks) {}
 
-  /// False when a pivot is exactly zero. \param newPattern it is not that of the matrix before
+  /// False if a pivot is exactly zero. \param newPattern the pattern differs from that of the
+  /// previous matrix
   bool factor(const Sparse& A, bool newPattern) {
     if (newPattern) {
       chain_ = A.rows() >= longChain && ChainFactor::isChain(A) ? ChainFactor(A) : ChainFactor();
@@ -154,7 +156,7 @@ class Factors {
   bool byBlocks_ = false, byMumps_ = false;
 };
 
-/// A motion v that the matrix resists least, seen in equilibrated coordinates y = C^-1 v.
+/// A motion v with the least resistance, from equilibrated coordinates y = C^-1 v.
 struct WeakMotion {
   Vector shape;       ///< v, of any size
   double resistance;  ///< |R A v| / |R |A| |v| |, maximum norms
@@ -168,7 +170,7 @@ WeakMotion weakestMotion(const Sparse& A, const Factors& factors, const Equilibr
     Vector next = factors.solve(y.cwiseQuotient(scale.rows)).col(0).cwiseQuotient(scale.columns);
     const double size = next.cwiseAbs().maxCoeff();
     if (!std::isfinite(size) || size == 0.0)
-      break;  // overflow: the last good y already points the way
+      break;  // overflow: the last finite y already has the right direction
     y = next / size;
   }
   const Vector v = y.cwiseProduct(scale.columns);
@@ -183,8 +185,8 @@ WeakMotion weakestMotion(const Sparse& A, const Factors& factors, const Equilibr
                    ". Hold or connect that degree of freedom, or give it a stiffness.");
 }
 
-/// The matrix has an exactly zero pivot: names the dof by inverse iteration with a small shift, A +
-/// s (R C)^-1.
+/// The matrix has an exactly zero pivot: finds the dof by inverse iteration with a small shift, A +
+/// s (R C)^-1, and throws.
 [[noreturn]] void explainZeroPivot(const Sparse& A, const DofNamer& name, parallel::Ranks ranks) {
   for (int row = 0; row < A.rows(); ++row) {
     double largest = 0.0;
@@ -241,12 +243,12 @@ struct DirectSolver::Impl {
                     "to working precision: relative resistance " + scientific(weak.resistance));
   }
 
-  /// x and the backward error that iterative refinement leaves.
+  /// x, with the backward error after iterative refinement in `residual`.
   Matrix refined(const Matrix& b) {
     Matrix x = factors.solve(b);
     Residual left = residualOf(matrix, x, b);
     residual = left.backwardError;
-    // x <- x + A^-1 (b - A x) while it helps
+    // x <- x + A^-1 (b - A x) as long as it improves
     constexpr double enough = 4.0 * std::numeric_limits<double>::epsilon();
     for (int k = 0; k < options.refinements && residual > enough && std::isfinite(residual); ++k) {
       const Matrix better = x + factors.solve(left.values);

@@ -19,39 +19,40 @@ namespace tooljoint::linalg {
 /// (counted from 1).
 using DofNamer = std::function<std::string(int)>;
 
-/// `name(i)`, or "dof i+1" when there is no namer.
+/// `name(i)`, or "dof i+1" without a namer.
 std::string nameOf(const DofNamer& name, int i);
 
 struct DirectSolverOptions {
-  double tolerance = 1e-10;  ///< largest backward error of a solution that is handed out
-  int refinements = 3;       ///< at most so many steps of iterative refinement per solve
+  double tolerance = 1e-10;  ///< largest accepted backward error of a solution
+  int refinements = 3;       ///< limit of steps of iterative refinement per solve
   double singularTolerance =
-      3.6e-15;  ///< relative size of A v below which v is a motion nothing resists (16 eps)
-  bool checkSingular = true;  ///< seek such a v after each factorisation (two extra solves)
-  parallel::Ranks ranks = parallel::Ranks::Own;  ///< All: MUMPS divides its factors among them
+      3.6e-15;  ///< relative size of A v below which v is an unresisted motion (16 eps)
+  bool checkSingular = true;  ///< search for such a v after each factorisation (two extra solves)
+  parallel::Ranks ranks = parallel::Ranks::Own;  ///< All: MUMPS divides its factors among the ranks
 };
 
 /// LU factors of one sparse matrix, and checked solutions.
 ///
 /// Every solution is checked: its backward error max_i |b - A x|_i / (|A||x| + |b|)_i is computed
 /// with the matrix itself (Oettli and Prager 1964; tiny denominators as in Arioli, Demmel, Duff
-/// 1989), improved by iterative refinement, and a ModelError is thrown when it stays above the
-/// tolerance. Needs a live Tpetra::ScopeGuard; no object may outlive it. Works alike on every rank;
-/// nothing is sent unless all ranks factor together.
+/// 1989) and improved by iterative refinement. A ModelError is thrown if it stays above the
+/// tolerance. Needs a live Tpetra::ScopeGuard; no object may outlive it. Works alike on every rank,
+/// without messages unless all ranks factor together.
 class DirectSolver {
  public:
   /// Factors A (square). ModelError: A is not square, an entry is not finite (named), A is singular
-  /// to working precision (the dof that moves most in the motion nothing resists is named).
+  /// to working precision (the dof with the largest displacement in the unresisted motion is
+  /// named).
   explicit DirectSolver(const Sparse& A, DofNamer name = {}, DirectSolverOptions options = {});
   ~DirectSolver();
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
 
-  /// Factors another matrix; the ordering is kept when the pattern is the same. Errors as the
+  /// Factors another matrix; the ordering is kept if the pattern is the same. Errors as the
   /// constructor.
   void refactor(const Sparse& A);
-  /// The same without seeking a motion that nothing resists: for one matrix of a sequence whose
-  /// first was checked.
+  /// The same without searching for an unresisted motion: for later matrices of a sequence whose
+  /// first one was checked.
   void refactorUnchecked(const Sparse& A);
 
   /// x with A x = b; b is a vector or the columns of a matrix, with size() rows.
@@ -70,13 +71,13 @@ class DirectSolver {
     return Result(transposed().solveColumns(Matrix(b)));
   }
 
-  /// A^-1 b by the factors alone, neither refined nor checked: a preconditioner.
+  /// A^-1 b by the factors only, neither refined nor checked: a preconditioner.
   Matrix apply(const Matrix& b) const;
 
   int size() const;
-  /// Negative eigenvalues of A, where its factors give them: a symmetric A, factored by MUMPS.
+  /// Negative eigenvalues of A, if its factors give them: for a symmetric A factored by MUMPS.
   std::optional<int> negativeEigenvalues() const;
-  /// Backward error of the last solve (largest of its columns); 0 before the first.
+  /// Backward error of the last solve (largest of its columns); 0 before the first one.
   double lastResidual() const;
   /// Entries of both factors, for cost reports.
   long factorEntries() const;

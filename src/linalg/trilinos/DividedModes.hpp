@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Modes of a chain whose products and solves ranks divide among themselves.
+/// Modes of a chain with products and solves divided among ranks.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace tooljoint::linalg {
 
-/// lowestModes(): matrices and modes are whole and alike on all ranks, each of which has its rows
-/// of products and solutions. K and M couple a node to itself and to the two beside it only.
-/// Collective.
+/// lowestModes() for a chain: matrices and modes are complete and equal on all ranks, each rank
+/// computes its rows of products and solutions. K and M couple a node only to itself and to its two
+/// neighbours. Collective.
 EigenPairs lowestModesOfChain(const Sparse& K, const Sparse& M, int count,
                               const EigenOptions& options, std::shared_ptr<const ChainShare> share);
 

@@ -28,21 +28,22 @@ using constants::epsilon;
 using ColumnSparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Ldlt = Eigen::SimplicialLDLT<ColumnSparse, Eigen::Lower, Eigen::AMDOrdering<int>>;
 
-/// Error of factors beyond which their pivots do not give the inertia.
+/// Error of factors above which their pivots do not give the inertia.
 constexpr double largestError = 1e-10;
-/// The same of factors without pivoting, which may be good by chance: others are tried above it.
+/// The same for factors without pivoting, which may be accurate by chance: above it, others are
+/// tried.
 constexpr double doubtfulError = 1e-13;
 
-/// Negative pivots of L D L' = A, how well the factors reproduce A, and whether others may do so
-/// better.
+/// Negative pivots of L D L' = A, how well the factors reproduce A, and the error above which other
+/// factors are tried.
 struct Inertia {
   int negative = 0;
   double error = std::numeric_limits<double>::infinity();
   double enough = doubtfulError;
 };
 
-/// The order of elimination of one pattern after the other, kept while the pattern stays: counts
-/// below several bounds take one.
+/// Elimination order of a pattern, kept as long as the pattern is the same: counts below several
+/// bounds share one.
 class KeptOrder {
  public:
   using Order = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
@@ -94,9 +95,9 @@ Inertia inertiaOf(const Sparse& A, parallel::Ranks ranks) {
   return {static_cast<int>((d.array() < 0.0).count()), backwardError(A, x, b), doubtfulError};
 }
 
-/// C A C' with C = I + scattered couplings of neighbours, diagonally dominant in its rows: the same
-/// inertia (Sylvester), but other leading minors, so that factors without pivoting exist where
-/// those of A do not (a zero diagonal, say).
+/// C A C' with C = I + scattered couplings of neighbours, diagonally dominant in its rows. It has
+/// the same inertia (Sylvester) but other leading minors, so that factors without pivoting exist
+/// even if those of A do not (for example with a zero diagonal).
 Sparse congruent(const Sparse& A, std::uint64_t seed) {
   const Matrix c = scatteredNumbers(A.rows(), 1, seed);
   Triplets entries;
@@ -158,7 +159,7 @@ std::shared_ptr<const Sparse> sharedSymmetricPart(const Sparse& A, const std::st
 }
 
 Vector definitePivots(const Sparse& M, const DofNamer& name) {
-  constexpr double none = 4.0 * epsilon;  // of the diagonal: a pivot that is rounding
+  constexpr double none = 4.0 * epsilon;  // of the diagonal: a pivot below this is rounding
   const Vector diagonal = M.diagonal();
   if (suitsMumps(M) && diagonal.minCoeff() > 0.0 && isDefinite(M, none)) return diagonal;
   Ldlt ldlt;
@@ -227,9 +228,9 @@ Vector binaryMassScale(const Sparse& K, const Sparse& M) {
 namespace {
 
 struct Decimal {
-  int digits = 0;       ///< or more than `most` where it has more
-  bool chosen = false;  ///< with a run of zeros or nines inside: a stiff spring and a soft one in
-                        ///< one sum or difference
+  int digits = 0;       ///< number of digits; above `most` if there are more
+  bool chosen = false;  ///< has an inner run of zeros or nines: a stiff and a soft spring in one
+                        ///< sum or difference
 };
 
 Decimal decimal(double x, int most) {
@@ -240,7 +241,7 @@ Decimal decimal(double x, int most) {
   for (out.digits = 1; out.digits <= most; ++out.digits) {
     const double shifted = size * std::pow(10.0, out.digits - 1 - exponent);
     if (std::abs(shifted - std::round(shifted)) > 4 * epsilon * shifted) continue;
-    // of numbers of ten digits that were cut off, one in a thousand has such a run
+    // one in a thousand numbers cut off after ten digits has such a run
     const std::string text = std::to_string(std::llround(shifted));
     out.chosen = text.find("0000") != std::string::npos || text.find("9999") != std::string::npos;
     break;
@@ -248,9 +249,9 @@ Decimal decimal(double x, int most) {
   return out;
 }
 
-/// Half a unit of the last digit of entries that a text file has cut off after 8 to 12 digits; 0
-/// where some have more, and where few have as many: those were chosen and are exact. So are whole
-/// numbers, and those with a run of zeros or nines inside.
+/// Half a unit of the last digit of entries that a text file has cut off after 8 to 12 digits. 0 if
+/// some entries have more digits, or if few have that many: those were chosen and are exact. Whole
+/// numbers and numbers with an inner run of zeros or nines count as exact too.
 double roundingOfText(const Sparse& K) {
   constexpr int fewest = 8, most = 12;
   constexpr long few = 8;  // entries: a beam element of a file has as many
@@ -270,7 +271,7 @@ double roundingOfText(const Sparse& K) {
 }  // namespace
 
 double roundingOf(const Sparse& K) {
-  constexpr int operations = 8;  // of assembly and rotation, for an entry
+  constexpr int operations = 8;  // of assembly and rotation, per entry
   int fullest = 0;
   for (int i = 0; i < K.outerSize(); ++i) {
     int entries = 0;
@@ -289,7 +290,8 @@ std::vector<char> areRounding(const Vector& values, const Matrix& shapes, const 
   const Vector bound =
       roundingOf(K) *
       shapes.cwiseAbs().cwiseProduct(absoluteProduct(K, shapes)).colwise().sum().transpose();
-  // An eigenvalue of a rigid-body motion has the rounding of the largest ones; its energy has not.
+  // The eigenvalue of a rigid-body motion has the rounding of the largest ones; its energy does
+  // not.
   const Vector energies = shapes.cwiseProduct(product(K, shapes)).colwise().sum().transpose();
   std::vector<char> small(static_cast<std::size_t>(values.size()));
   for (Eigen::Index j = 0; j < values.size(); ++j)
@@ -311,12 +313,12 @@ void recomputeErrors(EigenPairs& modes, const Sparse& K, const Sparse& M, double
   forEachEntry(K, [&](int i, int j, double value) {
     largest = std::max(largest, d[i] * std::abs(value) * d[j]);
   });
-  // Rounding of the largest stiffness reaches modes without part in it: a free coordinate of a
-  // diagonal K has |K||phi| = 0.
+  // Rounding of the largest stiffness also affects modes without a component in it: a free
+  // coordinate of a diagonal K has |K||phi| = 0.
   const double rounding = 64.0 * epsilon / tolerance * largest;
   modes.residuals.resize(modes.values.size());
   for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
-    const double defect = R.col(j).norm();  // nothing at all where there is no stiffness
+    const double defect = R.col(j).norm();  // exactly zero without stiffness
     const double scale = KSize.col(j).norm() + std::abs(modes.values[j]) * MSize.col(j).norm() +
                          rounding * dSize.col(j).norm();
     modes.residuals[j] = defect == 0.0 ? 0.0 : defect / scale;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What all eigensolvers share: checks of the input, conventions and recomputed errors of the
+/// Common parts of all eigensolvers: checks of the input, conventions and recomputed errors of the
 /// result.
 #pragma once
 
@@ -16,29 +16,29 @@ namespace tooljoint::linalg {
 /// an entry is not finite.
 Sparse symmetricPart(const Sparse& A, const std::string& what, const DofNamer& name);
 
-/// The same; where A is symmetric to the last bit, A itself, which must outlive the result.
+/// The same; if A is bitwise symmetric, A itself, which must outlive the result.
 std::shared_ptr<const Sparse> sharedSymmetricPart(const Sparse& A, const std::string& what,
                                                   const DofNamer& name);
 
-/// The pivot of each dof in LDL' factors of the symmetric M; of a large one its diagonal entry.
-/// ModelError naming the dof when M is not positive definite.
+/// Pivot of each dof in LDL' factors of the symmetric M; for a large M its diagonal entry.
+/// ModelError naming the dof if M is not positive definite.
 Vector definitePivots(const Sparse& M, const DofNamer& name);
 
-/// 1 / sqrt(M_ii), which makes translations, rotations and modal coordinates comparable; dofs
-/// without mass take part by their stiffness.
+/// 1 / sqrt(M_ii), which makes translations, rotations and modal coordinates comparable; massless
+/// dofs are scaled by their stiffness.
 Vector unitMassScale(const Sparse& K, const Sparse& M);
 
-/// unitMassScale to the nearest powers of two: scaling by them rounds nothing.
+/// unitMassScale rounded to powers of two: scaling by them has no rounding errors.
 Vector binaryMassScale(const Sparse& K, const Sparse& M);
 
-/// What rounding may leave of phi'K phi, as a fraction of |phi|'|K||phi|: eps for every entry of
-/// the fullest row and for the few operations that made the entry (N. J. Higham, Accuracy and
-/// Stability of Numerical Algorithms (2002), section 3.5), or half a unit of the last digit that a
-/// text file has left of its entries.
+/// Rounding error of phi'K phi as a fraction of |phi|'|K||phi|: eps for every entry of the fullest
+/// row and for the few operations that computed the entry (N. J. Higham, Accuracy and Stability of
+/// Numerical Algorithms (2002), section 3.5), or half a unit of the last digit of entries read from
+/// a text file.
 double roundingOf(const Sparse& K);
 
-/// phi'K phi = value is zero but for rounding: |value|, or |phi'K phi| as the shape gives it, is at
-/// most roundingOf(K) |phi|'|K||phi|. Rigid-body motions are.
+/// Whether phi'K phi = value is zero up to rounding: |value|, or |phi'K phi| computed from the
+/// shape, is at most roundingOf(K) |phi|'|K||phi|. This holds for rigid-body motions.
 bool isRounding(double value, const Vector& phi, const Sparse& K);
 /// The same for the columns of `shapes`.
 std::vector<char> areRounding(const Vector& values, const Matrix& shapes, const Sparse& K);
@@ -49,13 +49,13 @@ double eigenvalueScale(const Sparse& K, const Sparse& M);
 /// Sorts by value, mass-normalises and fixes the signs.
 void applyConventions(EigenPairs& modes, const Sparse& M);
 
-/// Fills in residuals and orthogonality. ConvergenceError when they exceed the limits.
+/// Sets residuals and orthogonality. ConvergenceError if they exceed the limits.
 void recomputeErrors(EigenPairs& modes, const Sparse& K, const Sparse& M, double tolerance,
                      double orthogonality);
 
-/// Number of modes to keep: `count`, or more when the next values are within `tolerance` (relative)
-/// of the last one; values closer than `floor` are the same value (rigid-body modes). Returns
-/// values.size() when no gap was found.
+/// Number of modes to keep: `count`, or more if the next values are within `tolerance` (relative)
+/// of the last one. Values closer than `floor` are equal (rigid-body modes). Returns values.size()
+/// if there is no gap.
 int keepWholePairs(const Vector& values, int count, double tolerance, double floor);
 
 /// The first `count` modes.

@@ -32,15 +32,15 @@ namespace tooljoint::linalg {
 namespace {
 
 using constants::epsilon;
-/// Residual of the iteration as a part of the accuracy requested. Rounding of long strings, eps
-/// times the largest over the lowest eigenvalue, does not allow much less.
+/// Residual of the iteration as a part of the requested accuracy. The rounding of long strings, eps
+/// times the ratio of the largest and the lowest eigenvalue, does not allow much less.
 constexpr double iterationShare = 1e-4;
 
-/// An eigenvalue below this part of the largest is too near zero for a shift of zero.
+/// An eigenvalue below this part of the largest is too close to zero for a shift of zero.
 constexpr double wellAboveZero = 1e-10;
 
-/// K_ii over the pivot of its mass, over the median of these, above which a dof is light: rounding
-/// of the largest eigenvalues, which it makes, reaches the lowest ones.
+/// A dof is light if the ratio of K_ii to the pivot of its mass is more than this many times the
+/// median ratio. Light dofs cause the largest eigenvalues, whose rounding affects the lowest ones.
 constexpr double lightDof = 1e6;
 
 double median(Vector values) {
@@ -50,14 +50,14 @@ double median(Vector values) {
   return *middle;
 }
 
-/// A checked symmetric pencil and what is derived from it once; k and m outlive it.
+/// A checked symmetric pencil with derived data; k and m must outlive it.
 struct Pencil {
   std::shared_ptr<const Sparse> symmetricK, symmetricM;
   const Sparse &K, &M;
   double middle = 0;      ///< median of K_ii over the pivots of M
-  double scale = 0;       ///< lower bound of the largest eigenvalue, but for those of light dofs
+  double scale = 0;       ///< lower bound of the largest eigenvalue, without light dofs
   bool hasLight = false;  ///< some dofs are light
-  std::shared_ptr<const ChainShare> share;  ///< of this rank in products and solves; null: none
+  std::shared_ptr<const ChainShare> share;  ///< for products and solves on this rank; null: none
 
   Pencil(const Sparse& k, const Sparse& m, const DofNamer& name)
       : symmetricK(sharedSymmetricPart(k, "stiffness", name)),
@@ -78,9 +78,9 @@ struct Pencil {
   int below(double bound) const { return eigenvaluesBelow(K, M, bound); }
 };
 
-/// A shift below all eigenvalues: zero when the lowest is well above it, else about minus the first
-/// elastic eigenvalue (nearer to the rigid-body modes it would spoil the others), or further down
-/// for an indefinite K.
+/// A shift below all eigenvalues: zero if the lowest is well above it. Otherwise about minus the
+/// first elastic eigenvalue (a shift closer to the rigid-body modes would make the others
+/// inaccurate), or lower for an indefinite K.
 double shiftBelowSpectrum(const Pencil& pencil, const EigenOptions& options) {
   if (options.shift) {
     const int below = pencil.below(*options.shift);
@@ -99,9 +99,9 @@ double shiftBelowSpectrum(const Pencil& pencil, const EigenOptions& options) {
   return -size;
 }
 
-/// Minus the end of the widest gap between the eigenvalues above zero, where few lie far below all
-/// others, as those of a stiff body on soft mounts: at zero they would leave the others no digits.
-/// Nothing where there is no such gap.
+/// Minus the upper end of the widest gap between the positive eigenvalues, if few of them are far
+/// below all others, as for a stiff body on soft mounts: with a shift of zero they would leave the
+/// others no digits. Empty if there is no such gap.
 std::optional<double> shiftBesideLowest(const Pencil& pencil, int wanted) {
   constexpr int fewest = 3;  // decades of a gap
   int before = 0, wide = 0, widest = 0;
@@ -116,8 +116,8 @@ std::optional<double> shiftBesideLowest(const Pencil& pencil, int wanted) {
   return widest < fewest ? std::nullopt : std::optional<double>(-end);
 }
 
-/// Parameters of one attempt. A restart of BlockKrylovSchur may cut a pair of equal eigenvalues
-/// that rounding made complex in the projected problem and then fails; later attempts have larger
+/// Parameters of one attempt. A restart of BlockKrylovSchur may split a pair of equal eigenvalues
+/// that rounding made complex in the projected problem, and then fails. Later attempts have larger
 /// blocks and bases, so large that they need no restart.
 Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int attempt,
                                         const EigenOptions& options) {
@@ -139,18 +139,18 @@ Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int at
   return list;
 }
 
-/// x'A x of every column.
+/// x'A x for every column.
 Vector energies(const Sparse& A, const Matrix& X) {
   return X.cwiseProduct(product(A, X)).colwise().sum().transpose();
 }
 
-/// |x|'|A||x| of every column.
+/// |x|'|A||x| for every column.
 Vector absoluteEnergies(const Sparse& A, const Matrix& X) {
   return X.cwiseAbs().cwiseProduct(absoluteProduct(A, X)).colwise().sum().transpose();
 }
 
-/// The factors of K - sigma M: those of the options, or own ones, which make room when something
-/// else of their size is computed and are made again when they are needed.
+/// Factors of K - sigma M: those of the options, or own ones. Own factors are released while other
+/// data of their size are computed, and computed again on demand.
 class ShiftedFactors {
  public:
   ShiftedFactors(const Pencil& pencil, const DirectSolver& given)
@@ -159,7 +159,7 @@ class ShiftedFactors {
       : pencil_(pencil), shift_(shift), name_(std::move(name)) {}
 
   double shift() const { return shift_; }
-  /// (K - sigma M)^-1 M x. \param refine  and checked
+  /// (K - sigma M)^-1 M x. \param refine also refines and checks
   Matrix solveMass(const Matrix& x, bool refine) {
     stopIfInterrupted();
     if (divided() != nullptr)
@@ -171,7 +171,7 @@ class ShiftedFactors {
   Matrix mass(const Matrix& x) {
     return divided() != nullptr ? divided()->multiply(pencil_.M, x) : product(pencil_.M, x);
   }
-  /// Whether the factors are those of a matrix so large that solutions are not refined at first.
+  /// Whether the factors are those of a large matrix, whose solutions are not refined at first.
   bool areLarge() { return divided() == nullptr && get().negativeEigenvalues().has_value(); }
   const DirectSolver& get() {
     if (given_ != nullptr) return *given_;
@@ -182,11 +182,11 @@ class ShiftedFactors {
     return *own_;
   }
   void makeRoom() {
-    if (own_ && own_->negativeEigenvalues().has_value()) own_.reset();  // of a large matrix
+    if (own_ && own_->negativeEigenvalues().has_value()) own_.reset();  // for a large matrix
   }
 
  private:
-  /// Those that the ranks share; null where there are none.
+  /// Factors shared by the ranks; null if there are none.
   const DividedSolves* divided() {
     if (given_ == nullptr && pencil_.share && !triedToDivide_) {
       const Stage stage("factorisation for modes");
@@ -205,8 +205,8 @@ class ShiftedFactors {
   bool triedToDivide_ = false;
 };
 
-/// |phi - (lambda - sigma) (K - sigma M)^-1 M phi|_M per mode: bounds the relative error of lambda
-/// - sigma.
+/// |phi - (lambda - sigma) (K - sigma M)^-1 M phi|_M per mode: a bound of the relative error of
+/// lambda - sigma.
 void requireAccurate(const EigenPairs& modes, const Pencil& pencil, ShiftedFactors& factors,
                      double tolerance) {
   const double shift = factors.shift();
@@ -215,8 +215,8 @@ void requireAccurate(const EigenPairs& modes, const Pencil& pencil, ShiftedFacto
   const Vector sizes = energies(pencil.M, errors).cwiseMax(0.0).cwiseSqrt(),
                stiffness = absoluteEnergies(pencil.K, modes.vectors);
   for (int j = 0; j < modes.count(); ++j) {
-    // What rounding in the lowest mode leaves in this one, eps nu_1 / nu_j, and what rounding of K
-    // itself does to lambda - sigma.
+    // Rounding of the lowest mode in this one, eps nu_1 / nu_j, and the effect of rounding of K on
+    // lambda - sigma.
     const double rounding =
         1e3 * epsilon * above[j] / above[0] + 4.0 * epsilon * stiffness[j] / above[j];
     if (!(sizes[j] <= tolerance + rounding))
@@ -227,8 +227,8 @@ void requireAccurate(const EigenPairs& modes, const Pencil& pencil, ShiftedFacto
   }
 }
 
-/// Eigenvalues from the shift-inverted values nu or from the Rayleigh quotients, whichever rounding
-/// spoils less.
+/// Eigenvalues from the shift-inverted values nu or from the Rayleigh quotients, whichever have
+/// less rounding.
 Vector bestValues(const Vector& nu, double shift, const Matrix& shapes, const Pencil& pencil) {
   const Vector mass = energies(pencil.M, shapes),
                quotients = energies(pencil.K, shapes).cwiseQuotient(mass),
@@ -242,10 +242,10 @@ Vector bestValues(const Vector& nu, double shift, const Matrix& shapes, const Pe
   return values;
 }
 
-/// One step of subspace iteration for the upper modes: the Krylov basis leaves rounding of eps nu_1
-/// / nu_j in mode j, most of it in directions far above the spectrum that is wanted. An inverse
-/// iteration removes those, a projection onto the complement of the lower modes what it stirs up
-/// there, and Rayleigh-Ritz with K separates the rest.
+/// One step of subspace iteration for the upper modes. The Krylov basis leaves rounding of eps nu_1
+/// / nu_j in mode j, most of it in directions far above the wanted spectrum. An inverse iteration
+/// removes these, a projection onto the complement of the lower modes removes the components it
+/// amplifies there, and Rayleigh-Ritz with K separates the rest.
 void polishUpperModes(EigenPairs& modes, const Pencil& pencil, ShiftedFactors& factors) {
   const double shift = factors.shift();
   const int count = modes.count();
@@ -266,7 +266,7 @@ void polishUpperModes(EigenPairs& modes, const Pencil& pencil, ShiftedFactors& f
   modes.values.tail(upper) = ritz.values;
 }
 
-/// The `wanted` modes nearest above the shift by Anasazi. ConvergenceError when it does not
+/// The `wanted` modes closest above the shift, by Anasazi. ConvergenceError if it does not
 /// converge.
 EigenPairs krylovSchur(const Pencil& pencil, ShiftedFactors& factors, int wanted, int attempt,
                        const EigenOptions& options) {
@@ -276,9 +276,9 @@ EigenPairs krylovSchur(const Pencil& pencil, ShiftedFactors& factors, int wanted
   const auto map = serialMap(pencil.size());
   Teuchos::ParameterList list = solverParameters(pencil, wanted, attempt, options);
   const int block = list.get<int>("Block Size");
-  // nu phi = (K - sigma M)^-1 M phi,  lambda = sigma + 1/nu. The first attempt at a large pencil
-  // takes solutions as the factors give them: refining takes three times as long, and the checks of
-  // the modes refine theirs.
+  // nu phi = (K - sigma M)^-1 M phi, lambda = sigma + 1/nu. The first attempt at a large pencil
+  // uses unrefined solutions: refinement takes three times as long, and the checks of the modes
+  // refine their own.
   const bool refine = attempt > 0 || !factors.areLarge();
   const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(
       new FunctionOperator(map, [&](const Matrix& x) { return factors.solveMass(x, refine); }));
@@ -316,8 +316,7 @@ EigenPairs krylovSchur(const Pencil& pencil, ShiftedFactors& factors, int wanted
   return modes;
 }
 
-/// Middle of the last gap among the values that is at or after position `from`; nothing when there
-/// is none.
+/// Middle of the last gap among the values at or after position `from`; empty if there is none.
 std::optional<std::pair<int, double>> lastGap(const Vector& values, int from, double floor) {
   for (int j = static_cast<int>(values.size()) - 1; j >= from; --j) {
     const double gap = values[j] - values[j - 1];
@@ -327,9 +326,9 @@ std::optional<std::pair<int, double>> lastGap(const Vector& values, int from, do
   return std::nullopt;
 }
 
-/// At least the `count` lowest modes of a pencil with light dofs: those below these dofs from the
-/// inverse about the middle of the spectrum, in which they are no larger than rounding, and others
-/// beside them.
+/// At least the `count` lowest modes of a pencil with light dofs. Modes below those of the light
+/// dofs come from the inverse about the middle of the spectrum, in which light dofs are no larger
+/// than rounding; the others are added.
 EigenPairs modesBesideLight(const Pencil& pencil, int count, EigenOptions options) {
   const int below = pencil.below(pencil.scale);
   options.shift = -pencil.middle;
@@ -363,8 +362,8 @@ EigenPairs denseModes(const Pencil& pencil, int count, const EigenOptions& optio
   return modes;
 }
 
-/// One attempt, complete with all checks; ConvergenceError says which of them failed. `extra` modes
-/// beyond `count` show where the last cluster ends, and grow when they do not.
+/// One attempt, with all checks; ConvergenceError names the failed one. `extra` modes beyond
+/// `count` show where the last cluster ends; their number is increased if they do not.
 EigenPairs checkedPairs(const Pencil& pencil, ShiftedFactors& factors, int count, int& extra,
                         int attempt, const EigenOptions& options) {
   const double floor = 1e-14 * pencil.scale;
@@ -384,7 +383,7 @@ EigenPairs checkedPairs(const Pencil& pencil, ShiftedFactors& factors, int count
   truncate(modes, keep);
   requireAccurate(modes, pencil, factors, options.tolerance);
   factors.makeRoom();
-  // Sylvester: as many eigenvalues lie below a gap as were found below it.
+  // Sylvester: the number of eigenvalues below a gap must be the number found there.
   const int below = pencil.below(gap->second);
   if (below != gap->first)
     throw ConvergenceError(std::to_string(below) + " eigenvalues lie below " +
@@ -394,7 +393,7 @@ EigenPairs checkedPairs(const Pencil& pencil, ShiftedFactors& factors, int count
   return modes;
 }
 
-/// The modes nearest above the shift of the factors.
+/// The modes closest above the shift of the factors.
 EigenPairs modesAbove(ShiftedFactors factors, const Pencil& pencil, int count,
                       const EigenOptions& options) {
   std::string reason;

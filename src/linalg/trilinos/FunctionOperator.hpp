@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Any function of columns as a rank-local Tpetra operator, for Anasazi, Belos and Thyra. Included
-/// by solver sources only.
+/// only by solver sources.
 #pragma once
 
 #include <functional>

@@ -16,11 +16,11 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// Residual of a Ritz pair that has converged: Newton's method does the rest.
+/// Residual at which a Ritz pair has converged: Newton's method refines it further.
 constexpr double convergedNearby = 1e-10;
-/// Vectors of a space at most: room for some 150 modes.
+/// Limit of the vectors of a space: enough for about 150 modes.
 constexpr int largestNearbySpace = 400;
-/// Of |tau|: what a shift that is an eigenvalue moves by.
+/// Relative displacement of a shift that is an eigenvalue.
 constexpr double besideEigenvalue = 1e-3;
 
 /// (L - tau)^-1 for the linearisation s z = L z of the pencil, z = (x, s x / |tau|):
@@ -48,7 +48,7 @@ class ComplexInverse {
     return out;
   }
 
-  /// phi -> -(s - tau) Q(tau)^-1 ((s + tau) M + C) phi, of which modes are the fixed points.
+  /// phi -> -(s - tau) Q(tau)^-1 ((s + tau) M + C) phi; modes are its fixed points.
   ComplexVector again(Complex s, const ComplexVector& phi) const {
     const ComplexVector force = (s + shift_) * times(pencil_.M, phi) + times(pencil_.C, phi);
     return -(s - shift_) * factors_.solve(force).col(0);
@@ -71,7 +71,7 @@ std::unique_ptr<ComplexInverse> inverseNear(const ScaledPencil& pencil, Complex 
   }
 }
 
-/// Ritz pairs by the distance of their values from the centre.
+/// Ritz pairs, ordered by the distance of their values from the centre.
 class Nearby {
  public:
   Nearby(const RitzPairs& ritz, Complex shift, const DampedTarget& target) {
@@ -94,7 +94,7 @@ class Nearby {
     passed_ = !beyond_.empty();
   }
 
-  /// All wanted pairs have converged, and there are others farther away.
+  /// Whether all wanted pairs have converged and there are others farther away.
   bool settled() const { return enough_ && passed_ && worst_ <= convergedNearby; }
   /// Positions for s() and column(), nearest first.
   const std::vector<std::size_t>& wanted() const { return wanted_; }
@@ -162,8 +162,8 @@ QuadraticModes dampedModesNear(const Sparse& M, const Sparse& C, const Sparse& K
       return presented(pencil, found, static_cast<int>(found.values.size()));
     }
     if (known) {
-      // A block finds no more than so many copies of a repeated value: a start beside all that has
-      // been found shows whether there are others.
+      // A block finds only as many copies of a repeated value as it has columns. An additional
+      // start shows whether there are others.
       confirmed = nearby.wanted().size();
       space.startBeside(startColumns, 37 + static_cast<std::uint64_t>(columns));
       columns = std::min(all, columns + controlSteps * startColumns);

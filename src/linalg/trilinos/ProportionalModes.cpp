@@ -14,7 +14,7 @@ namespace {
 
 using constants::epsilon;
 
-/// a_ij - a_ji is rounding of the entries.
+/// Whether a_ij - a_ji is rounding of the entries.
 bool isSymmetric(const Sparse& A) {
   const Sparse transposed = A.transpose(), difference = A - transposed;
   const double largest = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.0;
@@ -27,8 +27,8 @@ bool isSymmetric(const Sparse& A) {
   return true;
 }
 
-/// C = alpha M + beta K to 1e-12 of the size of the rows, what rounding of the entries and of the
-/// fit leaves: proportional damping, none at all included.
+/// Proportional damping, including none: C = alpha M + beta K to 1e-12 of the size of the rows,
+/// which allows for rounding of the entries and of the fit.
 struct Proportional {
   double alpha = 0, beta = 0;
   bool isThat(const ScaledPencil& pencil) const {
@@ -42,7 +42,8 @@ struct Proportional {
   }
 };
 
-/// One coefficient alone where that is enough: the other would be rounding, and move what rests.
+/// Uses only one coefficient if that is enough: the other one would be rounding, and rigid-body
+/// motions would have s other than 0.
 std::optional<Proportional> proportionalDamping(const ScaledPencil& pencil) {
   const double mm = pencil.M.squaredNorm(), kk = pencil.K.squaredNorm(),
                mk = pencil.M.cwiseProduct(pencil.K).sum();

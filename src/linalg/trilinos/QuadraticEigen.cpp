@@ -21,24 +21,25 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// The largest residual of the wanted Ritz pairs is at rounding when it is below the first of
-/// these, or below the second and no better than half of what it was in a space four fifths the
-/// size.
+/// The largest residual of the wanted Ritz pairs has reached rounding if it is below the first
+/// value, or if it is below the second value and has not fallen to half of its value in a space
+/// four fifths the size.
 constexpr double converged = 1e-13, stagnant = 1e-7;
-/// Vectors of a space at most, or twelve times the number of modes: all there are of a model of 750
-/// dofs.
+/// Limit of the vectors of a space, or twelve times the number of modes: all vectors of a model of
+/// 750 dofs.
 constexpr int largestSpace = 1500;
-/// A search for more modes takes minutes and ends with a signal; after a shorter one the caller
-/// looks, which may have something to keep.
+/// A search for more modes than this takes minutes and ends at a signal. After a shorter one the
+/// caller checks the signal, because it may have something to keep.
 constexpr std::size_t longSearch = 200;
-/// Values s -> infinity, nu = 1 / (s - sigma) -> 0, stand in Jordan chains where neither mass nor
-/// damping acts: rounding leaves their nu at the root of rounding, and an answer to the residual
-/// that has nothing of the vector. Below this part of the largest nu that is what they are.
+/// Values s -> infinity, nu = 1 / (s - sigma) -> 0, occur in Jordan chains at dofs with neither
+/// mass nor damping. Rounding makes their nu as large as the root of rounding, and leaves the
+/// response to the residual without any component of the vector. Values with nu below this part of
+/// the largest one and such a response are infinite.
 constexpr double noFiniteValue = 1e-6, noDigits = 0.5;
-/// Of the vector of a value that is zero: rounding tears the Jordan chains of rigid-body motions,
-/// and their shapes have half the digits of others.
+/// Allowed error of the vector of a zero value: rounding splits the Jordan chains of rigid-body
+/// motions, so their shapes have half the digits of others.
 constexpr double chainError = 1e-6;
-/// Others have a nu of rounding.
+/// Other values with nu below this part of the largest are rounding.
 constexpr double noDigitsOfNu = 1e-13;
 
 /// (L - sigma)^-1 for the linearisation s z = L z of the pencil, z = (x, s x / sigma), sigma > 0.
@@ -52,7 +53,7 @@ class ShiftedInverse {
 
   double shift() const { return shift_; }
 
-  /// x' = -Q(sigma)^-1 ((C + sigma M) x + M s x),  v' = x / sigma + x'
+  /// x' = -Q(sigma)^-1 ((C + sigma M) x + M s x), v' = x / sigma + x'
   Matrix operator()(const Matrix& z) const {
     const auto n = pencil_.size();
     const Matrix x = z.topRows(n), v = z.bottomRows(n);
@@ -62,9 +63,9 @@ class ShiftedInverse {
     return out;
   }
 
-  /// phi -> -(s - sigma) Q(sigma)^-1 ((s + sigma) M + C) phi, of which modes are the fixed points.
-  /// The difference is Q(sigma)^-1 Q(s) phi, the answer to the residual, without the cancellation
-  /// of Q(s) phi.
+  /// phi -> -(s - sigma) Q(sigma)^-1 ((s + sigma) M + C) phi; modes are its fixed points. The
+  /// difference is Q(sigma)^-1 Q(s) phi, the response to the residual, without the cancellation in
+  /// Q(s) phi.
   ComplexVector again(Complex s, const ComplexVector& phi) const {
     const ComplexVector force = (s + shift_) * times(pencil_.M, phi) + times(pencil_.C, phi);
     const Matrix parts =
@@ -80,7 +81,8 @@ class ShiftedInverse {
   DirectSolver factors_;
 };
 
-/// At the shift, or a little beside it where Q(sigma) is singular: an eigenvalue.
+/// Inverse at the shift, or slightly beside it if the shift is an eigenvalue (Q(sigma) is
+/// singular).
 std::unique_ptr<ShiftedInverse> inverseNear(const ScaledPencil& pencil, double shift,
                                             const DofNamer& name) {
   constexpr int attempts = 3;
@@ -95,16 +97,16 @@ double largestNu(const RitzPairs& ritz) {
   return ritz.values.size() > 0 ? ritz.values.cwiseAbs().maxCoeff() : 0.0;
 }
 
-/// nu below which a value may be infinite; (L - sigma)^-1 is at least of the size 1 / sigma.
+/// nu below which a value may be infinite; the norm of (L - sigma)^-1 is at least 1 / sigma.
 double infiniteNu(const RitzPairs& ritz, double shift) {
   return noFiniteValue * std::max(largestNu(ritz), 1.0 / shift);
 }
 
-/// Beyond this many times the fastest diagonal rate no value is finite.
+/// No finite value is beyond this many times the fastest diagonal rate.
 constexpr double beyondAll = 1e3;
 
-/// The number of finite values, the degree of det Q(s): log2 |det Q(2 R) / det Q(R)| at an R beyond
-/// all of them. Of a regular mass 2 n, and of one of which a Krylov space never holds all.
+/// Number of finite values, the degree of det Q(s): log2 |det Q(2 R) / det Q(R)| at an R beyond all
+/// of them. 2 n for a regular mass, and for a model too large for a Krylov space with all values.
 int finiteValues(const ScaledPencil& pencil) {
   const auto n = static_cast<int>(pencil.size());
   if (!pencil.singularMass || 2 * n > largestSpace) return 2 * n;
@@ -125,13 +127,13 @@ int finiteValues(const ScaledPencil& pencil) {
       std::lround((twice.logDeterminant() - once.logDeterminant()) / std::log(2.0)));
 }
 
-/// Values with Im s >= 0 by |s|, and their columns of the Ritz vectors.
+/// Values with Im s >= 0 by |s|, with their columns of the Ritz vectors.
 struct Upper {
   std::vector<Complex> s;
   std::vector<Eigen::Index> column;
   std::vector<double> residual;
 
-  /// The first `finite` ones, conjugates counted, without those whose nu is rounding, or below
+  /// The first `finite` values, counting conjugates, without those whose nu is rounding or below
   /// `infinite`.
   Upper(const RitzPairs& ritz, double shift, int finite, double infinite = 0.0) {
     const double largest = largestNu(ritz);
@@ -152,7 +154,7 @@ struct Upper {
       residual.push_back(ritz.residuals[j]);
     }
   }
-  /// Largest residual of the lowest `wanted` ones; infinite when there are fewer.
+  /// Largest residual of the lowest `wanted` values; infinite if there are fewer.
   double worst(std::size_t wanted) const {
     if (s.size() < wanted) return std::numeric_limits<double>::infinity();
     return *std::max_element(residual.begin(),
@@ -164,9 +166,10 @@ struct Upper {
   }
 };
 
-/// The largest of the lowest `wanted` |s|: of a singular mass of those that vibrate. What has
-/// damping alone relaxes at -k/c, as far out as its damping is small, and beside that all others
-/// would seem to be rigid-body motions; and these, twice each, may be all of the lowest.
+/// Largest of the lowest `wanted` |s|; for a singular mass the largest of the lowest vibrations.
+/// Dofs with damping but no mass relax at -k/c. With little damping these values are very large,
+/// and the vibrations would look like rigid-body modes beside them. Rigid-body modes are counted
+/// twice (Jordan chains) and could fill the list. So only vibrations count.
 double farWanted(const ScaledPencil& pencil, const Upper& found, std::size_t wanted) {
   double far = 0;
   std::size_t counted = 0;
@@ -176,8 +179,8 @@ double farWanted(const ScaledPencil& pencil, const Upper& found, std::size_t wan
   return far > 0 ? far : std::abs(found.s[std::min(found.s.size(), wanted) - 1]);
 }
 
-/// 1e-4 sqrt(k_ii / m_ii) of the median dof. A mean would be that of dofs that hardly move: where
-/// little residual flexibility is left, boundary dofs of MacNeal's basis have 1e15 times the
+/// 1e-4 sqrt(k_ii / m_ii) of the median dof. A mean would be dominated by dofs that hardly move:
+/// with little residual flexibility left, boundary dofs of MacNeal's basis have 1e15 times the
 /// stiffness of the modes and no mass of their own.
 double firstShift(const ScaledPencil& pencil) {
   const Vector k = pencil.K.diagonal().cwiseAbs(), m = pencil.M.diagonal();
@@ -190,8 +193,8 @@ double firstShift(const ScaledPencil& pencil) {
   return 1e-4 * std::sqrt(*middle);
 }
 
-/// `near` or a little below, with no value within a tenth: at the shift itself, as one that grows
-/// without vibration would be, its nu leaves all others no digits.
+/// `near` or a little less, with no value within a tenth. A value at the shift itself, such as one
+/// that grows without vibration, would leave all others no digits, because its nu is too large.
 double besideValues(const Upper& found, double near) {
   constexpr int attempts = 8;
   for (int attempt = 0; attempt < attempts; ++attempt, near *= 0.8)
@@ -201,9 +204,9 @@ double besideValues(const Upper& found, double near) {
   return near;
 }
 
-/// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 separates the wanted
-/// values apart and Jordan chains at zero do not swamp them. Where all that is wanted are these, a
-/// shift as small as they are has no inverse, and the one before serves.
+/// Inverse at about the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 separates the
+/// wanted values, and Jordan chains at zero do not dominate. If only rigid-body motions are wanted,
+/// a shift as small as their values has no inverse, and the previous one is used.
 std::unique_ptr<ShiftedInverse> goodInverse(const ScaledPencil& pencil, std::size_t wanted,
                                             int finite, const DofNamer& name) {
   double shift = firstShift(pencil);
@@ -235,11 +238,11 @@ std::unique_ptr<ShiftedInverse> goodInverse(const ScaledPencil& pencil, std::siz
   return inverse;
 }
 
-/// One mode of each independent motion at zero, the first ones of `values`. A free body without
-/// damping has every one of them twice, in a Jordan chain, which rounding tears into two values
-/// with nearly the same vector. With gyroscopics two motions may share one complex vector, since
-/// rounding makes a pair of their values. These vectors span the motions, but any two of them may
-/// be nearly parallel: their singular vectors are taken, of half as many as there are at least.
+/// Keeps one mode of each independent motion at zero; these are the first ones of `values`. A free
+/// body without damping has each of them twice, in a Jordan chain, which rounding splits into two
+/// values with nearly the same vector. With gyroscopics two motions may share one complex vector,
+/// because rounding makes a pair of their values. The vectors span the motions, but some may be
+/// nearly parallel. So their singular vectors are used, at least half as many as there are vectors.
 void keepIndependentZeros(const ShiftedInverse& inverse, std::vector<Complex>& values,
                           std::vector<ComplexVector>& vectors) {
   const auto firstOther =
@@ -248,7 +251,7 @@ void keepIndependentZeros(const ShiftedInverse& inverse, std::vector<Complex>& v
   if (zeros == 0) return;
   std::vector<Vector> columns;
   for (auto phi = vectors.begin(); phi != vectors.begin() + zeros; ++phi) {
-    // of a real shape times a complex number one part may be rounding: it must stay as small
+    // not scaled: one part of a real shape times a complex number may be rounding
     const ComplexVector unit = phi->normalized();
     columns.push_back(unit.real());
     if (!unit.imag().isZero(0.0)) columns.push_back(unit.imag());
@@ -256,7 +259,7 @@ void keepIndependentZeros(const ShiftedInverse& inverse, std::vector<Complex>& v
   Matrix all(columns.front().size(), sizeOf(columns));
   for (int j = 0; j < all.cols(); ++j) all.col(j) = columns[at(j)];
   const auto svd = singularValues(all, SingularVectors::Thin);
-  constexpr double dependent = 1e-3;  // chains part by the root of rounding
+  constexpr double dependent = 1e-3;  // chains are split by the root of rounding
   const auto large = (svd.values.array() > dependent * svd.values[0]).count();
   const Eigen::Index kept = std::max<Eigen::Index>(large, (all.cols() + 1) / 2);
   vectors.erase(vectors.begin(), vectors.begin() + zeros);
@@ -267,8 +270,9 @@ void keepIndependentZeros(const ShiftedInverse& inverse, std::vector<Complex>& v
   }
 }
 
-/// Where a mode is to be sought: a real value of a singular mass at the massless dof that
-/// relaxes fastest, at -k/c, of which the vector may have no digit; others where they move most.
+/// Location of a mode for messages. For a real value with a singular mass it is the massless dof
+/// that relaxes fastest, at -k/c, because the vector may have no digits; otherwise the dof that
+/// moves most.
 std::string placeOf(const ScaledPencil& pencil, Complex s, const ComplexVector& phi,
                     const DofNamer& name) {
   const Vector k = pencil.K.diagonal(), c = pencil.C.diagonal(), m = pencil.M.diagonal();
@@ -287,10 +291,9 @@ std::string placeOf(const ScaledPencil& pencil, Complex s, const ComplexVector& 
   return " It moves most at " + nameOf(name, static_cast<int>(largest)) + ".";
 }
 
-/// The two shapes of a real value that stands twice, as that of rigid-body motions damped by mass
-/// does: rounding makes a pair of it, and the real and imaginary parts of the vector of the pair
-/// are shapes, each by itself. None where they are not: the pair is one motion near critical
-/// damping.
+/// The two shapes of a double real value, such as that of rigid-body motions with mass-proportional
+/// damping. Rounding makes a complex pair of it, and the real and imaginary parts of its vector are
+/// both shapes. Empty if they are not: the pair is one motion near critical damping.
 std::optional<Matrix> shapesOfTwofold(const ScaledPencil& pencil, const ShiftedInverse& inverse,
                                       Complex s, const ComplexVector& phi) {
   constexpr double torn = 1e-6;  // Im s / |s|: rounding of a twofold value, with a margin
@@ -308,8 +311,8 @@ std::optional<Matrix> shapesOfTwofold(const ScaledPencil& pencil, const ShiftedI
   return shapes;
 }
 
-/// The first `wanted` pairs, without those that are infinite and repeated zeros. ConvergenceError
-/// where a finite one is not accurate.
+/// The first `wanted` pairs, without infinite ones and repeated zeros. ConvergenceError if a finite
+/// one is not accurate.
 DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse,
                          const GrowingKrylov<double>& space, const Upper& found,
                          const RitzPairs& ritz, std::size_t wanted, const DofNamer& name) {
@@ -352,7 +355,7 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
   return out;
 }
 
-/// The lowest `count` modes, fewer where there are fewer finite ones.
+/// The lowest `count` modes, fewer if there are fewer finite ones.
 DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& name) {
   const int all = 2 * static_cast<int>(pencil.size());
   auto wanted = static_cast<std::size_t>(count);
@@ -365,7 +368,7 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
     space.start(startColumns, 23);
   const int limit = std::min(all, std::max(largestSpace, 12 * static_cast<int>(wanted)));
   int columns = std::min(limit, 3 * static_cast<int>(wanted) + 4 * startColumns);
-  std::size_t confirmed = 0;  // values below `bound` after the last control
+  std::size_t confirmed = 0;  // values below `bound` at the last check
   double bound = -1;
   double before = std::numeric_limits<double>::infinity();  // largest residual in the smaller space
   for (;;) {
@@ -387,8 +390,8 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
       columns = std::min(limit, columns + std::max(2 * startColumns, columns / 4));
       continue;
     }
-    // A block finds no more than so many copies of a repeated value: a start beside all that has
-    // been found shows whether there are others.
+    // A block finds only as many copies of a repeated value as it has columns. An additional start
+    // shows whether there are others.
     if (!whole && (bound < 0 || found.below(bound) != confirmed)) {
       bound = std::abs(found.s[wanted - 1]) * (1 + 1e-6);
       confirmed = found.below(bound);
@@ -400,7 +403,7 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
     DampedModes modes = checkedModes(pencil, *inverse, space, found, ritz, wanted, name);
     if (static_cast<int>(modes.values.size()) >= count || found.s.size() <= wanted) return modes;
     wanted +=
-        static_cast<std::size_t>(count) - modes.values.size();  // chains at zero have been left out
+        static_cast<std::size_t>(count) - modes.values.size();  // chains at zero have been removed
     bound = -1;
   }
 }

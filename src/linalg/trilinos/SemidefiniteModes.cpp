@@ -19,14 +19,14 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// An eigenvalue of M below this fraction of the largest one, rows scaled to unit diagonal, is
-/// zero.
+/// An eigenvalue of M below this fraction of the largest one counts as zero (rows scaled to unit
+/// diagonal).
 constexpr double massless = 1e-13;
 /// An eigenvalue of the shift-inverted operator below this fraction of the largest one belongs to
-/// an infinite one of the pencil.
+/// an infinite eigenvalue of the pencil.
 constexpr double infinite = 1e-13;
 
-/// M = W W', W with as many columns as M has rank.
+/// M = W W'; the number of columns of W is the rank of M.
 Matrix root(const Sparse& M, const DofNamer& name) {
   std::vector<Eigen::Index> massive;
   const Vector diagonal = M.diagonal();
@@ -67,7 +67,7 @@ Matrix root(const Sparse& M, const DofNamer& name) {
   return W;
 }
 
-/// About the middle of the spectrum, on a logarithmic scale.
+/// Approximate middle of the spectrum, on a logarithmic scale.
 double middle(const Sparse& K, const Sparse& M) {
   double sum = 0;
   int count = 0;
@@ -79,7 +79,7 @@ double middle(const Sparse& K, const Sparse& M) {
   return count > 0 ? std::exp(sum / count) : 1.0;
 }
 
-/// The dof that moves most in the motion without A.
+/// The dof with the largest displacement in the null vector of A.
 int mostMovedByKernel(const Matrix& A) {
   const auto spectrum = symmetricPairs(A);
   Eigen::Index least = 0, dof = 0;
@@ -121,9 +121,9 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
   return modes;
 }
 
-/// Forces, displacements and modal amplitudes are coordinates side by side, and the condition of K
-/// - sigma M depends on their units: of the units given and of those that make masses equal (powers
-/// of two), the ones with the better condition.
+/// Forces, displacements and modal amplitudes are coordinates of one model, so the condition of K -
+/// sigma M depends on their units. Of the given units and those with equal masses (powers of two),
+/// the better conditioned ones are chosen.
 Vector betterScale(const Sparse& K, const Sparse& M, double sigma) {
   const Matrix A = Matrix(K) - sigma * Matrix(M);
   Vector given = Vector::Ones(K.rows()), masses = binaryMassScale(K, M);
@@ -157,7 +157,7 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count,
   EigenPairs modes =
       shifted(dense, m, W, options.shift.value_or(-middle(k, m)), count, options.name);
   if (count > 0 && modes.count() > 0 &&
-      !options.shift) {  // again with a shift among what is wanted
+      !options.shift) {  // again with a shift among the wanted values
     const double wanted = std::abs(modes.values[modes.count() - 1]);
     if (wanted > 0) modes = shifted(dense, m, W, -wanted, count, options.name);
   }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Eigen <-> Tpetra on rank-local maps. Every map made here lives on Teuchos::SerialComm: Amesos2
-/// of Trilinos 13.2 returns wrong solutions for matrices on communicators of two and more ranks,
-/// and right ones here at any rank count.
+/// Eigen <-> Tpetra on rank-local maps. Every map created here is on Teuchos::SerialComm: with
+/// Amesos2 of Trilinos 13.2 the solutions are wrong for matrices on communicators of two and more
+/// ranks, and right on SerialComm for any number of ranks.
 ///
-/// Included by solver sources only; no public header of the project includes Tpetra.
+/// Included only by solver sources; no public header of the project includes Tpetra.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ void onViews(const tpetra::MultiVector& x, tpetra::MultiVector& y, Work&& work) 
   work(in, out);
 }
 
-/// True when both matrices are compressed and have the same pattern.
+/// Whether both matrices are compressed and have the same pattern.
 bool samePattern(const Sparse& a, const Sparse& b);
 
 }  // namespace tooljoint::linalg

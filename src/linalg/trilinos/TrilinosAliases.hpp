@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The spellings of Trilinos 13.2 that newer versions changed, and the one set of template
-/// arguments this build of Trilinos was instantiated for (double / int / long long / Serial). A
-/// port to another Trilinos edits this file.
+/// Spellings of Trilinos 13.2 that newer versions have changed, and the set of template arguments
+/// for which this build of Trilinos was instantiated (double / int / long long / Serial). A port to
+/// another Trilinos edits this file.
 #pragma once
 
 #include <Teuchos_DefaultSerialComm.hpp>
@@ -24,7 +24,7 @@ using CrsMatrix = Tpetra::CrsMatrix<double, LocalOrdinal, GlobalOrdinal, Node>;
 using MultiVector = Tpetra::MultiVector<double, LocalOrdinal, GlobalOrdinal, Node>;
 using Vector = Tpetra::Vector<double, LocalOrdinal, GlobalOrdinal, Node>;
 
-/// Host access to a multivector; the view must be gone before anybody else touches the data.
+/// Host access to a multivector; the view must be destroyed before any other access to the data.
 inline auto readHost(const MultiVector& x) { return x.getLocalViewHost(Tpetra::Access::ReadOnly); }
 inline auto overwriteHost(MultiVector& x) {
   return x.getLocalViewHost(Tpetra::Access::OverwriteAll);

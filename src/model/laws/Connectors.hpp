@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Springs, stops and sliders: point laws between two dofs, of one part or of two. The coordinate d
-/// is their separation (coupling::separation), f the force that acts along it, and -f on the other
-/// side by the same row.
+/// Springs, stops and sliders: point laws between two dofs of one or two parts. The coordinate d is
+/// their separation (coupling::separation). The force f acts along it, and -f on the other side by
+/// the same row.
 #pragma once
 
 #include <memory>
@@ -18,12 +18,12 @@ struct SpringParameters {
   double cubicStiffness = 0;  ///< k3 [N/m^3], >= 0
   double damping = 0;         ///< c [N s/m], >= 0
 };
-/// Width 1. Channel spring_force. Throws ModelError for parameters out of their range, as the
-/// functions below.
+/// Width 1. Channel spring_force. Throws ModelError for parameters out of range, like the functions
+/// below.
 std::unique_ptr<PointLaw> springs(const std::vector<SpringParameters>& points);
 
-/// A stop that is met when the separation falls to -gap: HuntCrossley of the penetration -(d +
-/// gap), of the exponent 1.
+/// A stop that closes when the separation falls to -gap: HuntCrossley of the penetration -(d + gap)
+/// with exponent 1.
 struct StopParameters {
   double gap = 0;              ///< [m]; separation left at rest
   double stiffness = 0;        ///< k [N/m], > 0

@@ -11,7 +11,7 @@ namespace tooljoint::model {
 /// -F w/|w|_r with |w|_r = sqrt(|w|^2 + v_r^2) for a sliding velocity w of one or more components.
 class SmoothedSliding {
  public:
-  /// v_r > 0 [m/s, rad/s]; w as long as this is used.
+  /// v_r > 0 [m/s, rad/s]; w must outlive this.
   SmoothedSliding(const double* w, int components, double velocity)
       : w_(w), components_(components), velocity_(velocity) {
     double square = velocity * velocity;
@@ -20,7 +20,7 @@ class SmoothedSliding {
   }
   /// |w|_r
   double size() const { return size_; }
-  /// Force in component i where F acts.
+  /// Force in component i for the friction force F.
   double force(int i, double F) const { return -F * w_[i] / size_; }
   /// Its derivative with respect to F.
   double direction(int i) const { return -(w_[i] / size_); }
@@ -91,8 +91,8 @@ struct SlidingVelocity {
   double around = 0.0, along = 0.0;
 };
 
-/// mu(v) (v_c, v_a)/v of a sliding velocity (v_c, v_a) of the size v: Coulomb friction of the size
-/// mu N against the whole velocity.
+/// mu(v) (v_c, v_a)/v for a sliding velocity (v_c, v_a) of magnitude v: Coulomb friction of
+/// magnitude mu N against the whole velocity.
 struct SlidingFriction {
   double around = 0.0, along = 0.0;
 
@@ -103,8 +103,7 @@ struct SlidingFriction {
   }
 };
 
-/// The derivatives of SlidingFriction: mu/v (I - e e') + mu' e e' with e = (v_c, v_a)/v; I/v_r at
-/// rest.
+/// Derivatives of SlidingFriction: mu/v (I - e e') + mu' e e' with e = (v_c, v_a)/v; I/v_r at rest.
 struct SlidingFrictionSlope {
   double aroundAround = 0.0, aroundAlong = 0.0, alongAlong = 0.0;  ///< [s/m]; symmetric
 

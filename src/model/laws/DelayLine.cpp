@@ -13,7 +13,7 @@ namespace {
 
 constexpr int fewest = 4;
 
-/// A rate no larger than three times the secant, and of its sign: the cubic is then monotone.
+/// A rate of the sign of the secant and at most three times as large: the cubic is then monotone.
 double limited(double rate, double secant) {
   if (rate * secant <= 0.0) return 0.0;
   return std::abs(rate) > 3.0 * std::abs(secant) ? 3.0 * secant : rate;
@@ -31,7 +31,7 @@ DelayLine::DelayLine(int values, double span, int samples, Shape shape)
   spacing_ = span / (samples - 2);
 }
 
-/// t, y, y' of the sample that is so many before the newest.
+/// t, y, y' of the sample this many before the newest.
 const double* DelayLine::sample(const double* memory, int age) const {
   const int slot = (static_cast<int>(memory[1]) - age + samples_) % samples_;
   return memory + header + slot * row_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spring that yields: dry friction with elastic sticking (Prandtl element, Jenkin element).
+// A spring with yield: dry friction with elastic sticking (Prandtl element, Jenkin element).
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -10,8 +10,8 @@
 namespace tooljoint::model {
 namespace {
 
-/// f = -k (d - p), held within +-F by the plastic displacement p, which is accepted at the end of
-/// a step:
+/// f = -k (d - p), limited to +-F by the plastic displacement p, which is updated at the end of a
+/// step:
 ///
 ///     e = d - p_n;   |k e| <= F: f = -k e, p = p_n;   else f = -F sign e, p = d - (F/k) sign e
 struct ElasticPlastic : Formula<1, 0, 1> {
@@ -29,7 +29,7 @@ struct ElasticPlastic : Formula<1, 0, 1> {
   void accept(double, const double* d, const double*, double* p) const {
     p[0] = std::clamp(p[0], d[0] - F / k, d[0] + F / k);
   }
-  /// A small motion does not yield.
+  /// Small motions do not yield.
   std::optional<std::complex<double>> heldFactor(std::complex<double>, const double*,
                                                  const double*) const {
     return 1.0;

@@ -24,7 +24,7 @@
 
 namespace tooljoint::model {
 
-/// Where a point is. `held` are the held states, which have no derivatives.
+/// State of a point. `held` are the held states, which have no derivatives.
 template <class T>
 struct PointAt {
   double t;
@@ -34,8 +34,8 @@ struct PointAt {
   const double* held;
 };
 
-/// What a formula may leave out: Width coordinates, Rated states that follow x' = g, Held states
-/// that change at the end of a step. It has to give operator() and power(), see above.
+/// Defaults of a formula: Width coordinates, Rated states with x' = g, Held states that change at
+/// the end of a step. A formula must define operator() and power(), see above.
 template <int Width, int Rated = 0, int Held = 0>
 struct Formula {
   static constexpr int width = Width, rated = Rated;
@@ -54,11 +54,11 @@ struct Formula {
                                                  const double* /*v*/) const {
     return std::nullopt;
   }
-  /// Force that is recorded.
+  /// Recorded force.
   Channel channel() const { return {"force", "N", "Force along the first coordinate"}; }
 };
 
-/// The power [W] of a formula without rated states whose forces lose all they take: -f' v.
+/// Power [W] of a formula without rated states whose forces dissipate all their work: -f' v.
 template <class Law>
 PointLaw::Power lostPower(const Law& law, const PointAt<double>& at) {
   double f[Law::width] = {};
@@ -68,7 +68,7 @@ PointLaw::Power lostPower(const Law& law, const PointAt<double>& at) {
   return power;
 }
 
-/// Points that obey one formula with the same parameters.
+/// Points with the same formula and parameters.
 template <class Law>
 class FormulaLaw final : public StatefulPointLaw {
   static constexpr int W = Law::width, R = Law::rated, N = 2 * W + R;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The one-sided contact of K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42 (1975), for walls,
-/// stops and whatever else can be hit.
+/// One-sided contact of K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42 (1975), for walls,
+/// stops and other obstacles.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct NormalForce {
 ///
 ///     g = 0 for G <= -s,   (G + s)^2 / 4s in between,   G for G >= s
 ///
-/// Starts and ends at zero, since the damping grows with the penetration; never pulls.
+/// Starts and ends at zero, because the damping grows with the penetration; never pulls.
 class HuntCrossley {
  public:
   /// n >= 1, chi >= 0 [s/m], s >= 0 [m].
@@ -54,7 +54,7 @@ class HuntCrossley {
   double energy(double k, double G) const {
     if (G <= -s_) return 0.0;
     if (G < s_) return k * (G + s_) * std::pow(ramp(G), n_) / (2.0 * n_ + 1.0);
-    // what the transition has beyond that of a force that begins at once
+    // excess over a force that begins at once, due to the transition
     const double extra =
         s_ > 0.0 ? std::pow(s_, n_ + 1.0) * (2.0 / (2.0 * n_ + 1.0) - 1.0 / (n_ + 1.0)) : 0.0;
     return k * (G * G * power(G) / (n_ + 1.0) + extra);

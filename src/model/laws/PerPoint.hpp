@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What laws share whose points have parameters of their own.
+/// Base of laws whose points have their own parameters.
 #pragma once
 
 #include <memory>

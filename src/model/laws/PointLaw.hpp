@@ -17,12 +17,12 @@ struct Channel {
   std::string longName;  ///< sentence for the results file
 };
 
-/// A batch of `size()` points with `width()` coordinates each, all obeying one law.
+/// A batch of `size()` points with `width()` coordinates each and the same law.
 ///
-/// All arrays are point-major: coordinate c of point p stands at p*width()+c; tangents at
+/// All arrays are point-major: coordinate c of point p is at p*width()+c; tangents at
 /// (p*width()+row)*width()+column. `active` lists the points to evaluate (0-based, increasing); the
-/// others are left untouched in the outputs. Virtual calls happen once per batch, never per point.
-/// Implementations allocate nothing in evaluate*().
+/// outputs of the others are not changed. There is one virtual call per batch, not per point.
+/// Implementations do not allocate in evaluate*().
 class PointLaw {
  public:
   virtual ~PointLaw() = default;
@@ -38,32 +38,32 @@ class PointLaw {
                                    const double* v, double* f, double* dfdd,
                                    double* dfdv) const = 0;
 
-  /// Distance a point can still move before its force may exceed the law's negligible tail [m], per
-  /// point; <= 0 means it must be evaluated now; for the points given, the others are left
-  /// untouched. Used to evaluate only points that can act before the next look.
+  /// Distance that each of the given points can still move before its force may exceed the law's
+  /// negligible tail [m]; <= 0: it must be evaluated now. The values of other points are not
+  /// changed. Used to evaluate only points that may be in contact before the next check.
   virtual void clearanceLeft(const std::vector<int>& points, const double* d,
                              double* gap) const = 0;
-  /// The first so many coordinates decide about it: it changes by no more than the length of their
-  /// change.
+  /// The clearance depends only on this many first coordinates, and changes by no more than the
+  /// norm of their change.
   virtual int reach() const { return width(); }
-  /// Whether it may turn a point as a wall does, in an impact that steps are halved for. What acts
-  /// all the time without a wall, such as a spring, is followed as the stiffness and damping of the
-  /// model are.
+  /// Whether the law may reverse a point like a wall, in an impact for which steps are halved. A
+  /// force that acts all the time, such as a spring, is integrated like the stiffness and damping
+  /// of the model.
   virtual bool hasWalls() const { return true; }
 
-  /// Stored energy [J] and dissipated power [W >= 0: normal damping, friction] summed over the
-  /// points given, for the energy ledger.
+  /// Stored energy [J] and dissipated power [W >= 0: normal damping, friction], summed over the
+  /// given points, for the energy ledger.
   struct Power {
     double stored = 0;    ///< potential of the conservative part [J]
     double damping = 0;   ///< power lost in normal damping [W]
     double friction = 0;  ///< power lost in friction [W]
-    double drive = 0;  ///< power fed in through prescribed motion (the rotary drive acting through
-                       ///< friction) [W]
+    double drive = 0;     ///< power of the prescribed motion (rotary drive acting through friction)
+                          ///< [W]
   };
   virtual Power power(double t, const std::vector<int>& points, const double* d,
                       const double* v) const = 0;
 
-  /// What can be recorded; `record` fills out[channel*size()+point].
+  /// Quantities that can be recorded; `record` fills out[channel*size()+point].
   virtual std::vector<Channel> channels() const = 0;
   virtual void record(double t, const double* d, const double* v, double* out) const = 0;
 
@@ -71,7 +71,7 @@ class PointLaw {
   virtual std::shared_ptr<const PointLaw> subset(const std::vector<int>& points) const = 0;
 };
 
-/// Beside PointLaw for laws whose points turn with the rotary speed: friction at a wall.
+/// Added to PointLaw for laws that depend on the rotary speed: friction at a wall.
 class Turning {
  public:
   virtual ~Turning() = default;
@@ -79,7 +79,7 @@ class Turning {
   virtual std::shared_ptr<const PointLaw> atSpeed(double speed) const = 0;
 };
 
-/// The law itself where it does not depend on the rotary speed.
+/// The law at this speed; the law itself if it does not depend on the rotary speed.
 inline std::shared_ptr<const PointLaw> atSpeed(const std::shared_ptr<const PointLaw>& law,
                                                double speed) {
   const auto* turning = dynamic_cast<const Turning*>(law.get());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Cutting by blades that follow each other: the depth of cut of a blade is measured from the
-/// surface the blade before it has left, which makes forces depend on the motion some time ago.
+/// Regenerative cutting by blades: the depth of cut of a blade is measured from the surface left by
+/// the previous blade, so forces depend on earlier motion.
 #pragma once
 
 #include <algorithm>
@@ -28,27 +28,27 @@ struct CuttingParameters {
   double wearFlat = 0;            ///< l, width of the wear flat of one blade [m]
   double contactStress = 0;       ///< sigma at the wear flats [Pa]
   double friction = 0;            ///< mu gamma: friction coefficient times bit geometry
-  double axialVelocity = 1e-5;    ///< advance beyond which the wear flats carry fully [m/s]
-  double angularVelocity = 1e-2;  ///< rotary speed beyond which rock resists fully [rad/s]
+  double axialVelocity = 1e-5;    ///< advance above which the wear flats carry fully [m/s]
+  double angularVelocity = 1e-2;  ///< rotary speed above which rock resists fully [rad/s]
   int samples = 256;              ///< of the surface between two blades
 };
 
 /// T. Richard, C. Germay and E. Detournay, J. Sound Vib. 305 (2007) 432-456, in the advance U
 /// (first coordinate, positive into the rock) and the angle phi of the bit (second one). With the
-/// surface S(phi) that the blade before has left,
+/// surface S(phi) left by the previous blade,
 ///
 ///     delta = max(0, U - S'),  S(phi) = max(U, S'),  S' = S(phi - 2 pi/n),  v = U',  w = phi'
 ///     W = c(w) n a zeta eps delta + g(v) n a l sigma
 ///     T = s+(w) n a^2 eps delta/2 + s(w) g(v) n mu gamma a^2 l sigma/2
 ///
-/// and the forces -W, -T. The surface is kept over the angle and not over time, so that the delay
-/// t_n of phi(t) - phi(t - t_n) = 2 pi/n need not be found, and a bit off bottom (U < S) cuts
-/// nothing and leaves what it finds. g: 0 for a retreating bit, rising to 1 at the axial velocity
-/// of the parameters, where the wear flats carry any share; s: the sign of w, smoothed over the
-/// angular velocity; s+: its positive part; c: 1 for w >= 0, falling to 0 over the same width for
-/// w < 0. A bit that turns backward does not cut and does not change the surface. On its way
-/// forward again it meets what it has cut itself: behind the foremost angle S' = max(S(phi), S(phi
-/// - 2 pi/n)), taken and left within two samples of it.
+/// and the forces -W, -T. The surface is stored over the angle and not over time, so the delay t_n
+/// of phi(t) - phi(t - t_n) = 2 pi/n need not be solved for, and a bit off bottom (U < S') cuts
+/// nothing and does not change the surface. g: 0 for a retreating bit, rising to 1 at the axial
+/// velocity of the parameters; in between the wear flats carry any share. s: the sign of w,
+/// smoothed over the angular velocity; s+: its positive part; c: 1 for w >= 0, falling to 0 over
+/// the same width for w < 0. A bit that turns backward does not cut and does not change the
+/// surface. When it turns forward again, it meets its own cut: behind the foremost angle S' =
+/// max(S(phi), S(phi - 2 pi/n)), with transitions within two samples.
 class RegenerativeCutting : public Formula<2> {
  public:
   /// Throws ModelError for parameters out of their range.
@@ -61,8 +61,8 @@ class RegenerativeCutting : public Formula<2> {
 
   int held() const { return Track::size + surface_.states(); }
 
-  /// Steady drilling at the speeds of the start before it; a flat bottom at the bit where it does
-  /// not turn.
+  /// Before the start: steady drilling at the speeds of the start, or a flat bottom at the bit if
+  /// it does not turn.
   void initial(double, const double* d, const double* v, double* x) const {
     const double slope = v[1] > p_.angularVelocity ? std::max(0.0, v[0] / v[1]) : 0.0;
     std::fill(x, x + Track::size, 0.0);
@@ -71,8 +71,8 @@ class RegenerativeCutting : public Formula<2> {
     surface_.start(d[1], d, &slope, x + Track::size);
   }
 
-  /// The surface behind the blades grows where the bit is farther than it ever was. What it cuts on
-  /// a way it goes again belongs to the surface when it has gone that way.
+  /// Extends the surface if the bit is beyond its foremost angle. A cut behind that angle is added
+  /// to the surface at the end of the forward motion.
   void accept(double, const double* d, const double* v, double* held) const {
     double before = 0, slope = 0;
     behind(d[1], held, before, slope);
@@ -87,7 +87,7 @@ class RegenerativeCutting : public Formula<2> {
       if (cuts) slope = v[1] > p_.angularVelocity ? v[0] / v[1] : 0.0;
       surface_.append(d[1], &S, &slope, surface);
     } else if (d[1] > newest - surface_.spacing() && v[1] > -p_.angularVelocity) {
-      surface_.raise(newest, &S, newest, &S, surface);  // it stands: deeper at the same angle
+      surface_.raise(newest, &S, newest, &S, surface);  // same angle, deeper
     }
   }
 
@@ -100,14 +100,14 @@ class RegenerativeCutting : public Formula<2> {
     f[1] = -0.5 * p_.radius * (forward * cutting_ * chip + s * p_.friction * wear_ * g);
   }
 
-  /// The bit cuts what it left a pitch ago: 1 - e^{-s tau}, tau = (2 pi/n) / w.
+  /// The bit cuts the surface it left one pitch before: 1 - e^{-s tau}, tau = (2 pi/n) / w.
   std::optional<std::complex<double>> heldFactor(std::complex<double> s, const double*,
                                                  const double* v) const {
     if (v[1] <= p_.angularVelocity) return 1.0;
     return 1.0 - std::exp(-s * pitch_ / v[1]);
   }
 
-  /// Everything the rock takes is lost in cutting and friction.
+  /// All work on the rock is dissipated in cutting and friction.
   Power power(const PointAt<double>& at, const double*) const { return lostPower(*this, at); }
 
   /// Weight [N] and torque [N m] of steady drilling at an advance `depth` of one blade [m].
@@ -118,14 +118,13 @@ class RegenerativeCutting : public Formula<2> {
   double pitch() const { return pitch_; }  ///< angle between blades [rad]
 
  private:
-  /// Held states before the surface: U and phi of the last step, and, of a bit that has turned
-  /// back, whether it is behind its foremost angle, whether it goes forward there, and from where.
+  /// Held states before those of the surface: U and phi of the last step. For a bit that has turned
+  /// back: whether it is behind its foremost angle, whether it moves forward there, and from where.
   struct Track {
     enum { U, phi, again, onTheWay, fromU, fromPhi, size };
   };
 
-  /// The way of a bit behind its foremost angle: each forward one, when it ends, deepens the
-  /// surface.
+  /// Motion of a bit behind its foremost angle: at its end each forward motion deepens the surface.
   void followAgain(const double* d, double* held, double foremost) const {
     const double U = held[Track::U], phi = held[Track::phi];
     if (held[Track::again] == 0.0 && d[1] < foremost) {
@@ -159,7 +158,7 @@ class RegenerativeCutting : public Formula<2> {
           formatNumber(std::round(100 * (phi - newest)) / 100) +
           " rad in a step, more than the angle between its blades. Reduce Transient/Step.");
     surface_.at(std::max(angle, surface_.oldest(surface)), surface, &S, &slope);
-    // The rock in front of a blade on its way again begins a sample ahead of it.
+    // The rock in front of a blade that moves forward again starts one sample ahead of it.
     const double ahead = phi + surface_.spacing();
     if (held[Track::again] == 0.0 || ahead >= newest) return;
     double own = 0, ownSlope = 0;

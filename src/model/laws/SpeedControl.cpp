@@ -11,13 +11,13 @@
 namespace tooljoint::model {
 namespace {
 
-/// f = F_0 + k_p (V - v) + k_i e, limited to +-F_max, where e is the integral of the speed error
-/// V - v. With the start at (t_0, d_0) it is known but for what the limit takes out of it:
+/// f = F_0 + k_p (V - v) + k_i e, limited to +-F_max, where e is the integral of the speed error V
+/// - v. With the start at (t_0, d_0) it is known except for the correction x of the limit:
 ///
 ///     e = V (t - t_0) - (d - d_0) + x,   x' = (limited f - f)/k_p
 ///
 /// (anti-windup by back-calculation with the tracking time k_p/k_i; K. J. Astrom and T. Hagglund,
-/// Advanced PID Control, 2006, section 3.5). The states are x, and d_0 and t_0 which are held.
+/// Advanced PID Control, 2006, section 3.5). The states are x, and the held d_0 and t_0.
 struct SpeedControl : Formula<1, 1, 2> {
   static constexpr bool walls = false;
   double V, kp, ki, F0, Fmax;
@@ -50,7 +50,7 @@ struct SpeedControl : Formula<1, 1, 2> {
     f[0] = wanted > Fmax ? T(Fmax) : wanted < -Fmax ? T(-Fmax) : wanted;
     g[0] = ki > 0.0 && kp > 0.0 ? T((f[0] - wanted) / kp) : T(0.0);
   }
-  /// They are numbers of the start.
+  /// The held states are constants of the start.
   std::optional<std::complex<double>> heldFactor(std::complex<double>, const double*,
                                                  const double*) const {
     return 1.0;

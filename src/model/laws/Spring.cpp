@@ -43,7 +43,7 @@ class Springs final : public PerPoint<SpringParameters, Springs> {
     }
     return sum;
   }
-  /// A spring that hardens is a bumper.
+  /// A hardening spring acts as a bumper.
   bool hasWalls() const override {
     return std::any_of(points_.begin(), points_.end(),
                        [](const auto& s) { return s.cubicStiffness > 0.0; });

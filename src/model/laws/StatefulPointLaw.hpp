@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Point laws with internal state: rate-dependent springs, plastic links, bristle friction, cutting
-/// forces that depend on a motion some time ago.
+/// forces that depend on earlier motion.
 ///
-/// A state belongs to the motion and not to the law: integrators keep the states of all points
-/// beside displacement and velocity, so that iterations and rejected steps never touch accepted
-/// values, and a checkpoint holds them. A law is a constant function of them.
+/// A state belongs to the motion and not to the law. Integrators keep the states of all points with
+/// displacement and velocity, so that iterations and rejected steps do not change accepted values,
+/// and a checkpoint contains them. A law is a constant function of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,14 +27,14 @@ struct StateTangents {
   double* gx;  ///< dg/dx, rated x rated
 };
 
-/// A batch of points with states() numbers x per point, point-major. The first rated() of them
-/// follow x' = g(t, d, v, x) and are integrated by the scheme of the motion: functions get them at
-/// the time t. The others are held: they stay as they were accepted at the end of the last step,
+/// A batch of points with states() numbers x per point, point-major. The first rated() states have
+/// rates x' = g(t, d, v, x) and are integrated by the scheme of the motion: functions receive them
+/// at the time t. The others are held: they keep the values accepted at the end of the last step
 /// until accept() replaces them at the end of the next one.
 ///
-/// All points are evaluated in every step, however far from a wall they are: states go on changing
-/// there. (clearanceLeft() says so; only a law without states may say otherwise.) Implementations
-/// allocate nothing but in initialState().
+/// All points are evaluated in every step, even far from a wall, because states change there too
+/// (clearanceLeft() reports that; only a law without states may report otherwise). Implementations
+/// allocate only in initialState().
 class StatefulPointLaw : public PointLaw {
  public:
   virtual int states() const = 0;
@@ -50,14 +50,14 @@ class StatefulPointLaw : public PointLaw {
                                   const double* v, const double* x, double* f, double* g,
                                   const StateTangents& tangents) const = 0;
 
-  /// The end (t, d, v) of a step of the motion: held states of all points become those of this
-  /// time. Called for steps that may still be rejected, with a copy of the states.
+  /// End (t, d, v) of a step of the motion: updates the held states of all points to this time.
+  /// Also called for steps that may still be rejected, with a copy of the states.
   virtual void accept(double /*t*/, const double* /*d*/, const double* /*v*/, double* /*x*/) const {
   }
 
-  /// What held states do in a small motion e^{s t} of a point about (d, v), as a factor of df/dd: 1
-  /// where they stay as they are, 1 - e^{-s tau} where forces are of y(t) - y(t - tau). Nothing
-  /// where that is not known, as it is by default of a law with held states.
+  /// Effect of held states in a small motion e^{s t} of a point about (d, v), as a factor of df/dd:
+  /// 1 if they do not move, 1 - e^{-s tau} if forces depend on y(t) - y(t - tau). Empty if not
+  /// known, the default for a law with held states.
   virtual std::optional<std::complex<double>> heldFactor(double /*t*/, std::complex<double> /*s*/,
                                                          int /*point*/, const double* /*d*/,
                                                          const double* /*v*/) const {
@@ -65,17 +65,17 @@ class StatefulPointLaw : public PointLaw {
     return 1.0;
   }
 
-  /// As PointLaw::power() in the middle of a chord of the motion, where the rated states are x and
-  /// all states change at the rates xDot (states() per point); held ones are those of its end.
-  /// `damping` and `friction` include what is lost inside the law.
+  /// As PointLaw::power() in the middle of a chord of the motion, with rated states x and rates
+  /// xDot of all states (states() per point); held states are those at its end. `damping` and
+  /// `friction` include losses inside the law.
   virtual Power powers(double t, const std::vector<int>& points, const double* d, const double* v,
                        const double* x, const double* xDot) const = 0;
   /// As PointLaw::record().
   virtual void recordState(double t, const double* d, const double* v, const double* x,
                            double* out) const = 0;
 
-  // For set-up code, which has no states: the law in its initial state at (d, v). Tangents
-  // are those of motion too fast for the state to follow.
+  // For set-up code without states: the law in its initial state at (d, v). Tangents are those of
+  // motion too fast for the states to change.
   void evaluate(double t, const std::vector<int>& active, const double* d, const double* v,
                 double* f) const final;
   void evaluateWithTangent(double t, const std::vector<int>& active, const double* d,
@@ -99,7 +99,7 @@ class StateTangentArrays {
     Rows fd, fv, fx, gd, gv, gx;
   };
   OfPoint of(int point) const;
-  /// Where a law writes them.
+  /// Pointers for the law to write to.
   StateTangents write();
 
  private:
@@ -112,13 +112,13 @@ inline const StatefulPointLaw* stateful(const PointLaw& law) {
   return dynamic_cast<const StatefulPointLaw*>(&law);
 }
 
-/// Numbers of states of all its points; 0 for a law without.
+/// Number of states of all points; 0 for a law without states.
 inline int stateSize(const PointLaw& law) {
   const auto* with = stateful(law);
   return with != nullptr ? law.size() * with->states() : 0;
 }
 
-/// PointLaw::record() in the states x, which a law without does not read.
+/// PointLaw::record() with the states x, which a law without states does not read.
 inline void record(const PointLaw& law, double t, const double* d, const double* v, const double* x,
                    double* out) {
   if (const auto* with = stateful(law))

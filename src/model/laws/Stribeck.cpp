@@ -9,8 +9,8 @@
 namespace tooljoint::model {
 namespace {
 
-/// f = -c v - [F_d + (F_s - F_d) exp(-|v|/v_s)] sign(v), with the sign smoothed over +-v_r: what
-/// sticks creeps at less than v_r.
+/// f = -c v - [F_d + (F_s - F_d) exp(-|v|/v_s)] sign(v), with the sign smoothed over +-v_r: a
+/// sticking point creeps at less than v_r.
 struct Stribeck : Formula<1> {
   static constexpr bool walls = false;
   double c, Fs, Fd, vs, vr;

@@ -86,9 +86,9 @@ void EnergyLedger::book(CompiledModel& model, const State& to) {
   enter(model, to);
 }
 
-/// Of stiffness: q'K q / 2 now, and its work since the last entry, (K_n q_n + K_{n+1} q_{n+1}) / 2
-/// . dq, which is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory. Of
-/// each damping term: dq' C_i dq. To sums_, after `loads`.
+/// Stiffness: q'K q / 2 now, and its work since the last entry, (K_n q_n + K_{n+1} q_{n+1}) / 2 .
+/// dq. For a constant symmetric K this work is the change of q'K q / 2; any difference is
+/// circulatory work. Damping: dq' C_i dq for each term. Results go to sums_, after `loads`.
 void EnergyLedger::formWorks(const CompiledModel& model, const State& to, double loads) {
   const auto& terms = model.damping().terms();
   double strain = 0, work = 0;
@@ -130,7 +130,7 @@ double EnergyLedger::workOfLoads(CompiledModel& model, double begin, const State
     load_[i] = load[i];
   }
   if (jumps) {
-    // of a velocity that grows evenly to the one at the end
+    // velocity varies linearly within the step, up to the one at its end
     model.setMoment(begin, to.t);
     for (int i = 0; i < step_.size(); ++i) loads += 2 * load[i] * (h * to.v[i] - step_[i]);
     model.setTime(to.t);
@@ -145,7 +145,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   const double begin = time_;
   const bool jumps = model.setMean(begin, to.t);
   const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
-  double fed = 0;  // by damping that is negative
+  double fed = 0;  // by negative damping
   time_ = to.t;
   double exchanged = 0;
   const auto entry = [&exchanged](double& account, double work) {
@@ -163,7 +163,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     entry(account_.damping[i], taken);
     fed += std::max(0.0, -taken);
   }
-  // point laws: mean power of the step times h; friction by its own forces
+  // point laws: mean power of the step times h; friction: FrictionWork
   if (!model.points().empty()) {
     if (model.stateSize() > 0) bindChord(model, to, h);
     change_ = to.v - v_;
@@ -190,7 +190,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
                        std::abs(account_.circulatory - turned) + fed;
 }
 
-/// States in the middle of the chord, and the rates at which they change along it.
+/// Binds the states in the middle of the chord, and their rates along it.
 void EnergyLedger::bindChord(CompiledModel& model, const State& to, double h) {
   model.blendStates(x_, to.x, 0.5, to.x, middle_);
   rate_ = (to.x - x_) / h;
@@ -198,7 +198,7 @@ void EnergyLedger::bindChord(CompiledModel& model, const State& to, double h) {
   model.bindStates(middle_.data(), 0.0, rate_.data());
 }
 
-/// Points that are not active store nothing.
+/// Inactive points store no energy.
 double EnergyLedger::storedNow(CompiledModel& model, const State& state) {
   model.bindStates(state.x.data());
   const auto active = [&](auto& batch) {

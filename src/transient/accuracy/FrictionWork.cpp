@@ -61,8 +61,8 @@ void FrictionWork::step(CompiledModel& model, const State& to) {
     }
 }
 
-/// Of the friction in the step that ends at `to`; its drive is added. What acts there is what the
-/// law was last evaluated to, but for impacts, whose force is scaled.
+/// Work of friction in the step that ends at `to`; the work of the drive is added to drive_. Forces
+/// are those of the last evaluation of the law, except for impacts, whose forces are scaled.
 double FrictionWork::work(PointBatch& batch, Set& set, const State& to) {
   const int w = batch.width();
   steady_.clear();

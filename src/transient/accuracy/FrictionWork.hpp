@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Work of the friction of point laws by the forces that act in the steps. Friction that stops a
-/// point within a step is far smaller at the end of the step than in its middle, where the law at
-/// the mean velocity is at its peak: booked there, hard contact with friction loses energy that the
-/// motion has. With f_n the friction at the end of a step,
+/// Work of friction of point laws by the forces in the steps. Friction that stops a point within a
+/// step is far smaller at the end of the step than in its middle, where the law at the mean
+/// velocity is at its peak. With the mean velocity, hard contact with friction would lose energy
+/// that the motion still has. With f_n the friction at the end of a step,
 ///
 ///     W = sum (f_n + f_{n+1})/2 . (d_{n+1} - d_n),   friction = drive - W,
 ///     drive = h (P_n + P_{n+1})/2, P the power of the prescribed motion
@@ -27,9 +27,9 @@ class FrictionWork {
   void start(CompiledModel& model, const State& state);
   /// After every step. Allocates nothing.
   void step(CompiledModel& model, const State& to);
-  /// Whether the friction of a batch is booked here: its law can be had without friction.
+  /// Whether friction of a batch is booked here: its law has a frictionless version.
   bool has(std::size_t batch) const { return sets_[batch].smooth != nullptr; }
-  /// J since the last forget(), of this rank's points.
+  /// [J] since the last forget(), points of this rank.
   double friction() const { return friction_; }
   double drive() const { return drive_; }
   void forget() { friction_ = drive_ = 0; }
@@ -41,8 +41,8 @@ class FrictionWork {
   struct Set {
     const model::Frictional* law = nullptr;
     std::shared_ptr<const model::PointLaw> smooth;  ///< the law without friction
-    std::vector<double> force;                      ///< friction f_n, rows; 0 where none acts
-    std::vector<int> points;                        ///< where it is not 0
+    std::vector<double> force;                      ///< friction f_n, rows; 0 if inactive
+    std::vector<int> points;                        ///< points with friction
     double power = 0;                               ///< P_n
   };
   void allocate(const CompiledModel& model);
@@ -50,7 +50,7 @@ class FrictionWork {
 
   std::vector<Set> sets_;
   std::vector<int> looked_, steady_, impacts_, left_;
-  std::vector<double> with_, without_, step_;  ///< forces, of impacts friction alone; dq
+  std::vector<double> with_, without_, step_;  ///< forces, `with_` finally friction of impacts; dq
   Vector q_, dq_;
   double time_ = 0, friction_ = 0, drive_ = 0;
   double h_ = 0;

@@ -10,27 +10,28 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Arnoldi steps: the norm of a string of 1e5 dofs is then known within 1 %.
+/// Arnoldi steps: they give the norm of a string of 1e5 dofs within 1 %.
 constexpr int arnoldiSteps = 60;
-/// Times at which laws are evaluated for their largest size.
+/// Times at which laws are evaluated to find their largest value.
 constexpr int lawSamples = 1000;
-/// How deep a wall is met [m]: laws that grow with depth have no stiffness of their own.
+/// Depth of contact [m] at which walls are evaluated: laws that stiffen with depth have no
+/// stiffness at zero depth.
 constexpr double depth = 1e-3;
-/// A wall farther away than this [m] is not met, and how often the distance to it is measured on
-/// the way.
+/// Walls farther away than this [m] are ignored; limit of distance evaluations on the way to a
+/// wall.
 constexpr double farthest = 1e3;
 constexpr int mostLooks = 200;
 /// A clearance below this [m] is contact.
 constexpr double touching = 1e-9;
-/// A vector of this length, beside those before, has no direction of its own.
+/// A residual vector shorter than this, relative to the earlier ones, is zero.
 constexpr double negligibleResidual = 1e-12;
-/// Newton's method for a rate ends when it changes by less than this part of it, after at most so
-/// many iterations.
+/// Newton's method for a rate ends when the relative change is below this, or after this many
+/// iterations.
 constexpr double rateTolerance = 1e-9;
 constexpr int mostRateIterations = 100;
 
-/// The largest root of r^3 = g r^2 + k r + c, none of them negative: by Newton's method from above,
-/// where it falls steadily.
+/// Largest root of r^3 = g r^2 + k r + c with non-negative coefficients: Newton's method from
+/// above, where it decreases monotonically.
 double largestRoot(double g, double k, double c) {
   double r = g + std::sqrt(k) + std::cbrt(c);
   for (int i = 0; r > 0.0 && i < mostRateIterations; ++i) {
@@ -77,7 +78,7 @@ double LargestRate::normOfPoints(std::vector<double> Tangents::*points) const {
   });
 }
 
-/// The value of each law where it is largest in size.
+/// Value of each law at its largest absolute value.
 std::vector<double> LargestRate::largestLaws(double begin, double end) const {
   std::vector<double> largest;
   for (const auto& law : model_.source().laws) {
@@ -122,9 +123,9 @@ void LargestRate::evaluatePoints(const State& state, Which which) {
   }
 }
 
-/// Moves a point along one of its coordinates until it touches; false where no wall stands that
-/// way. A clearance never shrinks by more than the point moves, so that going as far as it says
-/// passes no wall.
+/// Moves a point along one of its coordinates until it touches; false if there is no wall in this
+/// direction. The clearance never decreases by more than the displacement of the point, so moving
+/// by the clearance does not pass a wall.
 bool LargestRate::goToWall(const PointBatch& batch, int point, int coordinate, double way,
                            Vector& d) {
   gap_.resize(batch.points());
@@ -148,7 +149,7 @@ void LargestRate::evaluate(PointBatch& batch, int point, double t, const Vector&
   if (batch.states() != nullptr && batch.states()->rated() > 0) addStates(*batch.states(), point);
 }
 
-/// What states do to the tangents of the last evaluation.
+/// Adds the effect of the states to the tangents of the last evaluation.
 void LargestRate::addStates(const PointStates& states, int point) {
   const auto tangents = states.tangentsOf(point);
   position_ += tangents.fx * tangents.gv;
@@ -156,8 +157,8 @@ void LargestRate::addStates(const PointStates& states, int point) {
   ofStates_ = std::max(ofStates_, Matrix(tangents.gx).norm());
 }
 
-/// Friction grows with the force, which a wall met on the way does not show: of df/dv the part
-/// along the normal n = (df/dd)'f / |(df/dd)'f| is left.
+/// Friction grows with the force, so df/dv at a wall 1 mm deep is not that of the motion. Only the
+/// part of df/dv along the normal n = (df/dd)'f / |(df/dd)'f| is kept.
 void LargestRate::keepNormalDamping() {
   Vector n = position_.transpose() * force_;
   if (!(n.norm() > 0)) return;
@@ -165,7 +166,7 @@ void LargestRate::keepNormalDamping() {
   velocity_ = n.dot(velocity_ * n) * n * n.transpose();
 }
 
-/// The tangents last evaluated, where they are larger than those found before.
+/// Keeps the tangents of the last evaluation if they are larger than the earlier ones.
 void LargestRate::takeLarger(int point, Tangents& tangents) const {
   const auto take = [&](const Square& found, std::vector<double>& kept) {
     Eigen::Map<Square> before(kept.data() + point * found.size(), found.rows(), found.cols());
@@ -193,9 +194,9 @@ void LargestRate::subtractPoints(std::vector<double> Tangents::*which, const Vec
   }
 }
 
-/// |M^-1 A|_M by Arnoldi's method: M^-1 A V = V+ H with V'MV = I, of which |H| is a lower bound
-/// that converges with the number of steps. The first vector is M^-1 x of a vector x without
-/// structure, so that masses far apart in size do not hide the stiff ones.
+/// |M^-1 A|_M by Arnoldi's method: M^-1 A V = V+ H with V'MV = I. |H| is a lower bound that
+/// converges with the number of steps. The first vector is M^-1 x with an unstructured x, so that
+/// masses of very different size do not hide the stiff ones.
 template <class Product>
 double LargestRate::norm(const Product& times) const {
   const int n = model_.size(), steps = std::min(model_.wholeSize(), arnoldiSteps);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A bound of the rates |lambda| at which a model moves, which bounds explicit steps:
+/// Bound of the rates |lambda| of a model, which limits explicit steps:
 ///
 ///     lambda^2 M x + lambda C x + K x = 0,   x*M x = 1:   |lambda|^2 <= g |lambda| + k
 ///     |lambda| <= g/2 + sqrt(g^2/4 + k),     k = |M^-1 K|_M,  g = |M^-1 C|_M
 ///
-/// Norms rather than eigenvalues: they hold for unsymmetric matrices too (torque, gyroscopic and
-/// Coriolis terms, friction), and laws of time take part with their largest size. Points of a wall
-/// take part as if they touched it; sqrt(k) of their stiffness alone is the rate of an impact.
+/// Norms are used because they also hold for unsymmetric matrices (torque, gyroscopic and Coriolis
+/// terms, friction). Laws of time enter with their largest absolute value. Points with a wall enter
+/// as if they touched it; sqrt(k) of their stiffness alone is the rate of an impact.
 ///
-/// States x' = g(d, v, x) of points, on which their forces f depend, add df/dx dg/dv to K and
+/// States x' = g(d, v, x) of points with forces f(x) add df/dx dg/dv to K and give
 ///
 ///     |lambda|^3 <= g |lambda|^2 + k |lambda| + c,   c = |M^-1 df/dx dg/dd|_M,
 ///
-/// as if they did not act on themselves; the largest |dg/dx| is added to that |lambda|.
+/// as if the states did not depend on themselves; the largest |dg/dx| is added to |lambda|.
 #pragma once
 
 #include <vector>
@@ -29,13 +29,13 @@ class LargestRate {
   LargestRate(CompiledModel& model, const linalg::BlockFactor& mass) : model_(model), mass_(mass) {}
   struct Rates {
     double all;     ///< bound of |lambda| [1/s]
-    double impact;  ///< of the points alone, without damping [1/s]
+    double impact;  ///< of the point stiffness alone, without damping [1/s]
   };
-  /// For a motion that starts at `state` and ends at the time `end`. Where points are evaluated,
-  /// what a batch holds of its last evaluation is lost.
+  /// Rates for a motion from `state` to the time `end`. Batches evaluated here lose the results of
+  /// their last evaluation.
   Rates operator()(const State& state, double end);
-  /// |M^-1 R' df/dv R|_M of the points that meet no wall, such as a bit, as they are at `state`
-  /// [1/s]; 0 without such points. The same is lost.
+  /// |M^-1 R' df/dv R|_M of the points without walls, such as a bit, at `state` [1/s]; 0 if there
+  /// are none. These batches lose the results of their last evaluation.
   double ofDampingLaws(const State& state);
 
  private:

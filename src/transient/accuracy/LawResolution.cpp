@@ -10,12 +10,12 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Steps of a run at which laws are evaluated: the first ones, as many spread over the rest, and
-/// those with a corner.
+/// Steps of a run in which laws are evaluated: the first steps, as many spread over the rest, and
+/// steps with a corner.
 constexpr long lawSteps = 10000;
 
-/// Looks at a law within a step, corners aside: what is shorter than the distance of two of them
-/// may be missed.
+/// Evaluations of a law within a step, besides corners. Features shorter than the distance of two
+/// evaluations may be missed.
 constexpr int looksInStep = 8;
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Rows of the recovery that are translations, in positions; none for a model without output.
+/// Rows of the recovery that are translations, in positions; empty for a model without output.
 Sparse translationsOf(const CompiledModel& model) {
   const auto& source = model.source();
   const auto n = static_cast<Eigen::Index>(model.size());
@@ -31,7 +31,7 @@ Sparse translationsOf(const CompiledModel& model) {
   return result;
 }
 
-/// Mass over the number of nodes, or of coordinates.
+/// Mass over the number of nodes, or of coordinates without nodes.
 double inertiaOf(const CompiledModel& model, bool translated) {
   MassNorm norm;
   norm.bind(model);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a scheme that damps vibration says of it: DampingSamples calls integrators with this
-/// interface.
+/// Interface of integrators whose scheme damps vibration (see DampingSamples).
 #pragma once
 
 #include <string>
@@ -10,19 +9,19 @@ namespace tooljoint::transient {
 
 struct State;
 
-/// Unresolved contact in a smaller part of the steps changes little.
+/// Fraction of the steps; unresolved contact in fewer steps has little effect.
 constexpr double oftenUnresolved = 0.1;
 
 class NumericalDamping {
  public:
   virtual ~NumericalDamping() = default;
-  /// Energy [J] that the scheme itself has taken in the step just accepted, beside the work of all
-  /// forces.
+  /// Energy [J] dissipated by the scheme itself in the last accepted step, apart from the work of
+  /// all forces.
   virtual double dissipated(const State& from, const State& to) const = 0;
-  /// Whether contact rests on walls too stiff for the step just accepted and the one before: its
-  /// force acts in full over each step, which damps vibration of the contact. Collective.
+  /// Whether contact rests on walls too stiff for the last accepted step and the one before. Its
+  /// force then acts in full over each step, which damps vibration of the contact. Collective.
   virtual bool hasUnresolvedContact() const = 0;
-  /// What to change for less of it; whole sentences.
+  /// How to reduce the damping; whole sentences.
   virtual std::string dampingAdvice() const = 0;
 };
 

@@ -9,17 +9,17 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Part of the tolerance a step of another length is meant to have.
+/// Target error of a changed step, as part of the tolerance.
 constexpr double aim = 0.5;
-/// Local errors of second-order schemes fall to this part when the step is halved.
+/// Local errors of second-order schemes decrease by this factor when the step is halved.
 constexpr double perHalving = 0.125;
-/// Calm steps before a longer one is tried, at first and at most; a change costs about three steps.
+/// Calm steps before a longer one is tried: first value and largest value. A change costs about
+/// three steps.
 constexpr int shortestPatience = 4;
 constexpr int longestPatience = 256;
-/// A longer step that has to be given up before it has lasted this many times as long was not worth
-/// it.
+/// A lengthened step counts as a success only if it lasts this many times the patience.
 constexpr int proof = 4;
-/// Doublings at a time, so that the wait for a multiple of the longer step stays short.
+/// Doublings at once; few, so that the wait for a multiple of the longer step stays short.
 constexpr int longestJump = 2;
 
 }  // namespace

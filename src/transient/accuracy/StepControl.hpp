@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which step an error needs. Steps are the longest one cut into halves `level` times; an error
-/// of third order falls to an eighth per halving. Longer steps come only when they will last: each
-/// change of the step costs a factorisation.
+/// Step size for a given error. Steps are the longest step halved `level` times; an error of third
+/// order decreases to an eighth per halving. The step is lengthened only if the longer step is
+/// likely to last, because each change costs a factorisation.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ namespace tooljoint::transient {
 ///     |e|^2 = e'M e / m,   m = sum_j M_jj / sum_j g_j
 ///
 /// with g_j the mean over the nodes of |translation|^2 for a unit of coordinate j, so that m is
-/// about the mass that moves. Without nodes that move along (shafts that only turn, models without
+/// about the moving mass. Without nodes that translate (shafts that only rotate, models without
 /// output) each coordinate counts as a length.
 class MassNorm {
  public:
@@ -33,20 +33,20 @@ class MassNorm {
 
 class StepControl {
  public:
-  /// Errors up to `tolerance` are accepted; halvings up to `deepest`, on a grid of `finest`
-  /// halvings.
+  /// Accepts errors up to `tolerance`. Steps are halved up to `deepest` times, on a grid of
+  /// `finest` halvings.
   void set(double tolerance, int deepest, int finest);
 
-  /// Halvings the step has to be tried with after one of this error at this level; beyond deepest()
-  /// when nothing helps.
+  /// Halvings for the next try after a step with this error at this level; above deepest() if
+  /// halving does not help.
   int shorter(double error, int level);
-  /// Level that the next step may have after an accepted one; `done` sub-steps of 2^-finest of the
-  /// longest step lie behind, so that longer steps start at multiples of themselves. What is not
-  /// taken is offered again.
+  /// Level of the next step after an accepted one. `done` counts the finished sub-steps of
+  /// 2^-finest of the longest step; longer steps start only at multiples of their length. A longer
+  /// step that cannot start yet is proposed again later.
   int next(double error, int level, long done);
-  /// The step was lengthened.
+  /// The step has been lengthened.
   void lengthened();
-  /// The level was changed for another reason.
+  /// The level has been changed for another reason.
   void forget() { calm_ = 0, largest_ = 0; }
   int deepest() const { return deepest_; }
   bool accepts(double error) const { return error <= tolerance_; }
@@ -57,10 +57,10 @@ class StepControl {
  private:
   double tolerance_ = 0;
   int deepest_ = 0, finest_ = 0;
-  int patience_ = 0;    ///< steps in a row that have to be calm
+  int patience_ = 0;    ///< required number of consecutive calm steps
   int calm_ = 0;        ///< steps since the level changed or the error was large
-  double largest_ = 0;  ///< error of these
-  bool tried_ = false;  ///< the step was lengthened and has not yet proved itself
+  double largest_ = 0;  ///< largest error in these steps
+  bool tried_ = false;  ///< the step was lengthened and is on trial
   int since_ = 0;       ///< steps since then
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Times of steps that are the longest step cut into halves: whole numbers of its smallest part,
-/// begin + n step / 2^deepest, so that they have no drift and a longer step starts at a multiple of
-/// itself.
+/// Times of steps that are the longest step cut into halves: begin + n step / 2^deepest with
+/// integer n. Times do not drift, and longer steps start at multiples of their length.
 #pragma once
 
 #include <cmath>
@@ -21,21 +20,21 @@ class StepGrid {
     deepest_ = deepest;
   }
 
-  /// The next step starts at t, a multiple of the longest.
+  /// The next step starts at t, a multiple of the longest step.
   void startAt(double t) {
     index_ = std::lround((t - begin_) / longest_);
     done_ = 0;
   }
 
   int deepest() const { return deepest_; }
-  /// Halvings in force.
+  /// Current number of halvings.
   int level() const { return level_; }
   void setLevel(int level) { level_ = level; }
-  /// Full steps done.
+  /// Finished full steps.
   long index() const { return index_; }
-  /// Smallest parts done of the full step under way.
+  /// Finished smallest parts of the current full step.
   long done() const { return done_; }
-  /// Length of steps of a level [s].
+  /// Length of steps at a level [s].
   double length(int level) const { return std::ldexp(longest_, -level); }
 
   /// End of the next step [s].
@@ -45,17 +44,17 @@ class StepGrid {
     const double t = begin_ + steps * longest_;
     return end_ - t < 1e-9 * longest_ ? end_ : t;
   }
-  /// Its length, equal from step to step to the last digit; shorter only where the run ends.
+  /// Length of the next step, bitwise equal from step to step; shorter only at the end of the run.
   double nextLength(double from) const {
     const double h = length(level_), t = next();
     return t >= end_ && std::abs(t - from - h) > 1e-9 * h ? t - from : h;
   }
-  /// The next step is done.
+  /// Completes the next step.
   void advance() {
     done_ += parts(level_);
     if (done_ == parts(0)) ++index_, done_ = 0;
   }
-  /// The lowest level down to `least` whose steps may begin here.
+  /// Lowest level, but not below `least`, with steps that can start here.
   int lowest(int least) const {
     int level = level_;
     while (level > least && done_ % parts(level - 1) == 0) --level;

@@ -16,8 +16,8 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Ten vectors of this length (160 kB) stay in a second-level cache, and matrices are read in long
-/// runs.
+/// Ten vectors of this length (160 kB) fit into a second-level cache, and matrices are still read
+/// in long runs.
 constexpr int positionsPerRun = 2048;
 
 bool isSkew(const Sparse& matrix) {
@@ -33,7 +33,7 @@ bool isSkew(const Sparse& matrix) {
   return true;
 }
 
-/// act(batch, states, offset) for every batch that has states, and points of this rank.
+/// act(batch, states, offset) for every batch with states and with points on this rank.
 template <class Batches, class Act>
 void forStates(Batches& batches, const Act& act) {
   int offset = 0;
@@ -49,7 +49,7 @@ void forStates(Batches& batches, const Act& act) {
 MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms,
                      const std::vector<model::ScalarLaw>& laws, const linalg::BlockPattern& pattern,
                      const linalg::BlockProduct& like) {
-  std::map<std::string, std::size_t> byLaw;  // laws of one name are one law
+  std::map<std::string, std::size_t> byLaw;  // laws of the same name are the same law
   std::vector<Sparse> matrices;
   for (const auto& term : terms) {
     const auto& law = laws[at(term.law)].name;
@@ -103,7 +103,7 @@ void MatrixSum::setFormed(bool formed) {
   formed_ = formed;
 }
 
-/// A = sum_i c_i A_i, first term assigned, terms whose law is zero skipped
+/// A = sum_i c_i A_i: the first term is assigned, terms with zero law are skipped.
 void MatrixSum::form() const {
   const std::size_t n = sum_.size();
   double* sum = sum_.data();
@@ -209,7 +209,7 @@ void CompiledModel::toPositions(const Vector& dofs, Vector& positions) const {
   positions = share_ != nullptr ? share_->pick(dofs) : inOrder(dofs);
 }
 
-/// Own dofs in the order of positions.
+/// Own dofs, sorted by position.
 Vector CompiledModel::inOrder(const Vector& dofs) const {
   Vector positions(size());
   for (int p = 0; p < size(); ++p) positions[p] = dofs[pattern_.partition().dof[at(p)]];
@@ -273,7 +273,7 @@ void CompiledModel::setTime(double t) {
   sumLoads();
 }
 
-/// load_ = sum_i f_i F_i where an f_i has changed
+/// load_ = sum_i f_i F_i if an f_i has changed
 void CompiledModel::sumLoads() {
   bool changed = false;
   for (std::size_t i = 0; i < loads_.size(); ++i) {
@@ -286,7 +286,7 @@ void CompiledModel::sumLoads() {
     if (lastLoadLaws_[i] != 0.0) load_ += lastLoadLaws_[i] * loads_[i].vector;
 }
 
-/// value(law) for loads whose law has a corner.
+/// Replaces laws of loads that have a corner by value(law).
 template <class Value>
 void CompiledModel::crossCorners(double begin, double end, const Value& value) {
   for (std::size_t i = 0; i < loads_.size(); ++i) {

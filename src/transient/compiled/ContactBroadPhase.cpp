@@ -13,7 +13,7 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Points on fewer entries than this are as cheap to measure as to bound.
+/// For points with fewer entries than this, the clearance costs no more than the bound.
 constexpr int cheapPoint = 12;
 
 }  // namespace
@@ -24,7 +24,7 @@ ContactBroadPhase::ContactBroadPhase(const std::vector<int>& points, int width, 
                                      const std::vector<double>& value,
                                      const linalg::BlockPattern& pattern)
     : reach_(reach), all_(points), isActive_((rowBegin.size() - 1) / at(width), 1) {
-  std::map<std::vector<int>, std::vector<int>> byBlocks;  // points that hang on the same blocks
+  std::map<std::vector<int>, std::vector<int>> byBlocks;  // points that depend on the same blocks
   for (int p : all_) {
     std::vector<int> blocks;
     for (int i = rowBegin[at(p * width)]; i < rowBegin[at((p + 1) * width)]; ++i)

@@ -9,14 +9,14 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Coordinates of a point up to which its tangent is taken apart: those of a node.
+/// Largest number of coordinates of a point whose tangent is decomposed: those of a node.
 constexpr int widestPush = 6;
 using Square =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, widestPush, widestPush>;
 
 Square symmetric(const Square& A) { return 0.5 * (A + A.transpose()); }
 
-/// sum lambda q q' over lambda > 0, where lambda q q' make up the symmetric part of A.
+/// sum lambda q q' over lambda > 0, from the eigenvalues lambda of the symmetric part of A.
 Square pushing(const Square& A, Eigen::SelfAdjointEigenSolver<Square>& parts) {
   Square sum = Square::Zero(A.rows(), A.cols());
   if (parts.compute(symmetric(A)).info() != Eigen::Success) return sum;
@@ -47,8 +47,8 @@ void FrozenTangent::freeze(const std::vector<int>& points, const double* dfdd, c
     }
 }
 
-/// P -= pushing(P), and (P + P')/2 - pushing(P) of its part of df/dd: friction, which follows the
-/// normal force, is no part of what is symmetric.
+/// P -= pushing(P). The part of df/dd becomes (P + P')/2 - pushing(P): friction follows the normal
+/// force, so its tangent is not symmetric.
 void FrozenTangent::takeOutPush() {
   if (width_ > widestPush) return;
   Eigen::SelfAdjointEigenSolver<Square> parts(width_);

@@ -12,8 +12,8 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Which dofs the tangents of each point couple: its first dof with all others, and one dof per
-/// entity with one of every other entity, which is all the partition into blocks needs to know.
+/// Coupling of dofs by the tangents of each point: its first dof with all others, and one dof per
+/// entity with one of every other entity. This is all that the partition into blocks needs.
 Sparse pointCoupling(const model::PointSet& set, const std::vector<int>& group) {
   const int width = set.law->width();
   const auto n = static_cast<Eigen::Index>(group.size());
@@ -38,9 +38,9 @@ Sparse pointCoupling(const model::PointSet& set, const std::vector<int>& group) 
   return coupling;
 }
 
-/// Group and kind per dof: the dofs of a node are one group. Modes of a part are as many as there
-/// are families that neither matrices nor point laws couple among each other: lateral modes of one
-/// run between two kept nodes, torsional ones, ...
+/// Group and kind of each dof. The dofs of a node are one group. The modes of a part form one group
+/// per family; neither matrices nor point laws couple different families: lateral modes of one run
+/// between two kept nodes, torsional ones, ...
 struct Groups {
   std::vector<int> group, kind;
 };
@@ -71,7 +71,7 @@ Groups groupDofs(const model::SecondOrderModel& model) {
   joinModes(model.mass);
   for (const auto* terms : {&model.damping, &model.stiffness})
     for (const auto& term : *terms) joinModes(term.matrix);
-  std::map<std::int64_t, int> first;  // per part: the first of its modes a point hangs on
+  std::map<std::int64_t, int> first;  // per part: the first of its modes that moves the point
   for (const auto& set : model.points)
     for (int p = 0; p < set.law->size(); ++p) {
       first.clear();
@@ -93,7 +93,7 @@ Groups groupDofs(const model::SecondOrderModel& model) {
   return groups;
 }
 
-/// build(matrices) with all matrices that stand on the pattern, tangents of points included.
+/// build(matrices) with all matrices of the pattern, including tangents of points.
 template <class Build>
 linalg::BlockPattern withMatrices(const model::SecondOrderModel& model,
                                   const std::vector<int>& group, const Build& build) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The blocks of a SecondOrderModel: which dofs stand together, and which blocks its matrices and
-/// the tangents of its points couple.
+/// Block pattern of a SecondOrderModel: its partition of dofs into blocks, and the couplings of
+/// blocks by matrices and tangents of points.
 #pragma once
 
 #include "linalg/blocks/BlockSparse.hpp"

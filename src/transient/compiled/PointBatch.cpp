@@ -79,7 +79,7 @@ auto PointBatch::measure(const double* q) {
 void PointBatch::look(double t, double h, const double* q) {
   for (int p : active_) isActive_[at(p)] = 0;
   clearances_.look(t, h, q, measure(q), [&](int p, bool acts) { isActive_[at(p)] = acts ? 1 : 0; });
-  // What stands in a factored matrix has to be evaluated as long as it stands there.
+  // A point with a tangent in the factored matrix must be evaluated as long as it is frozen.
   for (int p : frozen_.points()) isActive_[at(p)] = 1;
   listActive();
 }
@@ -100,7 +100,7 @@ model::PointLaw::Power PointBatch::power(double t, const double* q, const double
 ///
 ///     d(y) = m + y Dd + (y^2 - 1/4) h Dv/2 + y (y^2 - 1/4) (h (v_n + v_{n+1}) - 2 Dd)
 ///
-/// is taken at y = -g and g, g^2 = 1/12, where its velocity is Dd/h -+ g Dv.
+/// is evaluated at y = -g and g, g^2 = 1/12, where its velocity is Dd/h -+ g Dv.
 model::PointLaw::Power PointBatch::meanPower(double t, double h, const double* q, const double* v,
                                              const double* dq, const double* dv,
                                              const std::vector<int>& points) {

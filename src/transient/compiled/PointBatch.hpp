@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// One PointSet in kernel form: gathers d = offset + R q, evaluates the law at the points that can
-/// act (PointClearances), scatters R' f and its tangents (FrozenTangent) into the block matrix.
+/// One PointSet in compiled form: gathers d = offset + R q, evaluates the law at points that may be
+/// in contact (PointClearances), scatters R' f and its tangents (FrozenTangent) into the block
+/// matrix.
 #pragma once
 
 #include <limits>
@@ -32,17 +33,16 @@ class PointBatch {
   const std::string& name() const { return name_; }
   std::int64_t entity(int point) const { return entities_[static_cast<std::size_t>(point)]; }
 
-  /// What evaluates a law with states; null for a law without.
+  /// Evaluator of a law with states; null for a law without.
   PointStates* states() const { return states_.get(); }
 
-  /// Measure the clearances at q (time t) and choose the points to evaluate in a step of length h
-  /// from there.
+  /// Evaluates the clearances at q (time t) and selects the points to evaluate in a step of length
+  /// h from there.
   void look(double t, double h, const double* q);
-  /// Measure the clearances at q and add points that have touched without being evaluated; true if
-  /// there were any. When the next look() is at the time t given here, it is at this q and the
-  /// clearances are not measured again.
+  /// Evaluates the clearances at q and adds touching points that were not evaluated; true if there
+  /// are any. A following look() at the time t is at the same q and reuses the clearances.
   bool addMissed(const double* q, double t = std::numeric_limits<double>::quiet_NaN());
-  /// True when a point is closed at q and was open at the last look(), or the other way round.
+  /// True if a point is closed at q and was open at the last look(), or vice versa.
   bool meetsOrLeavesWall(const double* q);
 
   /// Forces of the active points at (q, v).
@@ -52,17 +52,18 @@ class PointBatch {
   /// y += R' f.
   void addForce(double* y) const;
 
-  /// Multiply force and tangents of a point by this in all evaluations from now on (1 at first).
+  /// Multiplies force and tangents of a point by this factor in all later evaluations (initially
+  /// 1).
   void setScale(int point, double scale);
   double scale(int point) const { return scale_[static_cast<std::size_t>(point)]; }
-  /// y += R' f of the points whose scale is not 1, f multiplied by it; their blocks are appended.
+  /// y += R' f of the points with a scale other than 1, f scaled; appends their blocks.
   void addScaledForce(double* y, std::vector<int>& blocks) const;
-  /// Apply a scale set after the last evaluation with tangents to what it left.
+  /// Applies a new scale to the results of the last evaluation with tangents.
   void rescale(int point) { scalePoint(point, true); }
   bool isScaled() const { return scaled_ > 0; }
 
-  // The same in rows (point * width() + coordinate), for iterations that never form q and v; of the
-  // points given.
+  // The same in rows (point * width() + coordinate) of the given points, for iterations that never
+  // form q and v.
   /// rows = R x.
   void gather(const std::vector<int>& points, const double* x, double* rows) const {
     rows_.gather(points, x, rows);
@@ -73,28 +74,28 @@ class PointBatch {
   }
   /// d() at q.
   void gatherPositions(const std::vector<int>& points, const double* q);
-  /// Where the next evaluateHere() evaluates, offsets included.
+  /// Coordinates for the next evaluateHere(), offsets included.
   double* position() { return d_.data(); }
   double* velocity() { return v_.data(); }
-  /// Forces, with tangents if wanted, at position() and velocity().
+  /// Forces at position() and velocity(), with tangents if requested.
   void evaluateHere(double t, const std::vector<int>& points, bool tangent);
   void evaluateHere(double t, int point, bool tangent);
   /// df/dd and df/dv of the last evaluation with tangents, width() x width() per point, row-major.
   const double* dfdd() const { return dfdd_.data(); }
   const double* dfdv() const { return dfdv_.data(); }
-  /// P of the last freezeTangent(); zero for points that are not in it.
+  /// P of the last freezeTangent(); zero at other points.
   const double* frozen() const { return frozen_.values(); }
-  /// R_p Z R_p' of a point for a matrix on the pattern, row-major.
+  /// R_p Z R_p' of a point for a matrix Z on the pattern, row-major.
   void project(int point, const double* values, double* block) const {
     rows_.project(point, values, block);
   }
-  /// Blocks of the pattern the rows of any point touch.
+  /// Marks the blocks of the pattern used by the rows of any point.
   void markBlocks(std::vector<char>& blocks) const;
-  /// Append those of one point.
+  /// Appends the blocks of one point.
   void appendBlocks(int point, std::vector<int>& blocks) const {
     rows_.appendBlocks(point, blocks);
   }
-  /// act(p) for the active points whose rows touch a block.
+  /// act(p) for the active points with rows in a block.
   template <class Act>
   void forActiveIn(int block, const Act& act) const {
     rows_.forPointsIn(block, [&](int p) {
@@ -114,53 +115,54 @@ class PointBatch {
   void addTangentTimes(const double* x, double* y) const { frozen_.addTimes(rows_, x, y); }
   double frozenTimes(int row, const double* x) const { return frozen_.times(rows_, row, x); }
 
-  // One point or one row (point * width() + coordinate) at a time, for the work on single points.
+  // One point or one row (point * width() + coordinate) at a time, for local iterations.
   /// R_row x and y += factor R_row'.
   double rowTimesVector(int row, const double* x) const { return rows_.times(row, x); }
   void addRow(int row, double factor, double* y) const { rows_.add(row, factor, y); }
   /// Largest |R_row,i| weight_i.
   double rowWeight(int row, const double* weight) const { return rows_.weight(row, weight); }
-  /// The law at one point for width() coordinates d, v, which the batch then holds; tangents
-  /// row-major, both null if not wanted.
+  /// Evaluates the law at one point for width() coordinates d, v, which the batch then contains.
+  /// Tangents are row-major, both null if not requested.
   void evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd,
                    double* dfdv);
-  /// The same with tangents for a place where the point is not: the batch holds what it held.
+  /// The same with tangents at other coordinates of the point; the data of the batch are unchanged.
   void evaluateElsewhere(double t, int point, const double* d, const double* v, double* f,
                          double* dfdd, double* dfdv);
 
   /// Powers at (q, v), summed over these points.
   model::PointLaw::Power power(double t, const double* q, const double* v,
                                const std::vector<int>& points);
-  /// Their mean over a step of h seconds that ends at (q, v) at the time t and changes them by dq
-  /// and dv: by Gauss' rule of two points on the cubic through both ends. Where an impact changes
-  /// the velocity within the step (scale() other than 1) it is that in the middle of the chord.
+  /// Mean of these powers over a step of h seconds that ends at (q, v) at the time t and changes
+  /// them by dq and dv: Gauss' rule with two points on the cubic through both ends. If an impact
+  /// changes the velocity within the step (scale() other than 1), the power in the middle of the
+  /// chord is used.
   model::PointLaw::Power meanPower(double t, double h, const double* q, const double* v,
                                    const double* dq, const double* dv,
                                    const std::vector<int>& points);
-  /// All points evaluated here, and those that were active since the last bookPowers().
+  /// All points of this batch; points that were active since the last bookPowers().
   const std::vector<int>& everyPoint() const { return all_; }
   const std::vector<int>& acted();
-  /// What is booked up to now is not changed again.
+  /// Closes the booking up to now.
   void bookPowers();
-  /// Position, velocity of all points for recording (all of them are gathered).
+  /// Gathers position and velocity of all points, for recording.
   void gatherAll(const double* q, const double* v);
   const double* d() const { return d_.data(); }
   const double* v() const { return v_.data(); }
-  /// Forces, defined for active points only.
+  /// Forces, valid for active points only.
   const double* force() const { return f_.data(); }
 
-  /// What a restart needs to go on with the same choices and the same frozen tangent.
+  /// Data for a restart with the same selection of points and the same frozen tangent.
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
  private:
   void gatherThese(const std::vector<int>& points, const double* q, const double* v);
   void listActive();
-  /// Clearances at q, for PointClearances.
+  /// Function that evaluates the clearances at q, for PointClearances.
   auto measure(const double* q);
   void applyScale(const std::vector<int>& points, bool tangent);
   void scalePoint(int point, bool tangent);
-  /// The law at d_, v_ of these points.
+  /// Evaluates the law at d_, v_ of these points.
   void callLaw(double t, const std::vector<int>& points, bool tangent);
   model::PointLaw::Power callPower(double t, const std::vector<int>& points) const;
 
@@ -180,10 +182,10 @@ class PointBatch {
   PointClearances clearances_;
   std::vector<double> d_, v_, f_, dfdd_, dfdv_;
   std::vector<double> scale_;
-  int scaled_ = 0;  ///< scales that are not 1
+  int scaled_ = 0;  ///< number of scales other than 1
   FrozenTangent frozen_;
-  std::vector<double> dd_, dv_;  ///< of a step, and halves of what is between Gauss' points
-  std::vector<double> own_;      ///< d, v of a point that is evaluated elsewhere
+  std::vector<double> dd_, dv_;  ///< of a step; half the distance of the Gauss points
+  std::vector<double> own_;      ///< d, v of a point during evaluateElsewhere()
   std::vector<int> one_;
   long evaluations_ = 0;
 };

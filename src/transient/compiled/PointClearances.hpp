@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Clearances of the points of a batch from step to step, and which points they let act.
+/// Clearances of the points of a batch from step to step, and the points that may be in contact.
 ///
-/// A point is evaluated in a step when its clearance may close within the step at twice the rate
-/// last seen; after the step every other point is checked (by itself or by the bound of
-/// ContactBroadPhase), and one that has touched is added and the step corrected: none is ever
-/// missed.
+/// A point is evaluated in a step if its clearance may close within the step at twice its last
+/// closing rate. After the step every other point is checked (directly or by the bound of
+/// ContactBroadPhase). If one of them touches, it is added and the step is corrected, so no contact
+/// is missed.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +17,19 @@
 
 namespace tooljoint::transient {
 
-/// `measure(points, gap)` sets the clearances of these points at the q that is given with it.
+/// `measure(points, gap)` evaluates the clearances of these points at the q of the call.
 class PointClearances {
  public:
   PointClearances(int points, ContactBroadPhase watch);
 
-  /// Measures at q (time t) and calls act(p, whether p can act in a step of length h from there).
+  /// Evaluates at q (time t) and calls act(p, whether p may be in contact in a step of length h).
   template <class Measure, class Act>
   void look(double t, double h, const double* q, const Measure& measure, const Act& act);
-  /// Measures at q and calls touched(p) for every point there is no clearance of. When the next
-  /// look() is at the time t given here, it is at this q and nothing is measured again.
+  /// Evaluates at q and calls touched(p) for every point without clearance. A following look() at
+  /// the time t is at the same q and reuses the values.
   template <class Measure, class Act>
   void check(const double* q, double t, const Measure& measure, const Act& touched);
-  /// True when a point is closed at q and was open at the last look(), or the other way round.
+  /// True if a point is closed at q and was open at the last look(), or vice versa.
   template <class Measure>
   bool meetsOrLeavesWall(const double* q, const Measure& measure);
 
@@ -42,13 +42,13 @@ class PointClearances {
   void take(const double* q, const Measure& measure, std::vector<double>& gap);
 
   std::vector<double> gap_, lastGap_, check_;
-  double time_ = 0, lastTime_ = 0;                               ///< of gap_ and lastGap_
-  double checkTime_ = std::numeric_limits<double>::quiet_NaN();  ///< of check_
-  int seen_ = 0;  ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
+  double time_ = 0, lastTime_ = 0;                               ///< times of gap_ and lastGap_
+  double checkTime_ = std::numeric_limits<double>::quiet_NaN();  ///< time of check_
+  int seen_ = 0;  ///< number of evaluations in gap_ and lastGap_: 0, 1, 2
   ContactBroadPhase watch_;
 };
 
-/// Of the points that are awake; what slept is as if it had stood still.
+/// Clearances of the active points. A newly activated point counts as at rest before.
 template <class Measure>
 void PointClearances::take(const double* q, const Measure& measure, std::vector<double>& gap) {
   watch_.activate(q);
@@ -72,8 +72,8 @@ void PointClearances::look(double t, double h, const double* q, const Measure& m
     take(q, measure, gap_);
   }
   checkTime_ = std::numeric_limits<double>::quiet_NaN();
-  // A point acts in the step when gap <= 2 h closing, closing = rate at which its clearance shrank
-  // since the look before.
+  // A point is evaluated in the step if gap <= 2 h closing, closing = closing rate of its clearance
+  // since the last look().
   const double reach = seen_ == 2 && time_ > lastTime_ ? 2.0 * h / (time_ - lastTime_) : 0.0;
   for (int p : watch_.active()) {
     const double closing = std::max(0.0, lastGap_[at(p)] - gap_[at(p)]);

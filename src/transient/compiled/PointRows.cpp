@@ -15,10 +15,10 @@ namespace {
 
 namespace kernel = linalg::kernel;
 
-/// Address of an entry that the matrix does not have.
+/// Address of an entry outside the pattern.
 constexpr std::size_t noEntry = std::numeric_limits<std::size_t>::max();
 
-/// Sum of a_i x_i in four sums.
+/// Sum of a_i x_i, in four partial sums.
 TOOLJOINT_INLINED double dot(int n, const double* a, const double* x) {
   kernel::Quad sum{0, 0, 0, 0};
   int j = 0;
@@ -30,7 +30,7 @@ TOOLJOINT_INLINED double dot(int n, const double* a, const double* x) {
   return (sum[0] + sum[1]) + (sum[2] + sum[3]) + rest;
 }
 
-/// y += a f of n entries.
+/// y += a f for n entries.
 TOOLJOINT_INLINED void addTo(int n, const double* a, double f, double* y) {
   for (int j = 0; j < n; ++j) y[j] += a[j] * f;
 }
@@ -102,7 +102,7 @@ void PointRows::takeSingle(const PointRowEntries& entries, const linalg::BlockPa
 void PointRows::takeDense(const PointRowEntries& entries, const linalg::BlockPattern& pattern) {
   pairBegin_.push_back(0);
   for (int p = 0; p < points_; ++p) {
-    std::map<int, std::size_t> begin;  // of the rows on a block
+    std::map<int, std::size_t> begin;  // offsets of the rows on each block
     const auto first = block_.begin() + blockBegin_[at(p)],
                last = block_.begin() + blockBegin_[at(p + 1)];
     for (auto block = first; block != last; ++block) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The rows R of the points of a PointSet on a block pattern: products with R and R', and with
-/// matrices on the pattern. Where every row has one entry, 1 (points at nodes of a model that is
-/// not reduced), that entry is its place; else the rows of a point are dense over the blocks that
-/// they touch, so that a point of a reduced part reads the modes of the part without gaps.
+/// Rows R of the points of a PointSet on a block pattern: products with R and R', and with matrices
+/// on the pattern. If every row has one entry, 1 (points at nodes of a model that is not reduced),
+/// only its position is stored. Otherwise the rows of a point are dense over the blocks they use,
+/// so that a point of a reduced part reads the modes of the part contiguously.
 #pragma once
 
 #include <cstddef>
@@ -25,10 +25,10 @@ class PointRows {
   PointRows() = default;
   PointRows(const model::PointSet& set, const linalg::BlockPattern& pattern);
 
-  /// Entries of the rows of a set that are not zero.
+  /// Nonzero entries of the rows of a set.
   static PointRowEntries entries(const model::PointSet& set, const linalg::BlockPattern& pattern);
 
-  int width() const { return width_; }  ///< rows of a point
+  int width() const { return width_; }  ///< rows per point
 
   /// R_row x; y += factor R_row'; the largest |R_row,i| weight_i.
   double times(int row, const double* x) const;
@@ -45,10 +45,11 @@ class PointRows {
   /// Matrix -= R_p' P R_p, P row-major.
   void subtract(int point, const double* P, double* values) const;
 
-  /// All blocks of the pattern that rows touch, point by point; those of one point are appended.
+  /// All blocks of the pattern used by rows, point by point; appendBlocks() appends those of one
+  /// point.
   const std::vector<int>& blocks() const { return block_; }
   void appendBlocks(int point, std::vector<int>& blocks) const;
-  /// act(p) for the points whose rows touch a block.
+  /// act(p) for the points with rows in a block.
   template <class Act>
   void forPointsIn(int block, const Act& act) const {
     const auto b = static_cast<std::size_t>(block);
@@ -63,11 +64,11 @@ class PointRows {
 
   int points_ = 0, width_ = 0;
   bool single_ = false;                    ///< every row has at most one entry, and it is 1
-  std::vector<int> placeOf_;               ///< single: position per row, -1 for none
+  std::vector<int> placeOf_;               ///< single: position of each row, -1 for none
   std::vector<std::size_t> entryAddress_;  ///< single: of (row, column) of a point, width x width
 
-  std::vector<int> blockBegin_, block_;  ///< per point: the blocks its rows touch
-  std::vector<int> pointBegin_, point_;  ///< per block: the points whose rows touch it
+  std::vector<int> blockBegin_, block_;  ///< per point: the blocks of its rows
+  std::vector<int> pointBegin_, point_;  ///< per block: the points with rows in it
 
   /// Rows restricted to a block, width x block, row-major.
   struct Touch {
@@ -76,7 +77,7 @@ class PointRows {
   };
   std::vector<Touch> touches_;  ///< as block_
   std::vector<double> dense_;
-  std::vector<int> pairBegin_;           ///< per point into pairOffset_
+  std::vector<int> pairBegin_;           ///< per point: start in pairOffset_
   std::vector<std::size_t> pairOffset_;  ///< block offsets for all pairs of touches
 };
 

@@ -56,8 +56,8 @@ void PointStates::setJacobian(int point, double factor) {
   factorised_.compute(jacobian_);
 }
 
-/// Newton for x - base - factor g = 0 from the states found last in this step. False when it does
-/// not converge.
+/// Newton's method for x - base - factor g = 0, starting from the last states of this step. False
+/// if it does not converge.
 bool PointStates::solve(double t, int point, const double* d, const double* v) {
   one_[0] = point;
   double* x = &x_[at(point * states_)];

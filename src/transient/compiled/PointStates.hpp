@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Evaluates a batch with states at what a scheme makes of them. A scheme states where the rated
-/// states of a step end,
+/// Evaluates a batch with states. The scheme defines the rated states at the end of a step,
 ///
 ///     x = base + factor g(t, d, v, x),
 ///
-/// with factor 0 where x is known (stages of explicit schemes), and each point is then a function
-/// of its d and v alone, with the tangents that follow:
+/// with factor 0 if x is known (stages of explicit schemes). The force at each point is then a
+/// function of its d and v alone, with the tangents
 ///
 ///     df/dd + df/dx S factor dg/dd,   S = (I - factor dg/dx)^-1,   likewise for v
 ///
 /// Solvers of first-order systems iterate on x themselves and eliminate it from their Newton
-/// equations: bindKnown() and the functions below it.
+/// equations: bindKnown() and the functions after it.
 #pragma once
 
 #include <Eigen/LU>
@@ -26,23 +25,23 @@ class PointStates {
  public:
   explicit PointStates(const model::StatefulPointLaw& law);
 
-  /// Numbers of all points.
+  /// Number of states of all points.
   int size() const { return points_ * states_; }
-  /// States from now on; `base` must outlive their use. `rate` is that of power(), null for none.
+  /// Sets the states; `base` must outlive their use. `rate` is used by power(), null for none.
   void bind(const double* base, double factor, const double* rate);
-  /// States x, with the tangents that follow from this factor.
+  /// Sets known states x, with the tangents for this factor.
   void bindKnown(const double* x, double factor);
-  /// Of the last tangents, and r with rated() numbers per point: the forces df/dx S r, width() rows
-  /// per point.
+  /// From the last tangents and r, with rated() numbers per point: the forces df/dx S r, width()
+  /// rows per point.
   void forceOf(double factor, const double* r, double* rows);
-  /// r := S (r + factor (dg/dd d + dg/dv v)), d and v being rows.
+  /// r := S (r + factor (dg/dd d + dg/dv v)); d and v are rows.
   void follow(double factor, const double* d, const double* v, double* r);
   int points() const { return points_; }
   int states() const { return states_; }
   int rated() const { return rated_; }
 
-  /// As the functions of model::PointLaw. Forces of a point whose states cannot be found are not
-  /// numbers, so that the step fails.
+  /// As the functions of model::PointLaw. If the states of a point cannot be found, its force is
+  /// NaN, so that the step fails.
   void evaluate(double t, const std::vector<int>& points, const double* d, const double* v,
                 double* f);
   void evaluateWithTangent(double t, const std::vector<int>& points, const double* d,
@@ -52,10 +51,10 @@ class PointStates {
 
   /// Rates of the last evaluation of all points, 0 for held states.
   void rates(double* xDot) const;
-  /// States at the end (d, v) of a step of all points and their rates, held ones accepted.
+  /// End (d, v) of a step, all points: sets states and rates, accepts held states.
   void complete(double t, const std::vector<int>& all, const double* d, const double* v, double* x,
                 double* xDot);
-  /// Held states of x at the end of a step.
+  /// Updates the held states of x at the end of a step.
   void accept(double t, const double* d, const double* v, double* x) const {
     law_->accept(t, d, v, x);
   }
@@ -64,7 +63,7 @@ class PointStates {
   }
   bool isRated(int state) const { return state % states_ < rated_; }
 
-  /// Those of the last evaluation with tangents.
+  /// Tangents of the last evaluation with tangents.
   model::StateTangentArrays::OfPoint tangentsOf(int point) const { return tangents_.of(point); }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Loops over the coordinates of points, of a width the compiler knows where it is the usual one:
-/// two translations and a rotation.
+/// Loops over the coordinates of points. For the usual width (two translations and a rotation) the
+/// compiler knows the width.
 #pragma once
 
 #include <type_traits>

@@ -55,7 +55,7 @@ void ContactForceUpdate::guess(double t, double c, const Vector& v) {
   }
 }
 
-/// Laws, impacts and answers at y.
+/// Laws, impacts and local responses at y.
 void ContactForceUpdate::prepare(std::size_t number, double t, double c) {
   PointForces& forces = forces_[number];
   PointBatch& batch = model_->points()[number];
@@ -112,9 +112,7 @@ double ContactForceUpdate::wrongShare() const {
   for (std::size_t b = 0; b < forces_.size(); ++b)
     forces_[b].addSquares(model_->points()[b], sums[0], sums[1]);
   model_->cut().reduce(nullptr, 0, sums, 2);
-  return sums[0] == 0
-             ? 0.0
-             : std::sqrt(sums[0] / sums[1]);  // infinite where all that was expected is gone
+  return sums[0] == 0 ? 0.0 : std::sqrt(sums[0] / sums[1]);  // infinite if no force is left
 }
 
 void ContactForceUpdate::solve(const linalg::BlockFactor& factor, const Vector* force,
@@ -155,7 +153,7 @@ bool ContactForceUpdate::isFew(long here) {
 
 bool ContactForceUpdate::correct(double t, double c, double small, bool all) {
   long wrong = 0;
-  for (const auto& forces : forces_)  // what was not evaluated is not wrong
+  for (const auto& forces : forces_)  // points that were not evaluated are not wrong
     for (int p : forces.taken()) wrong += forces.isWrong(p, small) ? 1 : 0;
   const bool few = !all && strategies_->has(Strategy::NearSolves) && isFew(wrong);
   allMoved_ = true;

@@ -39,7 +39,7 @@ bool CoupledPointSolve::isIn(int batch, int point) const {
   });
 }
 
-/// max_r |w_r (f - f0 - P R delta)_r|, w_r by the strongest dof of the row.
+/// max_r |w_r (f - f0 - P R delta)_r|, w_r the largest weight of the dofs of the row.
 double CoupledPointSolve::error(const PointBatch& batch, int b, int p, const double* delta,
                                 const double* weight) const {
   double worst = 0;

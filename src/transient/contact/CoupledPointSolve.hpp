@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The way out when Newton stalls on a few points whose force jumps (contact that switches within
-/// the step, friction that reverses): these points are solved as what they are, nonlinear, against
-/// the compliance of everything else linearised.
+/// Fallback if Newton stalls on a few points whose force jumps (contact that switches within the
+/// step, friction that reverses). These points are solved with their nonlinear laws against the
+/// linearised compliance of everything else.
 ///
 ///     S delta = -R + sum_i R_i' phi_i,   phi_i = f_i(d_i + y_i, v_i + c y_i) - f_i(d_i, v_i), y_i
 ///     = R_i delta
 ///
-/// where S has the tangents of all points but these. With G_ij = R_i S^-1 R_j' that is y_i = y_i^0
-/// + sum_j G_ij phi_j, a problem of a few points, swept node by node; each node is solved by Newton
-/// with backtracking and a bracket on its own few coordinates.
+/// where S contains the tangents of all points except these. With G_ij = R_i S^-1 R_j' this is y_i
+/// = y_i^0 + sum_j G_ij phi_j, a problem of a few points. It is solved in sweeps over the points;
+/// each point is solved by Newton with backtracking and a bracket on its own few coordinates.
 #pragma once
 
 #include <vector>
@@ -24,15 +24,15 @@ class CoupledPointSolve {
  public:
   void bind(CompiledModel& model, Strategies& strategies);
 
-  /// Remember positions, velocities and forces of the active points at the iterate to start from
-  /// (just evaluated).
+  /// Stores positions, velocities and forces of the active points at the start iterate, which has
+  /// just been evaluated.
   void begin();
-  /// The batches have been evaluated at the end of a trial step `delta`: add the points whose force
-  /// is not what their frozen tangent said, and take their tangents out of it. False when there is
-  /// none to add, or no room. `weight` scales the rows of forces.
+  /// The batches have been evaluated at the end of a trial step `delta`. Adds the points whose
+  /// force differs from the prediction of their frozen tangent, and removes their tangents from it.
+  /// False if there are none to add, or no room. `weight` scales the rows of forces.
   bool addTroubled(const double* delta, const double* weight);
   /// delta and force = sum R_i' phi_i for the points added so far. `residual` belongs to the
-  /// iterate of begin(), `factor` to the frozen tangents. False when the sweeps do not settle.
+  /// iterate of begin(), `factor` to the frozen tangents. False if the sweeps do not converge.
   bool solve(double t, double c, const linalg::BlockFactor& factor, const Vector& residual,
              Vector& delta, Vector& force);
 

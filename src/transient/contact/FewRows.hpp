@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Inverses of matrices as small as the coordinates of a point, row-major.
+/// Inverses of matrices of the size of a point's coordinates, row-major.
 #pragma once
 
 #include <Eigen/LU>
@@ -12,7 +12,7 @@
 
 namespace tooljoint::transient {
 
-/// B = A^-1 for A 3 x 3 by cofactors; false when A is singular to rounding.
+/// B = A^-1 for A 3 x 3 by cofactors; false if A is singular to rounding.
 inline bool invertThree(const double* A, double* B) {
   const double c0 = A[4] * A[8] - A[5] * A[7], c1 = A[5] * A[6] - A[3] * A[8],
                c2 = A[3] * A[7] - A[4] * A[6];

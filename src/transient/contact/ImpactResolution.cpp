@@ -13,13 +13,13 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Of reboundLoss(), fitted to single masses.
+/// Coefficient of reboundLoss(), fitted to single masses.
 constexpr double lossFit = 0.55;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// Largest part that depends on where in a step the wall is met, likewise. The force of a wall with
-/// damping c sets in with a jump c v; met up to half a step early or late, it takes W c h of the
-/// energy more or less, with c of the depth that is passed in h.
+/// Largest part of the energy that depends on when within a step the wall is met, fitted likewise.
+/// The force of a wall with damping c starts with a jump c v. Up to half a step early or late, it
+/// takes W c h of the energy more or less, with c at the depth passed in h.
 struct Scatter {
   double spring, damper;
   Scatter(double wh, double damping)
@@ -60,8 +60,8 @@ const double* ImpactResolution::mobility(int b, int point) const {
   return &sets_[at(b)].mobility[at(point * w * w)];
 }
 
-/// What is met at the end of a step is a little force at a high speed: both count. The tangents of
-/// a force may be left from an iterate that did not reach the wall.
+/// A point that meets its wall at the end of a step has a small force and a high speed, so both
+/// enter. The tangents of a force may belong to an iterate that did not reach the wall.
 ImpactResolution::Bound ImpactResolution::bound(int b, int point, double t, double h,
                                                 const double* before) {
   PointBatch& batch = model_->points()[at(b)];
@@ -84,17 +84,17 @@ ImpactResolution::Bound ImpactResolution::bound(int b, int point, double t, doub
   return found;
 }
 
-/// v'M v: the mean over the run so far, or that of the present step where it is more.
+/// v'M v: the mean over the run so far, or that of the current step if it is larger.
 double ImpactResolution::square() const {
   return std::max(current_, time_ > 0 ? squares_ / time_ : 0.0);
 }
 
-/// Speed at which the wall was met: that of the point, and what the wall has taken of it.
+/// Speed at first contact: that of the point, and the part already stopped by the wall.
 double ImpactResolution::impactSpeed(double speed) const {
   return std::hypot(speed, met_.push() * met_.mobility() / met_.frequency());
 }
 
-/// Sets <v^2> for a point that meets its wall with that speed.
+/// Sets <v^2> for a point that meets its wall at this speed.
 void ImpactResolution::measureBy(int b, double speed) {
   reference_ = square() / norm_.mass();
   alone_ = model_->points()[at(b)].width() == 1;
@@ -104,12 +104,12 @@ void ImpactResolution::measureBy(int b, double speed) {
   reference_ = std::max(Tuned::quiet * Tuned::quiet, reference_);
 }
 
-/// Whether what changes by this, (dv)^2, is worth a shorter step.
+/// Whether the squared velocity change (dv)^2 requires a shorter step.
 bool ImpactResolution::matters(double change) const {
   return change > 4 * Tuned::mostLost * reference_;
 }
 
-/// Whether the wall turns the point within few steps, so that an impact in them is none.
+/// Whether the wall reverses the point within few steps, so that these do not resolve the impact.
 bool ImpactResolution::isFast(const MetWall& wall, double change, double h) const {
   h *= counted_;
   return (wall.frequency() * h > Tuned::resolved ||
@@ -127,9 +127,9 @@ bool ImpactResolution::losesMuch(const MetWall& wall, double change, double h) c
   return (part.spring + part.damper) * square > 4 * Tuned::mostMisplaced * reference_;
 }
 
-/// (spring max(1/W, m/n) + damper/W) dv^2. A point lighter than a coordinate of the model is on
-/// average counts as one, else a heavy part that moves beside it hides what it does; steps of w h =
-/// 0.15 always meet that.
+/// (spring max(1/W, m/n) + damper/W) dv^2. A point lighter than the mean mass of a coordinate
+/// counts with the mean, because otherwise a heavy part that moves at the same time would hide its
+/// error. Steps of w h = 0.15 always satisfy the bound.
 double ImpactResolution::misplaced(const MetWall& wall, double change, double h) const {
   if (!isFast(wall, change, h)) return 0;
   h *= counted_;
@@ -140,7 +140,7 @@ double ImpactResolution::misplaced(const MetWall& wall, double change, double h)
 
 double ImpactResolution::mostMisplaced() const { return 4 * Tuned::mostMisplaced * square(); }
 
-/// Calls visit(dv) for each point of this rank whose wall, met_, may turn it in the step.
+/// Calls visit(dv, speed) for each point of this rank whose wall, met_, may reverse it in the step.
 template <class Visit>
 void ImpactResolution::visitTurned(const State& from, const State& to, double h,
                                    const Visit& visit) {
@@ -156,8 +156,8 @@ void ImpactResolution::visitTurned(const State& from, const State& to, double h,
       met_.face(batch, p, mobility(b, p), to.t);
       met_.measure(change + speed, h);
       if (met_.frequency() == 0) continue;
-      // What a force passes on to its neighbours is no change of velocity; what has begun to turn
-      // goes on to its reversal.
+      // A force passed on to the neighbours does not change the velocity. A reversal that has begun
+      // counts in full.
       const double begin = met_.along(from.v), end = met_.along(to.v);
       measureBy(b, impactSpeed(std::max(std::abs(begin), std::abs(end))));
       const double reversal =
@@ -200,8 +200,8 @@ void ImpactResolution::visitReleased(const State& state, double h, const Visit& 
   }
 }
 
-/// What is resolved beside the mean motion of the run is so beside more; v'M v of the step costs a
-/// product.
+/// The mean motion of the run is tested first: a step that resolves its impacts relative to the
+/// mean also does so relative to a larger motion, and v'M v of the step costs a product.
 int ImpactResolution::halvings(const State& from, const State& to, double h) {
   current_ = 0;
   if (!isCoarse(from, to, h)) return 0;
@@ -214,7 +214,7 @@ int ImpactResolution::halvingsAtStart(const State& state, double h) {
   return halvingsOf(h, [&](const auto& visit) { visitReleased(state, h, visit); });
 }
 
-/// \param visitPoints  calls its argument with (dv, speed) for each point
+/// \param visitPoints calls its argument with (dv, speed) for each point
 template <class Points>
 int ImpactResolution::halvingsOf(double h, const Points& visitPoints) {
   double lossy = 0;
@@ -239,9 +239,9 @@ int ImpactResolution::halvingsOf(double h, const Points& visitPoints) {
   return most;
 }
 
-/// Time for which contact that is closed at `to` must have been without motion before a step of
-/// length h may follow: half a period of its vibration, since it also rests where it is pressed in
-/// furthest; infinite where it moves, 0 where none is closed that h does not resolve.
+/// Time for which the contact closed at `to` must have been without motion before a step of length
+/// h: half a period of its vibration, because it is also at rest at its largest depth. Infinite if
+/// it moves, 0 if h resolves all closed contact.
 double ImpactResolution::calmNeeded(const State& to, double h) {
   double needed = 0, sum = 0;
   current_ = model_->massForm(to.v.data());

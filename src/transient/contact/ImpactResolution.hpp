@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Steps short enough for the impacts in them. A point of mass 1/W = 1/(n' R M^-1 R' n) that meets
-/// a wall of stiffness k along n vibrates there with w = sqrt(k W), and a step of length h changes
-/// its velocity by
+/// Step size for impacts. A point of mass 1/W = 1/(n' R M^-1 R' n) that meets a wall of stiffness k
+/// along n vibrates there with w = sqrt(k W), and a step of length h changes its velocity by
 ///
 ///     dv = h W n'(f_{n+1} - f_n).
 ///
-/// A rebound in steps of length h loses the part reboundLoss() of its energy, and misplaces up to
-/// the part `scatter`, depending on where in a step the wall is met. With a full reversal of the
-/// speed v, dv = 2 v, this is loss dv^2 / (8 W) of energy. A step resolves its impacts where
+/// In steps of length h a rebound loses the part reboundLoss() of its energy and misplaces up to
+/// the part `scatter`, depending on when within a step the wall is met. For a full reversal of the
+/// speed v, dv = 2 v, this is an energy of loss dv^2 / (8 W). A step resolves its impacts if
 ///
 ///     loss(w h) dv^2 / 4 <= a <v^2>   and   sum scatter(w h) dv^2 / (8 W) <= b <v'M v / 2>
 ///
-/// with means over the run so far, or those of the step where they are larger: what one loses is
-/// small beside what a point of the string has, and what all misplace beside what the whole has.
-/// 1/W is there at least the mass of a coordinate of the model on average. Nodes in a borehole move
-/// alike. A point of one row, such as a stop, may move far less than the rest of the model and is
-/// seen by itself: the speed v at which it meets its wall stands for the mean, from a tenth of that
-/// on, and what it misplaces, scatter dv^2 / 4, is at most b of v^2.
+/// with means over the run so far, or values of the step if they are larger: the loss of one impact
+/// is small compared with the energy of a point, and the sum of the misplaced energies compared
+/// with the energy of the model. 1/W in the sum is at least the mean mass of a coordinate. Nodes in
+/// a borehole all move alike. A point of one row, such as a stop, may move far less than the rest
+/// of the model and is judged on its own: the speed v at which it meets its wall replaces the mean,
+/// down to a tenth of the mean, and its misplaced part, scatter dv^2 / 4, is at most b of v^2.
 #pragma once
 
 #include <array>
@@ -34,35 +33,35 @@ namespace tooljoint::transient {
 
 struct State;
 
-/// Mean part of its energy that a rebound from an elastic wall loses in steps of w h < 2, with
-/// spectral radius r: a fit to single masses, within 20 % or 0.03 from w h = 0.15 to 1.2. Beyond,
-/// contact is an impact without rebound (PointImpacts), and 1.
+/// Mean part of its energy that a rebound from an elastic wall loses in steps of w h < 2 with
+/// spectral radius r: a fit to single masses, within 20 % or 0.03 for w h from 0.15 to 1.2. Above w
+/// h = 2 contact is an impact without rebound (PointImpacts): 1.
 double reboundLoss(double wh, double r);
 
 class ImpactResolution {
  public:
-  /// For the scheme of spectral radius r and a mass that is inverted.
+  /// Binds for the scheme of spectral radius r and an inverted mass.
   void bind(CompiledModel& model, const MassFactor& mass, double radius);
-  /// Impacts are resolved by steps of half the length that do so else.
+  /// Impacts then need steps of half the usual length.
   void halve() { counted_ = 2; }
 
   /// Halvings of the step from `from` to `to` of length h, just taken, that resolve its impacts; 0
-  /// where it does so itself.
+  /// if the step resolves them.
   int halvings(const State& from, const State& to, double h);
-  /// The same for a first step of length h: halvings that resolve contact which is closed at the
-  /// start and opens. In contact of force f, out of balance by a_n along it and moving at v_n, a
-  /// point leaves its wall where hypot(a_n, w v_n) > W f - a_n, and reverses 2 hypot(a_n / w, v_n).
+  /// The same for a first step of length h: halvings that resolve contact closed at the start that
+  /// opens. With contact force f, acceleration a_n by its imbalance and velocity v_n, a point
+  /// leaves its wall if hypot(a_n, w v_n) > W f - a_n, and reverses 2 hypot(a_n / w, v_n).
   int halvingsAtStart(const State& state, double h);
-  /// The step that ended at `to` counts.
+  /// Accepts the step that ended at `to`.
   void keep(const State& to, double h);
-  /// Level that the next step may have. After an impact steps grow, at most by Tuned::atATime
+  /// Level of the next step. After an impact steps are lengthened, by at most Tuned::atATime
   /// halvings at once, when closed contact has been without motion for half a period of its
   /// vibration.
   int nextLevel(const State& to, double h, const StepGrid& grid);
-  /// The step was lengthened: the wait begins anew.
+  /// The step has been lengthened: restarts the waiting time.
   void lengthened() { calm_ = 0; }
 
-  /// Append / take back what belongs to no point, alike on all ranks.
+  /// Append / restore the data that belong to no point and are equal on all ranks.
   void carry(std::vector<double>& numbers) const;
   void takeUp(const double*& numbers);
   void save(std::vector<double>& memory) const;
@@ -70,10 +69,10 @@ class ImpactResolution {
 
  private:
   struct Set {
-    std::vector<double> force;     ///< rows, at the end of the last step kept
+    std::vector<double> force;     ///< rows, at the end of the last accepted step
     std::vector<double> mobility;  ///< R M^-1 R' per point, width x width, row-major
   };
-  /// What a step can do to a point, from the rows its wall pushes along [m/s].
+  /// Bound of the effect of a step on a point, from the rows in which its wall acts [m/s].
   struct Bound {
     double change = 0;  ///< h W |f_{n+1} - f_n|
     double speed = 0;
@@ -99,16 +98,16 @@ class ImpactResolution {
 
   CompiledModel* model_ = nullptr;
   double radius_ = 1;
-  double counted_ = 1;  ///< length that counts over that of a step
+  double counted_ = 1;  ///< effective over actual step length
   std::vector<Set> sets_;
   MassNorm norm_;
-  double share_ = 0;               ///< mass of a coordinate on average [kg]
-  double squares_ = 0, time_ = 0;  ///< integral of v'M v over the time measured [J s]
-  double unseen_ = 0;              ///< time since the last look
-  double current_ = 0;             ///< v'M v of the present step, once it is needed
-  double reference_ = 0;           ///< <v^2> that a point is measured by [m2/s2]
-  bool alone_ = false;             ///< it is seen by itself
-  long kept_ = 0;                  ///< steps
+  double share_ = 0;               ///< mean mass of a coordinate [kg]
+  double squares_ = 0, time_ = 0;  ///< integral of v'M v, measured time [J s], [s]
+  double unseen_ = 0;              ///< time since the last measurement
+  double current_ = 0;             ///< v'M v of the current step, on demand
+  double reference_ = 0;           ///< <v^2> to compare a point with [m2/s2]
+  bool alone_ = false;             ///< the point is judged on its own
+  long kept_ = 0;                  ///< accepted steps
   bool recovering_ = false;        ///< steps are short because of an impact
   double calm_ = 0;                ///< time for which closed contact has been without motion [s]
   MetWall met_;

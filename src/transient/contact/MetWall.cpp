@@ -9,9 +9,10 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Part of the depth behind a wall at which its damping is evaluated again: what it sets in with.
+/// Fraction of the depth behind a wall at which its damping is evaluated again, for its onset
+/// value.
 constexpr double onsetShare = 1.0 / 16.0;
-/// Of the way out of a wall, to find where it begins.
+/// Bisections on the way out of a wall, to find where it begins.
 constexpr int bisections = 24;
 
 }  // namespace
@@ -47,8 +48,8 @@ void MetWall::face(PointBatch& batch, int point, const double* mobility, double 
   }
 }
 
-/// The wall is the one behind the depth in which a regularised law begins: first as deep as the
-/// whole step takes the point, and then 1/w of it.
+/// The wall lies behind the depth in which a regularised law begins. It is evaluated first at the
+/// depth that the point reaches in the whole step, then at speed / w.
 void MetWall::measure(double speed, double h) {
   if (!(mobility_ > 0)) return;
   depth_ = h * speed;
@@ -61,7 +62,7 @@ void MetWall::measure(double speed, double h) {
   }
 }
 
-/// W c = damping + rise * (depth behind where the wall begins), from two depths.
+/// W c = damping + rise * (depth behind the start of the wall), from two depths.
 void MetWall::findOnset(double farthest) {
   if (!(damping_ > 0)) return;
   const double begin = beginning(farthest);
@@ -71,8 +72,8 @@ void MetWall::findOnset(double farthest) {
   damping_ = std::max(0.0, near - rise_ * onsetShare * depth_);
 }
 
-/// How far the wall reaches out of the point, at most `farthest`: to where its stiffness is half of
-/// what it is behind it. The forces of regularised laws reach further.
+/// Distance from the point outwards to the start of the wall, at most `farthest`: where the
+/// stiffness is half of that behind it. The forces of regularised laws extend further.
 double MetWall::beginning(double farthest) {
   const double half = 0.5 * frequency_ * frequency_ / mobility_;
   double inside = 0, outside = farthest;
@@ -83,7 +84,7 @@ double MetWall::beginning(double farthest) {
   return inside;
 }
 
-/// k and c as deep behind the point, for its speed.
+/// k and c at this depth behind the point, at its speed.
 std::array<double, 2> MetWall::behind(double depth) {
   const int w = batch_->width();
   const double *d = batch_->d() + point_ * w, *v = batch_->v() + point_ * w;

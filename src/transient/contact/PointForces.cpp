@@ -17,7 +17,7 @@ void setIdentity(int n, double* B) {
   for (int i = 0; i < n * n; ++i) B[i] = i % (n + 1) == 0 ? 1.0 : 0.0;
 }
 
-/// The larger one; what is not a number is larger than all.
+/// Keeps the larger value; NaN counts as larger than all.
 void keepLarger(double& largest, double x) {
   if (x > largest || std::isnan(x)) largest = x;
 }
@@ -118,7 +118,7 @@ void PointForces::agree(const PointBatch& batch, double c) {
   });
 }
 
-/// p = f - P y of a point, and B = (I - (J - P) G)^-1.
+/// p = f - P y of a point, and its response B = (I - (J - P) G)^-1.
 template <class Width>
 void PointForces::answer(const PointBatch& batch, int point, double c, Width width) {
   constexpr int widest = PointSolve::widest;
@@ -182,7 +182,7 @@ void PointForces::measure(const PointBatch& batch, double small, double& force) 
   force = largest;
 }
 
-/// p += B defect, or to where the point is alone in equilibrium.
+/// p += B defect, or the force of the local equilibrium of the point.
 void PointForces::correct(PointBatch& batch, double t, double c) {
   const int w = batch.width();
   for (int point : points_) {
@@ -204,7 +204,7 @@ void PointForces::correct(PointBatch& batch, double t, double c) {
   }
 }
 
-/// y = free + G p is what the point does for a force p while the others keep theirs.
+/// y = free + G p is the displacement of the point under a force p while the other forces are held.
 void PointForces::solveAlone(PointBatch& batch, int point, double t, double c) {
   using Rows =
       Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
@@ -238,7 +238,7 @@ void PointForces::stand(PointBatch& batch, double t, double c) {
   if (!points_.empty()) evaluate(batch, t, c, false);
 }
 
-/// Not a number counts as wrong.
+/// NaN counts as wrong.
 bool PointForces::isWrong(int point, double small) const {
   return !(error_[at(point)] <= Tuned::rightEnough * small);
 }

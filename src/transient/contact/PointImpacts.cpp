@@ -11,7 +11,7 @@ namespace {
 
 constexpr int widest = PointSolve::widest;
 
-/// -tr(J G): above 1 where a wall gives way less than what meets it.
+/// -tr(J G): above 1 if a wall is stiffer than the surroundings of the point.
 double yielding(int n, const double* J, const double* G) {
   double trace = 0;
   for (int i = 0; i < n; ++i)
@@ -19,7 +19,7 @@ double yielding(int n, const double* J, const double* G) {
   return trace;
 }
 
-/// G0 = G (I + P G)^-1; false where there is none.
+/// G0 = G (I + P G)^-1; false if it does not exist.
 bool withoutLaws(int w, const double* G, const double* P, double* G0) {
   double A[widest * widest], B[widest * widest];
   for (int i = 0; i < w; ++i)
@@ -70,7 +70,7 @@ void PointImpacts::find(std::size_t number, PointBatch& batch, double t,
     if (light_[number][at(p)]) continue;
     const double* J = batch.dfdd() + p * w * w;
     const double* G = &compliance[at(p * w * w)];
-    if (yielding(w, J, G) < 0.5) continue;  // with J = P that is a stiffness of 1/h^2
+    if (yielding(w, J, G) < 0.5) continue;  // for J = P, a stiffness of 1/h^2
     if (!withoutLaws(w, G, batch.frozen() + p * w * w, G0)) continue;
     double& stiffness = stiffness_[number][at(p)];
     const double unit = batch.scale(p) * h_ * h_, here = yielding(w, J, G0);
@@ -84,8 +84,8 @@ void PointImpacts::find(std::size_t number, PointBatch& batch, double t,
   }
 }
 
-/// -tr(df/dd G0) as far beyond a point as its force moves it in the step: what is steep there too
-/// is the wall, and not the depth in which a regularised law begins.
+/// -tr(df/dd G0) at the depth to which its force moves the point in the step. A law that is steep
+/// there too is the wall itself, not the depth in which a regularised law begins.
 double PointImpacts::yieldingDeeper(PointBatch& batch, int point, double t,
                                     const double* G0) const {
   using Rows =

@@ -11,11 +11,11 @@
 namespace tooljoint::transient {
 namespace {
 
-constexpr double tiny = 1e-300;  // keeps zero out of denominators
+constexpr double tiny = 1e-300;  // avoids division by zero
 
 }  // namespace
 
-/// y - free - G phi(y); phi and, if wanted, its derivative in y.
+/// y - free - G phi(y); phi and, if requested, its derivative in y.
 PointSolve::Local PointSolve::defect(PointBatch& batch, double t, double c, const Local& y,
                                      Local& phi, LocalMatrix* slope) const {
   const Local position = d + y;
@@ -25,7 +25,7 @@ PointSolve::Local PointSolve::defect(PointBatch& batch, double t, double c, cons
     LocalMatrix dfdd(y.size(), y.size()), dfdv(y.size(), y.size());
     batch.evaluateOne(t, point, position.data(), velocity.data(), phi.data(), dfdd.data(),
                       dfdv.data());
-    *slope = dfdd.transpose() + c * dfdv.transpose() - P;  // the law's arrays are row-major
+    *slope = dfdd.transpose() + c * dfdv.transpose() - P;  // the arrays of the law are row-major
   } else {
     batch.evaluateOne(t, point, position.data(), velocity.data(), phi.data(), nullptr, nullptr);
   }
@@ -33,9 +33,9 @@ PointSolve::Local PointSolve::defect(PointBatch& batch, double t, double c, cons
   return y - free - G * phi;
 }
 
-/// Pseudo-time, (1/tau + 1 - G slope) step = -defect: slow, but it goes where forces balance in a
-/// stable way, past what stops Newton (friction that falls with speed has up to three balances, and
-/// folds between them).
+/// Pseudo-time, (1/tau + 1 - G slope) step = -defect: slow, but it converges to stable balances and
+/// passes points where Newton stops (friction that decreases with speed has up to three balances,
+/// and folds between them).
 void PointSolve::flow(PointBatch& batch, double t, double c, const Local& scale, double enough,
                       Local& y, Local& phi) const {
   const Eigen::Index w = free.size();
@@ -50,7 +50,7 @@ void PointSolve::flow(PointBatch& batch, double t, double c, const Local& scale,
     LocalMatrix nextSlope(w, w);
     const Local next = defect(batch, t, c, trial, phi, &nextSlope);
     const double ratio = size(now) / std::max(size(next), tiny);
-    if (!(ratio > Tuned::slowestRate)) {  // also catches NaN
+    if (!(ratio > Tuned::slowestRate)) {  // also true for NaN
       tau *= 0.25;
       continue;
     }
@@ -59,9 +59,9 @@ void PointSolve::flow(PointBatch& batch, double t, double c, const Local& scale,
   }
 }
 
-/// The path y(s) of y = free + s G phi(y) from y(0) = free to s = 1, followed along its length:
-/// forces that push back keep it bounded, so that it gets there, through folds (friction that falls
-/// with speed) and round corners (sticking, touching).
+/// Path y(s) of y = free + s G phi(y) from y(0) = free to s = 1, followed along its length.
+/// Restoring forces keep the path bounded, so it reaches s = 1, through folds (friction that
+/// decreases with speed) and around corners (sticking, touching).
 void PointSolve::follow(PointBatch& batch, double t, double c, const Local& scale, double enough,
                         Local& y, Local& phi) const {
   using Path = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, widest + 1, 1>;  // y scaled, s
@@ -89,7 +89,7 @@ void PointSolve::follow(PointBatch& batch, double t, double c, const Local& scal
   };
   Path at(w + 1), ahead = whole;
   at << free.cwiseProduct(size), 0.0;
-  double step = 0.5;  // of the path, which is about one long; the longest
+  double step = 0.5;  // largest step; the path has a length of about 1
   for (int count = 0; count < Tuned::mostPathSteps && step > Tuned::rounding; ++count) {
     evaluate(at, ahead);
     const Path tangent = J.partialPivLu().solve(whole).normalized();
@@ -119,9 +119,9 @@ void PointSolve::follow(PointBatch& batch, double t, double c, const Local& scal
   }
 }
 
-/// Newton with backtracking on the defect scaled by 1/sqrt(G_cc) (an energy); where no decrease is
-/// found, the sign change of step . defect is bracketed. y becomes the best of what was seen;
-/// returns the size of its defect.
+/// Newton with backtracking on the defect scaled by 1/sqrt(G_cc) (an energy). If the defect does
+/// not decrease, the sign change of step . defect is bracketed. y becomes the best iterate; returns
+/// the size of its defect.
 double PointSolve::iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y,
                            Local& phi) const {
   const Eigen::Index w = free.size();
@@ -129,7 +129,7 @@ double PointSolve::iterate(PointBatch& batch, double t, double c, const Local& s
   LocalMatrix slope(w, w);
   Local best = y;
   double bestSize = INFINITY;
-  int idle = 0;  // brackets in a row that were of no use
+  int idle = 0;  // consecutive brackets without progress
   for (int iteration = 0; iteration < Tuned::mostPointIterations; ++iteration) {
     const Local now = defect(batch, t, c, y, phi, &slope);
     const double before = size(now);
@@ -165,8 +165,8 @@ double PointSolve::iterate(PointBatch& batch, double t, double c, const Local& s
   return bestSize;
 }
 
-/// What rounding of d + y and v + c y may leave of the scaled defect: contact that is on within
-/// 1e-12 m is no better known than that.
+/// Bound of the scaled defect by rounding of d + y and v + c y. If contact switches within 1e-12 m,
+/// the balance is not known better.
 double PointSolve::rounding(PointBatch& batch, double t, double c, const Local& scale,
                             const Local& y) const {
   LocalMatrix slope(y.size(), y.size());
@@ -177,8 +177,8 @@ double PointSolve::rounding(PointBatch& batch, double t, double c, const Local& 
   return (G.cwiseAbs() * (slope.cwiseAbs() * unsure)).cwiseProduct(scale).norm();
 }
 
-/// Newton from the guess and from without force, then pseudo-time from both, then the path: each
-/// only where the one before ends elsewhere than in a balance.
+/// Newton from the guess and from zero force, then pseudo-time from both, then the path. Each is
+/// used only if the one before has not found a balance.
 bool PointSolve::solve(PointBatch& batch, double t, double c, Local& y, Local& phi) const {
   const Eigen::Index w = free.size();
   Local scale(w);

@@ -4,8 +4,8 @@
 ///
 ///     y = free + G phi(y),   phi(y) = f(d + y, v + c y) - f0 - P y
 ///
-/// for its own few coordinates y. Safe where Newton for the whole model is not: forces that jump
-/// are bracketed.
+/// for its own few coordinates y. Forces that jump are bracketed, so this converges where Newton
+/// for the whole model does not.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +26,7 @@ struct PointSolve {
   LocalMatrix P, G;
   Local free;
 
-  /// Solves from the guess y; phi(y) is left in `phi`. False when only something that is not a
-  /// number was found.
+  /// Solves from the guess y; phi(y) is returned in `phi`. False if no finite iterate was found.
   bool solve(PointBatch& batch, double t, double c, Local& y, Local& phi) const;
 
  private:

@@ -50,8 +50,8 @@ void ContactForceIteration::complete(State& to) const {
   to.a += scheme_->acceleration * delta_;
 }
 
-/// The iteration itself: delta_. When it has been found before points were found to be missed, it
-/// goes on from there, at these points first.
+/// The iteration for delta_. If delta_ was found before missed points were detected, it continues
+/// from there, at these points first.
 bool ContactForceIteration::settle(const State& to, bool again) {
   const double c = scheme_->velocity, tolerance = parts_.equations->tolerance();
   drift_.start(*scheme_);
@@ -88,9 +88,10 @@ bool ContactForceIteration::settle(const State& to, bool again) {
   return false;
 }
 
-/// Start at the predicted v; returns whether the phase is to be corrected. Points whose tangent in
-/// S is far stiffer than they are stay there in the first iterate, which the phase correction is
-/// taken from, and what is extrapolated further makes vibration of a few steps per period grow.
+/// Starts at the predicted v; returns whether the phase is to be corrected. Points whose tangent in
+/// S is far stiffer than their current one keep this position in the first iterate, from which the
+/// phase correction is taken. A further extrapolation would make vibration of a few steps per
+/// period grow.
 bool ContactForceIteration::begin(const State& to) {
   points_.guess(to.t, scheme_->velocity, to.v);
   if (drift_.isAny()) drift_.begin(to.v / scheme_->velocity);
@@ -98,8 +99,8 @@ bool ContactForceIteration::begin(const State& to) {
   return parts_.factor->phase().applies(*scheme_);
 }
 
-/// Take in the points that were missed; the phase correction stays as it is, since they have only
-/// just touched. True when one of them is an impact and there is none to be after all.
+/// Adds the missed points. The phase correction is kept, because they have only just touched. True
+/// if one of them is an impact, so that the correction must be dropped.
 bool ContactForceIteration::join(const State& to) {
   double force = parts_.equations->reference();
   const double error =
@@ -111,7 +112,8 @@ bool ContactForceIteration::join(const State& to) {
   return true;
 }
 
-/// One relaxation, of all points or near few. Returns what one near few costs beside one of all.
+/// One relaxation, of all points or of few (near). Returns the cost of a near one relative to one
+/// of all.
 double ContactForceIteration::relaxOnce(const State& to, bool near) {
   double work = 0;
   if (near) {
@@ -129,7 +131,7 @@ double ContactForceIteration::relaxOnce(const State& to, bool near) {
   return work;
 }
 
-/// What acts beside the linear residual and the points, if anything.
+/// Forces besides the linear residual and the points, if any.
 const Vector* ContactForceIteration::otherForces() {
   const PhaseCorrection& phase = parts_.factor->phase();
   if (!drift_.isAny()) return phase.isTaken() ? &phase.force() : nullptr;

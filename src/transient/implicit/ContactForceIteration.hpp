@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The fast way through an implicit step: relaxation of the point forces with a factor of S that
-/// many steps share (ContactForceUpdate). Once in a step it takes the phase correction and the
-/// points that have only just touched into account; where all points at once do not get there, they
-/// take turns.
+/// Fast solution of an implicit step: relaxation of the point forces with a factor of S that many
+/// steps share (ContactForceUpdate). Once per step it includes the phase correction and the points
+/// that have only just touched. If correcting all points at once does not converge, they are
+/// corrected in turns.
 #pragma once
 
 #include <vector>
@@ -18,16 +18,16 @@ namespace tooljoint::transient {
 
 class ContactForceIteration {
  public:
-  /// What the parts are must outlive this.
+  /// The referenced parts must outlive this.
   void bind(const StepParts& parts);
-  /// Not where it is left out, or a point has too many coordinates.
+  /// False if the strategy is left out, or a point has too many coordinates.
   bool isPossible() const { return possible_; }
-  /// The scheme or its step changed.
+  /// The scheme or its step has changed.
   void prepare(const StepScheme& scheme);
-  /// From the q, a of a step that would end at rest, and the predicted v. False, with `to` as it
-  /// was, when it does not get there.
+  /// Starts from the q, a of a step with v = 0 at its end, and the predicted v. False, with `to`
+  /// unchanged, if it does not converge.
   bool solve(State& to, const StepScheme& scheme, Counters& counters);
-  /// From `to` as it was to where the iteration stopped.
+  /// Moves `to` from its initial values to the end of the iteration.
   void complete(State& to) const;
 
   void save(std::vector<double>& memory) const { points_.impacts().save(memory); }
@@ -46,10 +46,10 @@ class ContactForceIteration {
 
   ContactForceUpdate points_;
   bool possible_ = false;
-  long compliance_ = -1;  ///< number of the factor whose compliance the points have
-  Vector delta_, q_;      ///< and q at its end
+  long compliance_ = -1;  ///< number of the factor to which the compliance belongs
+  Vector delta_, q_;      ///< delta, and q at the end of the step
   MatrixDrift drift_;
-  Vector others_;  ///< forces beside the linear residual and the points
+  Vector others_;  ///< forces besides linear residual and points
 };
 
 }  // namespace tooljoint::transient

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// S = ca M + cv C + K - R'PR of an implicit step, factored once for many
-/// steps, P the tangents frozen in the points. What laws of time have changed
-/// in C and K since then, (S(now) - S(then)) delta, acts term by term on the
-/// displacement.
+/// S = ca M + cv C + K - R'PR of an implicit step, factored once for many steps, with P the
+/// tangents frozen in the points. Changes of C and K by laws of time since then, (S(now) - S(then))
+/// delta, act term by term on the displacement.
 #pragma once
 
 #include <vector>
@@ -18,16 +17,15 @@ namespace tooljoint::transient {
 class EffectiveMatrix {
  public:
   void bind(CompiledModel& model);
-  /// Scale of the rows that driftNorm() measures with.
+  /// Scale of the rows in driftNorm().
   void setWeights(const Vector& weight);
 
-  /// Takes the matrices as they are now and the frozen tangents, and factors;
-  /// see isFactored().
+  /// Factors the current matrices and the frozen tangents; see isFactored().
   void refactor(const StepScheme& scheme);
-  /// Factors again, with other frozen tangents.
+  /// Factors again, with the currently frozen tangents.
   void rebuild();
   bool isFactored() const { return factored_; }
-  /// The factor lacks tangents.
+  /// The factor lacks tangents and is invalid.
   void spoil() { factored_ = false; }
   bool isOf(const StepScheme& scheme) const { return factored_ && scheme_.h == scheme.h; }
   linalg::BlockFactor& factor() { return factor_; }
@@ -36,13 +34,12 @@ class EffectiveMatrix {
   bool hasDrifted() const { return stamp_ != model_->matrixStamp(); }
   /// y += (S(now) - S(then)) delta
   void addDrift(const StepScheme& scheme, const Vector& delta, Vector& y);
-  /// A bound of max |w (S(now) - S(then)) x| / max |x|.
+  /// Bound of max |w (S(now) - S(then)) x| / max |x|.
   double driftNorm(const StepScheme& scheme) const;
 
   void save(std::vector<double>& memory) const;
-  /// `rebuild` factors with the model at the time of the factor and the frozen
-  /// tangents, which are there already; the model is then at its own time
-  /// again.
+  /// `rebuild` factors with the model at the time of the factor and the frozen tangents, which are
+  /// already restored. Afterwards the model is at its own time again.
   template <class Rebuild>
   void restore(const double*& memory, const Rebuild& rebuild) {
     const bool current = take(memory);
@@ -55,14 +52,13 @@ class EffectiveMatrix {
   }
 
  private:
-  /// What save() appended; whether C and K were those of the factor.
+  /// Reads the data of save(); returns whether C and K were those of the factor.
   bool take(const double*& memory);
 
   CompiledModel* model_ = nullptr;
   linalg::BlockFactor factor_;
   bool factored_ = false;
-  StepScheme scheme_;  ///< scheme, time, matrix stamp and law values the factor
-                       ///< belongs to
+  StepScheme scheme_;  ///< scheme, time, matrix stamp and laws of the factor
   double time_ = 0;
   long stamp_ = -1;
   std::vector<double> laws_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What laws of time have changed in S since it was factored: (S(now) - S(then)) d, for a
-/// displacement d near the one that is sought. It is formed again where the sought one has moved so
-/// far from d that the difference counts beside the tolerance.
+/// Effect of the changes of S by laws of time since it was factored: (S(now) - S(then)) d, for a
+/// displacement d close to the solution. It is evaluated again if the iterate has moved so far from
+/// d that the difference exceeds a part of the tolerance.
 #pragma once
 
 #include "transient/Tuned.hpp"
@@ -12,19 +12,19 @@ namespace tooljoint::transient {
 
 class MatrixDrift {
  public:
-  /// What the parts are must outlive this.
+  /// The referenced parts must outlive this.
   void bind(const StepParts& parts) {
     parts_ = parts;
     for (Vector* x : {&at_, &force_}) x->setZero(parts.model->size());
   }
-  /// Before iterations with S of the scheme.
+  /// Call before iterations with S of the scheme.
   void start(const StepScheme& scheme) {
     scheme_ = &scheme;
     auto& matrix = parts_.factor->matrix();
     norm_ = matrix.hasDrifted() ? matrix.driftNorm(scheme) : 0.0;
   }
   bool isAny() const { return norm_ > 0; }
-  /// Takes d = guess, or 0 where the force of that is negligible.
+  /// Sets d = guess, or 0 if its force is negligible.
   template <class Expression>
   void begin(const Expression& guess) {
     at_ = guess;
@@ -33,7 +33,7 @@ class MatrixDrift {
     else
       at_.setZero(), force_.setZero();
   }
-  /// Takes d = delta where that is far from d; true then.
+  /// Sets d = delta if delta is far from d; true in that case.
   bool follow(const Vector& delta) {
     if (!isAny() ||
         !(norm_ * parts_.model->cut().largest((delta - at_).cwiseAbs().maxCoeff()) > negligible()))
@@ -54,8 +54,8 @@ class MatrixDrift {
 
   StepParts parts_;
   const StepScheme* scheme_ = nullptr;
-  double norm_ = 0;    ///< bound of max |w (S(now) - S(then)) x| / max |x|; 0: nothing has changed
-  Vector at_, force_;  ///< d, and what the changes make of it
+  double norm_ = 0;    ///< bound of max |w (S(now) - S(then)) x| / max |x|; 0: no change
+  Vector at_, force_;  ///< d, and its force
 };
 
 }  // namespace tooljoint::transient

@@ -51,15 +51,15 @@ bool NewtonIteration::solve(State& to, const StepScheme& scheme, Counters& count
   }
 }
 
-/// Whether a new factor is cheaper than going on at this rate of convergence.
+/// Whether a new factor is cheaper than continuing at this rate of convergence.
 bool NewtonIteration::isSlow(double rate) const {
   if (rate >= Tuned::slowestRate) return true;
   const double left = parts_.equations->error() / parts_.equations->tolerance();
   return left > 1 && std::log(left) > -std::log(rate) * Tuned::patience;
 }
 
-/// change_ = (c0 M + c1 C + K) delta for the solution of S delta = -R + force:
-/// -R + force + R'P R delta, corrected by what the laws have changed in C and K since S was built.
+/// change_ = (ca M + cv C + K) delta for the solution of S delta = -R + force: -R + force + R'P R
+/// delta, corrected for changes of C and K by the laws since S was built.
 void NewtonIteration::findChange() {
   change_ -= parts_.equations->residual();
   for (const auto& batch : parts_.model->points())
@@ -68,7 +68,7 @@ void NewtonIteration::findChange() {
     parts_.factor->matrix().addDrift(*scheme_, delta_, change_);
 }
 
-/// Take the step delta_, halving it until the scaled residual falls. False when it does not.
+/// Takes the step delta_, halved until the scaled residual decreases. False if it does not.
 bool NewtonIteration::backtrack(State& to) {
   change_.setZero();
   findChange();
@@ -81,7 +81,7 @@ bool NewtonIteration::backtrack(State& to) {
         parts_.equations->merit() <= (1 - Tuned::decrease * fraction) * before)
       return true;
   }
-  // the points of one rank alone know nothing of those of others
+  // each rank knows only its own points
   if (fresh_ && !parts_.model->cut().isDivided() && rescues_++ < Tuned::patience &&
       parts_.strategies->use(Strategy::TroubledPoints) && solveTroubledPoints(to, before))
     return true;
@@ -89,8 +89,8 @@ bool NewtonIteration::backtrack(State& to) {
   return false;
 }
 
-/// The points that spoil the Newton step are solved as what they are. False, with the iterate and
-/// its step restored, when that does not help.
+/// Solves the points that spoil the Newton step with their nonlinear laws. False, with the iterate
+/// and its step restored, if that does not help.
 bool NewtonIteration::solveTroubledPoints(State& to, double before) {
   otherDelta_ = delta_, otherChange_ = change_;
   place(to, 0);
@@ -115,7 +115,7 @@ bool NewtonIteration::solveTroubledPoints(State& to, double before) {
   return good;
 }
 
-/// The iterate at a fraction of delta from where the line search began, measured.
+/// Sets and evaluates the iterate at a fraction of delta from the start of the line search.
 void NewtonIteration::place(State& to, double fraction) {
   to.q = start_.q + fraction * delta_;
   to.v = start_.v + fraction * scheme_->velocity * delta_;

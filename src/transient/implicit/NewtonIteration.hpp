@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The slow and safe way through an implicit step: modified Newton with exact tangents. The factor
-/// is renewed where convergence is slow, each update is backtracked on the scaled residual, and
-/// points whose force jumps are solved by themselves (CoupledPointSolve).
+/// Slow and robust solution of an implicit step: modified Newton with exact tangents. The factor is
+/// renewed if convergence is slow, each update is backtracked on the scaled residual, and points
+/// whose force jumps are solved separately (CoupledPointSolve).
 #pragma once
 
 #include "transient/Integrator.hpp"
@@ -13,9 +13,9 @@ namespace tooljoint::transient {
 
 class NewtonIteration {
  public:
-  /// What the parts are must outlive this.
+  /// The referenced parts must outlive this.
   void bind(const StepParts& parts);
-  /// From a state whose linear residual is there; false on failure.
+  /// Starts from a state with its linear residual; false on failure.
   bool solve(State& to, const StepScheme& scheme, Counters& counters);
 
  private:
@@ -31,12 +31,12 @@ class NewtonIteration {
 
   bool fresh_ = false;  ///< the tangent in the factor is that of the current iterate
   CoupledPointSolve nodal_;
-  int rescues_ = 0;        ///< its uses in this step
-  Vector delta_, change_;  ///< the update, and what it changes in the linear residual
+  int rescues_ = 0;                         ///< uses of nodal_ in this step
+  Vector delta_, change_;                   ///< update, and its change of the linear residual
   Vector base_, otherDelta_, otherChange_;  ///< residual and update before the troubled points
   struct {
     Vector q, v, a, linear;
-  } start_;  ///< of the line search
+  } start_;  ///< start of the line search
 };
 
 }  // namespace tooljoint::transient

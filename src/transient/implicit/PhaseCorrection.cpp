@@ -9,8 +9,7 @@
 namespace tooljoint::transient {
 namespace {
 
-/// 1 on the diagonal of rows without an entry: what has damping alone has no
-/// acceleration to filter.
+/// Sets 1 on the diagonal of empty rows: a dof with damping only has no acceleration to filter.
 void determineEmptyRows(const linalg::BlockPattern& pattern, double* values, Vector& rows) {
   rowSums(pattern, values, rows);
   for (int i = 0; i < rows.size(); ++i)

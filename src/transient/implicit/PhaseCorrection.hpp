@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The force that makes up for the period error of a scheme
-/// (AlphaStep::setPhaseCorrection): M is replaced by M - k M (I - F), F = s ca
-/// (s ca M + K - R' df/dd R)^-1 M. The force k M (I - F) q'' is taken once in a
-/// step, from the first iterate that is near, which is without it: what that
-/// misses is of the order of the square of k (I - F) F.
+/// Force that corrects the period error of a scheme (AlphaCoefficients::setPhaseCorrection): M is
+/// replaced by M - k M (I - F), F = s ca (s ca M + K - R' df/dd R)^-1 M. The force k M (I - F) q''
+/// is taken once per step, from the first sufficiently close iterate, which is computed without it.
+/// The resulting error is of the order of the square of k (I - F) F.
 #pragma once
 
 #include "common/Types.hpp"
@@ -17,20 +16,19 @@ namespace tooljoint::transient {
 class PhaseCorrection {
  public:
   void bind(const CompiledModel& model);
-  /// Room for the filter of a scheme that has one; factor() allocates nothing
-  /// then.
+  /// Allocates the filter if the scheme has one; factor() then allocates nothing.
   void reserve(const StepScheme& scheme);
-  /// Factors s ca M + K - R' df/dd R, df/dd of the tangents frozen in the
-  /// points. False when it has no inverse.
+  /// Factors s ca M + K - R' df/dd R, with df/dd from the tangents frozen in the points. False if
+  /// the matrix is singular.
   bool factor(const StepScheme& scheme);
 
-  /// Whether a step of the scheme is corrected: impacts are of first order
-  /// anyway, and their acceleration is not one to be filtered. Collective.
+  /// Whether a step of the scheme is corrected. Steps with impacts are not: impacts are of first
+  /// order anyway, and their acceleration must not be filtered. Collective.
   bool applies(const StepScheme& scheme) const;
-  /// A step begins without.
+  /// Starts a step without correction.
   void leaveOut() { taken_ = false; }
   bool isTaken() const { return taken_; }
-  /// The force of the acceleration a + ca delta.
+  /// Takes the force of the acceleration a + ca delta.
   void take(const StepScheme& scheme, const Vector& a, const Vector& delta);
   const Vector& force() const { return force_; }
 

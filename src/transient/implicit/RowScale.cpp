@@ -23,7 +23,7 @@ void RowScale::find(const StepScheme& scheme, double t) {
   for (double& w : weight_) w = 1.0 / std::max(std::abs(w), smallest);
   model_->diagonal(1.0, 0.0, 0.0, inertia_.data());
   inertia_ = inertia_.cwiseProduct(weight_);
-  // |K| row sums bound the rounding of K q.
+  // Row sums of |K| bound the rounding of K q.
   rounding_.setZero();
   if (!model_->stiffness().empty())
     rowSums(model_->pattern(), model_->stiffness().current(), rounding_);
@@ -35,7 +35,7 @@ void RowScale::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), weight_.begin(), weight_.end());
 }
 
-/// The weights as they were: they belong to laws of their time.
+/// Restores the weights, which belong to the laws at their time.
 void RowScale::restore(const double*& memory, const StepScheme& scheme) {
   time_ = *memory++;
   const double now = model_->time();

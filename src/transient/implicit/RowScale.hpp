@@ -9,11 +9,11 @@
 namespace tooljoint::transient {
 
 /// Scale of the rows of an implicit step: one over the diagonal of ca M + cv C + K at one time,
-/// kept while the scheme stays.
+/// kept as long as the scheme does not change.
 class RowScale {
  public:
   void bind(CompiledModel& model);
-  /// Moves the time of the model to t.
+  /// Sets the time of the model to t.
   void find(const StepScheme& scheme, double t);
   const Vector& weight() const { return weight_; }
   const Vector& inertia() const { return inertia_; }    ///< w_i M_ii

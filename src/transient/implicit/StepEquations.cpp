@@ -25,14 +25,14 @@ void StepEquations::begin(const State& to, const StepScheme& scheme) {
   error_ = INFINITY;
 }
 
-/// With the sizes of what the sum is made of (a the predicted one); run by run, while it is in the
+/// Also finds the sizes of the terms (a is the predicted one), run by run while the data are in the
 /// cache.
 void StepEquations::linearise(const State& to, const StepScheme* rest) {
   const CompiledModel& model = *model_;
   const Eigen::Map<const Vector> load(model.load(), model.size());
   const double ahead = rest != nullptr ? rest->acceleration / rest->velocity : 0.0;
   const int interior = model.cut().interior(model.size());
-  double sizes[2] = {0, 0};  // of forces, and of the rounding in them
+  double sizes[2] = {0, 0};  // largest force, largest rounding error
   const auto measureSizes = [&](int begin, int length, const auto& internal) {
     const auto part = [begin, length](const auto& x) { return x.segment(begin, length).array(); };
     const auto forces = part(scale_.weight()) * internal.abs();

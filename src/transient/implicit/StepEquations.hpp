@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The equations of one implicit step and how large what they leave is. From the q, a of a step
-/// that would end at rest,
+/// Equations of one implicit step and the size of their residual. From the q, a of a step with v =
+/// 0 at its end,
 ///
 ///     M (a + ca delta) + cv C delta + K (q + delta) = F + R' f(q + delta, cv delta, t)
 ///
-/// Rows are scaled by w, one over the diagonal of S, so that forces and moments both read as
-/// displacements. They hold where max |w R| is the tolerance times the largest scaled force, but no
-/// more of it than loads and the state at the beginning of the step give reason for.
+/// Rows are scaled by w, one over the diagonal of S, so that forces and moments both become
+/// displacements. The equations hold if max |w R| is at most the tolerance times the largest scaled
+/// force. That force is bounded by a multiple of the loads and of the state at the start of the
+/// step.
 #pragma once
 
 #include <algorithm>
@@ -29,14 +30,14 @@ class StepEquations {
   const RowScale& scale() const { return scale_; }
   const Vector& weight() const { return scale_.weight(); }
 
-  /// A step begins: the linear residual at the q, a of one that would end at rest.
+  /// Starts a step: the linear residual at the q, a of a step with v = 0 at its end.
   void begin(const State& to, const StepScheme& scheme);
-  /// linear() = M a + K q - F where v = 0 (the inertia that the predicted v brings counts in the
-  /// largest force), or M a + C v + K q - F.
+  /// linear() = M a + K q - F for v = 0 (the inertia of the predicted v counts in the largest
+  /// force), or M a + C v + K q - F.
   void linearise(const State& to, const StepScheme* rest = nullptr);
   /// residual() = linear() - R' f, evaluated at the state; returns merit().
   double measure(const State& to);
-  /// What an iteration of its own has measured.
+  /// Takes the error and the largest force from another iteration.
   void take(double error, double force) { error_ = error, reference_ = force; }
 
   Vector& linear() { return linear_; }
@@ -47,7 +48,7 @@ class StepEquations {
   double linearReference() const { return linearReference_; }
   double tolerance() const { return relative_ * std::min(reference_, mostForce_) + floor_; }
   bool converged() const { return error_ <= tolerance(); }
-  /// max |w R| over the largest scaled force, and where.
+  /// max |w R| over the largest scaled force, and its location.
   double relativeError() const;
   std::string worstName() const;
 
@@ -56,11 +57,11 @@ class StepEquations {
   double relative_ = 0;
   RowScale scale_;
   Vector linear_, residual_, forces_;
-  Vector atCut_;  ///< forces at the cut of a model that is divided among ranks
+  Vector atCut_;  ///< forces at the cut of a divided model
   double error_ = 0, merit_ = 0, reference_ = 0;
-  double mostForce_ = 0;        ///< what forces of this step are believed to reach
+  double mostForce_ = 0;        ///< upper bound of the forces in this step
   double linearReference_ = 0;  ///< largest scaled force without points
-  double floor_ = 0;            ///< rounding of K q, scaled alike
+  double floor_ = 0;            ///< scaled rounding of K q
 };
 
 }  // namespace tooljoint::transient

@@ -39,7 +39,7 @@ void StepFactor::spoil() {
   matrix_.spoil();
 }
 
-/// What belongs to a factor beside itself.
+/// Updates the data that belong to a factor.
 void StepFactor::finish() {
   ++number_;
   if (matrix_.isFactored() && !phase_.factor(matrix_.scheme())) matrix_.spoil();

@@ -6,7 +6,7 @@
 
 namespace tooljoint::transient {
 
-/// What the iterations of an implicit step share, and at most so many of them.
+/// Parts shared by the iterations of an implicit step, and the iteration limit.
 struct StepParts {
   CompiledModel* model = nullptr;
   StepEquations* equations = nullptr;

@@ -11,12 +11,11 @@ struct StepScheme {
   double h = 0;
   double velocity = 0;      ///< cv
   double acceleration = 0;  ///< ca
-  double filter = 0;        ///< s and
+  double filter = 0;        ///< s of the phase correction
   double phase = 0;         ///< k of the phase correction, 0 for none
-  double impact = 1;        ///< what forces of impacts
-                            ///< (PointImpacts) are multiplied by
+  double impact = 1;        ///< factor of the forces of impacts (PointImpacts)
 
-  /// Append / take back.
+  /// Append / restore.
   void save(std::vector<double>& memory) const {
     memory.insert(memory.end(), {h, velocity, acceleration, filter, phase, impact});
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The strategy Turns. Where four relaxations of all points leave more than a part of the error,
-/// every fourth point moves while the others stand, in turns: neighbours, which drive each other
-/// apart when they move at once, then come to rest one after the other.
+/// The strategy Turns. If four relaxations of all points leave more than a given part of the error,
+/// every fourth point is corrected while the others are held, in turns. Neighbours that disturb
+/// each other when corrected at once then converge one after the other.
 #pragma once
 
 #include "transient/Strategies.hpp"
@@ -12,14 +12,15 @@ namespace tooljoint::transient {
 
 class Turns {
  public:
-  /// \param mostSweeps  over all points, before they are given up
+  /// \param mostSweeps limit of sweeps over all points
   Turns(Strategies& strategies, int mostSweeps)
       : strategies_(&strategies), mostSweeps_(mostSweeps) {}
 
   bool areTaken() const { return turn_ >= 0; }
-  /// Colour of the points that move next.
+  /// Colour of the points to correct next.
   int next() { return turn_++ % Tuned::colours; }
-  /// After an iteration, counted from 1, that left an error; false where nothing is left to try.
+  /// Call after an iteration, counted from 1, with its error; false if there is nothing left to
+  /// try.
   bool goOn(int iteration, double error) {
     if (areTaken()) return turn_ == 0 || turn_ % (2 * Tuned::colours) != 0 || progresses(error);
     if (iteration % Tuned::colours != 0) return true;
@@ -31,7 +32,7 @@ class Turns {
   }
 
  private:
-  /// After two sweeps.
+  /// Evaluates two sweeps.
   bool progresses(double error) {
     idle_ = error > Tuned::progress * last_ ? idle_ + 1 : 0;
     last_ = error;
@@ -40,9 +41,9 @@ class Turns {
 
   Strategies* strategies_;
   int mostSweeps_;
-  int turn_ = -1;    ///< -1: all points move at once
-  int idle_ = 0;     ///< pairs of sweeps in a row without progress
-  double last_ = 0;  ///< error where it was last compared
+  int turn_ = -1;    ///< -1: all points are corrected at once
+  int idle_ = 0;     ///< consecutive pairs of sweeps without progress
+  double last_ = 0;  ///< error at the last comparison
 };
 
 }  // namespace tooljoint::transient

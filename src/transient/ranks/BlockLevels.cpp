@@ -11,10 +11,10 @@
 namespace tooljoint::transient {
 namespace {
 
-/// A cut may lie this part of a rank's work beside its place where fewer dofs are cut there.
+/// A cut may be displaced by this part of a rank's work to a level where fewer dofs are cut.
 constexpr double slack = 0.05;
 
-/// The blocks of a component by their distance from `start`.
+/// The blocks of a component, by their distance from `start`.
 std::vector<std::vector<int>> levelsFrom(const BlockGraph& graph, int start) {
   std::vector<char> seen(graph.size(), 0);
   std::vector<std::vector<int>> levels{{start}};
@@ -29,7 +29,7 @@ std::vector<std::vector<int>> levelsFrom(const BlockGraph& graph, int start) {
   }
 }
 
-/// From the end, of the two that are furthest apart, that comes first.
+/// Levels from one of the two ends farthest apart, the one with the smaller block number.
 std::vector<std::vector<int>> levelsOf(const BlockGraph& graph, int anyBlock) {
   const auto least = [](const std::vector<int>& blocks) {
     return *std::min_element(blocks.begin(), blocks.end());
@@ -46,7 +46,7 @@ std::vector<std::vector<int>> levelsOf(const BlockGraph& graph, int anyBlock) {
   }
 }
 
-/// One component after the other.
+/// Levels of all components, one after the other.
 std::vector<std::vector<int>> allLevels(const BlockGraph& graph) {
   std::vector<std::vector<int>> all;
   std::vector<char> done(graph.size(), 0);
@@ -74,7 +74,7 @@ BlockShares divide(const BlockGraph& graph, const std::vector<int>& width,
     return std::any_of(near.begin(), near.end(),
                        [&](int c) { return levelOf[at(c)] > levelOf[at(b)]; });
   };
-  std::vector<double> done{0.0};  // work of the levels before each
+  std::vector<double> done{0.0};  // work of the levels before each level
   std::vector<int> cutWidth(at(count), 0);
   for (int l = 0; l < count; ++l) {
     done.push_back(done.back());
@@ -84,9 +84,9 @@ BlockShares divide(const BlockGraph& graph, const std::vector<int>& width,
     }
   }
   const double share = done.back() / ranks;
-  std::vector<int> cuts;  // levels
+  std::vector<int> cuts;  // levels of the cuts
   for (int k = 1; k < ranks; ++k) {
-    // a level on each side belongs to no cut
+    // the levels next to a cut belong to no cut
     const int first = cuts.empty() ? 1 : cuts.back() + 2, last = count - 2 * (ranks - k);
     int best = -1;
     double bestPrice = std::numeric_limits<double>::infinity();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Where a graph of blocks can be divided among ranks: levels of equal distance from one end, in
-/// which a block couples to its own level and the two beside it only (Cuthill and McKee 1969,
-/// George and Liu 1979).
+/// Division of a graph of blocks among ranks: levels of equal distance from one end. A block
+/// couples only to its own level and the two adjacent ones (Cuthill and McKee 1969, George and Liu
+/// 1979).
 #pragma once
 
 #include <set>
@@ -13,11 +13,11 @@ namespace tooljoint::transient {
 /// Neighbours of each block.
 using BlockGraph = std::vector<std::set<int>>;
 
-/// To which rank, or to which cut between two, each block belongs.
+/// Rank of each block, or cut between two ranks.
 struct BlockShares {
-  std::vector<int> rank;  ///< per block: the rank that alone holds it; of a block of a cut the
-                          ///< lower one of the two that do
-  std::vector<char> cut;  ///< per block: it lies in the cut between `rank` and the next one
+  std::vector<int> rank;  ///< per block: the only rank that holds it; for a block of a cut, the
+                          ///< lower of its two ranks
+  std::vector<char> cut;  ///< per block: whether it is in the cut of `rank` and the next one
   /// Whether a rank holds a block.
   bool holds(int asked, int block) const {
     const int of = rank[static_cast<std::size_t>(block)];
@@ -25,7 +25,7 @@ struct BlockShares {
   }
 };
 
-/// Shares of about equal work; empty where there are too few levels for so many ranks.
+/// Shares of about equal work; empty if there are too few levels for so many ranks.
 BlockShares divide(const BlockGraph& graph, const std::vector<int>& width,
                    const std::vector<double>& work, int ranks);
 

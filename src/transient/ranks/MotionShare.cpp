@@ -10,8 +10,8 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Models with fewer dofs are computed by all ranks alike: their steps take less than 0.2 ms, of
-/// which two ranks save little (docs/scale.md) and lose more where they share a core.
+/// Smaller models are computed by all ranks alike. Their steps take less than 0.2 ms, of which two
+/// ranks save little (docs/scale.md), and they lose more if they share a core.
 constexpr int fewestToDivide = 1500;
 
 }  // namespace

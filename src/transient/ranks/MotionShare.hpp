@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Whether ranks divide a motion.
+/// Decision whether ranks divide a motion.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace tooljoint::transient {
 
-/// The share of this rank; null where all ranks do the same, which a warning says if the deck says
-/// otherwise. Collective.
+/// The share of this rank; null if all ranks compute the same (with a warning if the deck requests
+/// otherwise). Collective.
 std::unique_ptr<RankShare> shareOf(const model::SecondOrderModel& model,
                                    const TransientOptions& options, const Integrator& integrator);
 

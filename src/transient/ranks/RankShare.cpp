@@ -17,15 +17,15 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Dofs of a node of a spatial beam.
+/// Dofs of a beam node in space.
 constexpr int nodeDofs = 6;
-/// What a point costs in a step beside an entry of the matrix.
+/// Cost of a point in a step relative to an entry of the matrix.
 constexpr double pointWork = 80;
-/// What an entry of products costs beside one of solves, since a step has so many more of them, and
-/// more in other rows than those of six dofs, whose kernels are the fastest.
+/// Cost of an entry in products relative to one in solves, because a step has so many more
+/// products. Rows with other than six dofs cost more, because the kernels for six are the fastest.
 constexpr double productWork = 2.0, otherWork = 1.4;
 
-/// Blocks that rows of a matrix touch, per `rows` rows that belong together.
+/// Blocks used by the rows of a matrix, for groups of `rows` rows.
 std::vector<std::vector<int>> blocksOfRows(const Sparse& matrix, int rows,
                                            const std::vector<int>& blockOf) {
   std::vector<std::vector<int>> all;
@@ -40,7 +40,7 @@ std::vector<std::vector<int>> blocksOfRows(const Sparse& matrix, int rows,
   return all;
 }
 
-/// The whole model, and who holds what of it.
+/// The whole model and its distribution among the ranks.
 class Division {
  public:
   Division(const model::SecondOrderModel& whole, int ranks)
@@ -66,7 +66,7 @@ class Division {
            std::all_of(points_.begin(), points_.end(), allHeld);
   }
 
-  /// The rank that what couples these blocks belongs to; 0 for none.
+  /// Rank to which a coupling of these blocks belongs; 0 for none.
   int rankOf(const std::vector<int>& blocks) const {
     int rank = 0;
     for (int b : blocks) {
@@ -79,14 +79,14 @@ class Division {
   int rankOfRecovery(int row) const { return rankOf(recovery_[at(row)]); }
   int rankOfPoint(std::size_t set, int point) const { return rankOf(points_[set][at(point)]); }
 
-  /// Blocks of a rank, its interior or its cuts.
+  /// Blocks of a rank: its interior or its cuts.
   std::vector<int> blocks(int rank, bool cut) const {
     std::vector<int> found;
     for (int b = 0; b < pattern_.blocks(); ++b)
       if ((shares_.cut[at(b)] != 0) == cut && shares_.holds(rank, b)) found.push_back(b);
     return found;
   }
-  /// Blocks that a rank counts: the interior, and the cut to the next rank.
+  /// Blocks counted by a rank: its interior, and the cut to the next rank.
   std::vector<int> counted(int rank) const {
     auto found = blocks(rank, false);
     for (int b : blocks(rank, true))
@@ -100,7 +100,7 @@ class Division {
         found.push_back(pattern_.partition().dof[at(p)]);
     return found;
   }
-  /// Position of a dof in the pattern of the whole.
+  /// Position of a dof in the pattern of the whole model.
   int number(int dof) const { return pattern_.partition().position[at(dof)]; }
   linalg::BlockPattern pattern(int rank, const model::SecondOrderModel& share) const;
   const model::SecondOrderModel& whole() const { return whole_; }
@@ -123,8 +123,7 @@ class Division {
     for (int b = 0; b < pattern_.blocks(); ++b) found.push_back(pattern_.width(b));
     return found;
   }
-  /// What a step does with the blocks: solves read the whole pattern, products the blocks of M, C
-  /// and K.
+  /// Work of a step per block: solves read the whole pattern, products the blocks of M, C and K.
   std::vector<double> works() const {
     std::vector<double> work(at(pattern_.blocks()), 0.0);
     for (int b = 0; b < pattern_.blocks(); ++b)
@@ -142,7 +141,7 @@ class Division {
   double area(int block, int entry) const {
     return pattern_.width(block) * pattern_.width(pattern_.column(entry));
   }
-  /// Terms of one law are one matrix of a step.
+  /// Terms with the same law form one matrix in a step.
   std::map<std::string, std::vector<const Sparse*>> byLaw(
       const model::SharedList<model::MatrixTerm>& terms) const {
     std::map<std::string, std::vector<const Sparse*>> all;
@@ -157,8 +156,8 @@ class Division {
       forEachInRow(set.rows, row, [&](int, double) { ++count; });
     return count;
   }
-  /// Entries that a product with the sum of some matrices reads: none of blocks of zeros, of
-  /// diagonal ones the diagonal.
+  /// Adds the entries read by a product with the sum of some matrices: none of a zero block, the
+  /// diagonal of a diagonal block.
   void addProduct(const std::vector<const Sparse*>& matrices, std::vector<double>& work) const {
     std::vector<char> form(at(pattern_.rowBegin(pattern_.blocks())), 0);  // 1 diagonal, 2 dense
     const auto& position = pattern_.partition().position;
@@ -197,7 +196,7 @@ linalg::BlockPattern Division::pattern(int rank, const model::SecondOrderModel& 
   std::iota(partition.dof.begin(), partition.dof.end(), 0);
   partition.position = partition.dof;
 
-  std::vector<int> numberOf(at(pattern_.blocks()), 0);  // first of a block of the cut
+  std::vector<int> numberOf(at(pattern_.blocks()), 0);  // first number of each block of the cut
   int total = 0;
   for (int b = 0; b < pattern_.blocks(); ++b)
     if (shares_.cut[at(b)]) numberOf[at(b)] = total, total += pattern_.width(b);
@@ -214,7 +213,7 @@ linalg::BlockPattern Division::pattern(int rank, const model::SecondOrderModel& 
   return result;
 }
 
-/// Rows and columns of the dofs of a rank, entries that belong to it.
+/// Rows and columns of the dofs of a rank, with the entries that belong to it.
 Sparse shareOf(const Sparse& matrix, const Division& division, int rank,
                const std::vector<int>& local) {
   const int n = static_cast<int>(*std::max_element(local.begin(), local.end())) + 1;
@@ -228,7 +227,7 @@ Sparse shareOf(const Sparse& matrix, const Division& division, int rank,
   return share;
 }
 
-/// Columns of the dofs of a rank, rows that keep() names.
+/// Columns of the dofs of a rank, with the rows selected by keep().
 template <class Keep>
 Sparse shareOfRows(const Sparse& rows, const std::vector<int>& local, const Keep& keep) {
   const int n = *std::max_element(local.begin(), local.end()) + 1;

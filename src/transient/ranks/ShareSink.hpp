@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A sink that brings together itself what the ranks have of a motion that they divide, so that not
-/// every rank gets the whole of every sample.
+/// Sink that gathers the samples of a divided motion itself, so that not every rank receives the
+/// whole of every sample.
 #pragma once
 
 #include "transient/Transient.hpp"
@@ -9,21 +9,21 @@
 
 namespace tooljoint::transient {
 
-/// What one rank has of a sample; vectors in the dofs of share.model().
+/// Part of a sample on one rank; vectors in the dofs of share.model().
 struct SampleShare {
   double t;  ///< [s]
   const RankShare& share;
   const Vector &q, &qDot, &qDDot;
-  const Vector& states;  ///< of the point laws, of all ranks
+  const Vector& states;  ///< states of the point laws of all ranks
 };
 
 class ShareSink : public SampleSink {
  public:
-  /// Whether sampleShare() is called instead of sample() where ranks divide the motion. The same on
-  /// all ranks.
+  /// Whether sampleShare() is called instead of sample() for a divided motion. The same on all
+  /// ranks.
   virtual bool gathers() const { return true; }
-  /// Called on all ranks at once. May throw on one of them behind its last message; the ranks then
-  /// call on until all know of it.
+  /// Called on all ranks at once. It may throw on one rank after its last message; the others
+  /// continue to call until all ranks know of it.
   virtual void sampleShare(const SampleShare& mine) = 0;
 };
 

@@ -16,14 +16,14 @@ AlphaCoefficients::AlphaCoefficients(double radius, bool phaseCorrection) {
   if (phaseCorrection) setPhaseCorrection();
 }
 
-/// Vibration of frequency w is too slow by e (w h)^2, where e is the mean of the two local errors
-/// of the scheme,
+/// Vibration of frequency w has a relative period error e (w h)^2, where e is the mean of the two
+/// local errors of the scheme,
 ///
 ///     v: g/2 + g d + k - 1/6,   q: d/2 + b - 1/6,   d = am - af,   k = (af - am)(1/2 - am).
 ///
-/// A mass that is smaller by 2 e (w h)^2 makes up for it: M - k M (I - F), F = s ca (s ca M + K)^-1
-/// M, is that for low frequencies, (1 - k) M for high ones, symmetric and positive between, so that
-/// the scheme stays unconditionally stable; what is at rest stays where it is. s keeps k at
+/// A mass reduced by 2 e (w h)^2 corrects it. M - k M (I - F), F = s ca (s ca M + K)^-1 M, is this
+/// reduced mass for low frequencies and (1 - k) M for high ones, symmetric and positive in between.
+/// So the scheme stays unconditionally stable, and a state at rest stays at rest. s keeps k at
 /// Tuned::mostPhase or below.
 void AlphaCoefficients::setPhaseCorrection() {
   const double d = m - f;

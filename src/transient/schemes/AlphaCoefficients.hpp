@@ -11,10 +11,10 @@ namespace tooljoint::transient {
 struct AlphaCoefficients {
   AlphaCoefficients(double radius, bool phaseCorrection);
 
-  /// Of steps of length h; where contact `rests`, forces of impacts count as 1/2 h^2 M^-1 f in the
-  /// displacement.
+  /// Scheme for steps of length h. If contact `rests`, forces of impacts enter the displacement as
+  /// 1/2 h^2 M^-1 f.
   StepScheme scheme(double h, bool rests) const;
-  /// Local error of the displacement in a step over h^2 times the change of A.
+  /// Local error of the displacement in a step, over h^2 times the change of A.
   double localError() const { return (m - f) / 2 + beta - 1.0 / 6; }
 
   double m, f, beta, gamma;      ///< alpha_m, alpha_f

@@ -16,7 +16,7 @@ StepScheme AlphaStep::scheme(double h) const {
       h, mass_->regular() && !holds(parameters_.equations.without, Strategy::RestingImpacts));
 }
 
-/// M q''_0 = F + R'f - C v - K q; dofs without mass start in balance and without acceleration.
+/// M q''_0 = F + R'f - C v - K q; massless dofs start in balance and without acceleration.
 void AlphaStep::start(CompiledModel& model, double h, State& state, Counters& counters) {
   model_ = &model;
   const int n = model.size();
@@ -60,8 +60,8 @@ void AlphaStep::bind(const Vector& a) {
   lastImpacts_.bind(*model_);
 }
 
-/// v from constant algorithmic acceleration; q and a where v is 0. What impacts have added to q''
-/// is no part of it.
+/// v from constant algorithmic acceleration; q and a for v = 0. Contributions of impacts to q'' are
+/// excluded.
 void AlphaStep::predict(const State& from, State& to, double h) {
   for (auto& batch : model_->points()) batch.look(from.t, h, from.q.data());
   const StepScheme s = scheme(h);
@@ -87,7 +87,7 @@ void AlphaStep::bindStates(const State& from, double h) {
   model_->bindStates(base_.data(), h * alpha_.gamma * (1 - alpha_.f) / (1 - alpha_.m));
 }
 
-/// nextX_ = X_{n+1}, as nextA_ in complete().
+/// nextX_ = X_{n+1}, like nextA_ in complete().
 void AlphaStep::completeStates(const State& from, State& to) {
   model_->completeStates(to.t, to.q.data(), to.v.data(), to.x.data(), to.xDot.data());
   nextX_ = ((1 - alpha_.f) * to.xDot + alpha_.f * from.xDot - alpha_.m * X_) / (1 - alpha_.m);
@@ -103,7 +103,7 @@ bool AlphaStep::take(const State& from, State& to, double h, bool anyway, Counte
   return true;
 }
 
-/// nextA_ = A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), impacts left out of q''.
+/// nextA_ = A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), without impacts in q''.
 void AlphaStep::complete(const State& from, State& to, double h) {
   const double now = (1 - alpha_.f) / (1 - alpha_.m), before = alpha_.f / (1 - alpha_.m),
                last = alpha_.m / (1 - alpha_.m);
@@ -133,8 +133,8 @@ void AlphaStep::restoreHistory(const double*& history) {
   lastImpacts_.restore(history);
 }
 
-/// A is q'' at another time, which is off by a part of the step. While q rests on a wall, impacts
-/// left out of A, the scheme has v = (g/(2 b) - 1)/2 h M^-1 R'f, which vanishes for r = 1.
+/// A is q'' at a time that differs by a part of the step. While q rests on a wall, with impacts
+/// excluded from A, the scheme has v = (g/(2 b) - 1)/2 h M^-1 R'f, which is zero for r = 1.
 void AlphaStep::startAgain(const double*& history, double h, State& from) {
   restoreHistory(history);
   const double s = scheme(h).impact;
@@ -156,11 +156,11 @@ const Vector& AlphaStep::localError(double h, bool impacts) {
 ///     D(v'M v/2 + h^2 (b - g/2) A'M A / 2) = Dq'M q'' - e,
 ///     e = -Dq'M (A - q'' + (g - 1/2) DA) + h^2 (b - g/2) (g - 1/2) DA'M DA
 ///
-/// of which the first term on the right is the work of all forces. A product of two vectors is
-/// x'M y = ((x + y)'M (x + y) - (x - y)'M (x - y)) / 4.
+/// where the first term on the right is the work of all forces. The product of two vectors is x'M y
+/// = ((x + y)'M (x + y) - (x - y)'M (x - y)) / 4.
 double AlphaStep::dissipated(const State& from, const State& to, double h) const {
   if (model_->cut().any(!impacts_.none() || !lastImpacts_.none())) return 0.0;
-  const Vector &A = A_, &before = nextA_;  // swapped by keep()
+  const Vector &A = A_, &before = nextA_;  // keep() has swapped them
   const double square = h * h;
   const auto lag = 0.5 * (A + before - to.a - from.a) + (alpha_.gamma - 0.5) * (A - before);
   work_ = to.q - from.q + square * lag;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// One step of the generalized-alpha scheme (its equations stand in GeneralizedAlpha.cpp) from a
-/// state and what the scheme remembers of the steps before. It chooses nothing: GeneralizedAlpha
-/// does, once for the steps of a run and once for those that StepError takes again.
+/// One step of the generalized-alpha scheme (equations in GeneralizedAlpha.cpp) from a state and
+/// the history of the scheme. GeneralizedAlpha makes all decisions, both for the steps of a run and
+/// for those repeated by StepError.
 #pragma once
 
 #include <memory>
@@ -29,40 +29,39 @@ class AlphaStep {
   /// Bind to a model and complete state.a from state.{t, q, v}, for a first step of length h;
   /// counts a factorisation.
   void start(CompiledModel& model, double h, State& state, Counters& counters);
-  /// Bind to the model of another step that has started, and share its mass.
+  /// Bind to the model of another step after its start(), and share its mass.
   void startLike(const AlphaStep& other);
-  /// What depends on the length alone.
+  /// Prepares the data that depend only on the step length.
   void prepare(double h, double t) { equation_.prepare(scheme(h), t); }
 
-  /// A step of length h from `from` to to.t; false when the equations have no solution that can be
-  /// found (with `anyway` their last iterate is taken, if it is made of numbers).
+  /// A step of length h from `from` to to.t; false if no solution of the equations is found (with
+  /// `anyway` the last iterate is accepted if it is finite).
   bool take(const State& from, State& to, double h, bool anyway, Counters& counters);
-  /// The step just taken counts: the next one starts where it ends.
+  /// Accepts the last step: the next one starts at its end.
   void keep();
-  /// Append what the next step depends on beyond its state.
+  /// Append the history of the next step beyond its state.
   void saveHistory(std::vector<double>& history) const;
-  /// Start the next step, one of length h, at a state of another object whose steps are twice as
-  /// long, with its history: A and what contact that lasts as an impact leaves in v are halved as
-  /// far as they are of the order of the step.
+  /// Start the next step, of length h, at a state of another object with steps twice as long and
+  /// with its history. The parts of A, and of v from contact that rests as an impact, that are of
+  /// the order of the step are halved.
   void startAgain(const double*& history, double h, State& from);
 
-  /// Local error of the displacement in the step just taken, with or without what impacts have
-  /// moved.
+  /// Local error of the displacement in the last step, with or without the motion due to impacts.
   const Vector& localError(double h, bool impacts);
   const Vector& lastError() const { return error_; }
-  /// Energy [J] that the scheme has taken in the step kept last, of length h; 0 where it met walls
-  /// as impacts, which the balance leaves out.
+  /// Energy [J] that the scheme has dissipated in the last accepted step, of length h; 0 if it met
+  /// walls as impacts, which the balance excludes.
   double dissipated(const State& from, const State& to, double h) const;
   /// Whether points met walls as impacts in both of the last two steps. Collective.
   bool restsOnImpacts() const;
   const ImplicitStep& equation() const { return equation_; }
-  /// After start().
+  /// Valid after start().
   const MassFactor& mass() const { return *mass_; }
-  /// MassFactor::inverse() is there from now on.
+  /// Makes MassFactor::inverse() available.
   void invertMass() { mass_->invert(*model_); }
   CompiledModel& model() const { return *model_; }
 
-  /// Integrator::carry(), takeUp(); the numbers read are passed over.
+  /// Integrator::carry(), takeUp(); the pointer moves past the numbers read.
   void carry(CarriedMemory& memory) const;
   void takeUp(const std::vector<Vector>& vectors, const double*& numbers);
   void save(std::vector<double>& memory) const;
@@ -84,7 +83,7 @@ class AlphaStep {
   std::shared_ptr<MassFactor> mass_;
   Vector A_, nextA_;         ///< algorithmic acceleration at t_n, t_{n+1}
   Vector X_, nextX_, base_;  ///< the same for states of point laws; x_{n+1} without x'_{n+1}
-  ImpactAccelerations impacts_, lastImpacts_;  ///< of the step under way and of the one before
+  ImpactAccelerations impacts_, lastImpacts_;  ///< of the current step and the one before
   Vector error_;
   mutable Vector work_;
 };

@@ -3,7 +3,7 @@
 
 namespace tooljoint::transient {
 
-/// Step of Generalized-alpha where the deck gives none [s].
+/// Step of Generalized-alpha if the deck gives none [s].
 constexpr double defaultAlphaStep = 1e-3;
 
 }  // namespace tooljoint::transient

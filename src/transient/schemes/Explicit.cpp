@@ -11,8 +11,8 @@
 namespace tooljoint::transient {
 namespace {
 
-/// A force swings where its mean over a step is another than that of both ends by this part of its
-/// largest size so far, in so many steps in a row.
+/// A force swings if its mean over a step differs from that of both ends by this part of its
+/// largest value so far, in this many consecutive steps.
 constexpr double swing = 0.2;
 constexpr int stepsOfASwing = 4;
 
@@ -113,7 +113,7 @@ void RungeKuttaStep::take(ExplicitRightHandSide& rhs, const State& from, double 
                           ForceSwings* swings) {
   const Vector &q0 = from.q, &v0 = from.v, &a0 = from.a, &x0 = from.x, &x1 = from.xDot;
   const double t = from.t;
-  // k1 = (v0, a0, x1);  q += h/6 (k1 + 2 k2 + 2 k3 + k4) gathers in q and v as the stages come
+  // k1 = (v0, a0, x1); q += h/6 (k1 + 2 k2 + 2 k3 + k4), accumulated in q and v stage by stage
   qi_ = q0 + 0.5 * h * v0;
   vi_ = v0 + 0.5 * h * a0;
   xi_ = x0 + 0.5 * h * x1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the explicit integrators share: the acceleration M^-1 (F + R'f - C v - K q), the classical
-/// Runge-Kutta step, and the largest rate that bounds its length.
+/// Common parts of the explicit integrators: the acceleration M^-1 (F + R'f - C v - K q), the
+/// classical Runge-Kutta step, and the largest rate, which limits its length.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@
 
 namespace tooljoint::transient {
 
-/// |lambda| h of a classical Runge-Kutta step for the rate of an impact, which so lasts six steps
-/// and keeps its rebound within 1 %.
+/// |lambda| h of a classical Runge-Kutta step for the rate of an impact: the impact then lasts six
+/// steps, and its rebound is accurate within 1 %.
 constexpr double rungeKuttaImpactLimit = 0.5;
-/// The same for the rate at which a law such as that of a bit damps. Up to 2.78 a deviation from it
-/// decays; here to a third in a step.
+/// The same for the damping rate of a law such as that of a bit. Deviations decay up to 2.78; at
+/// this value to a third in a step.
 constexpr double rungeKuttaLawLimit = 2.0;
 
 class ExplicitRightHandSide {
@@ -26,8 +26,8 @@ class ExplicitRightHandSide {
   /// without mass.
   void bind(CompiledModel& model, const std::string& integrator, Counters& counters);
 
-  /// a = M^-1 (F(t) + R'f(q, v, t) - C(t) v - K(t) q), with the active points chosen by look();
-  /// for point laws with states, at x, also their rates.
+  /// a = M^-1 (F(t) + R'f(q, v, t) - C(t) v - K(t) q), with the active points selected by look();
+  /// for point laws with states at x also their rates.
   void acceleration(double t, const Vector& q, const Vector& v, const Vector& x, Vector& a,
                     Vector& xDot) {
     model_->setTime(t);
@@ -43,24 +43,24 @@ class ExplicitRightHandSide {
   void complete(State& state) {
     acceleration(state.t, state.q, state.v, state.x, state.a, state.xDot);
   }
-  /// Held states of point laws at the end of a step, and complete().
+  /// Updates the held states of point laws at the end of a step, then complete().
   void accept(State& state) {
     model_->acceptStates(state.t, state.q.data(), state.v.data(), state.x.data());
     complete(state);
   }
 
-  /// Choose the points to evaluate in a step of length h from (t, q).
+  /// Select the points to evaluate in a step of length h from (t, q).
   void look(double t, double h, const double* q);
-  /// True when a point that was not evaluated has touched at q; it is active from then on.
+  /// True if a point that was not evaluated touches at q; it is active afterwards.
   bool missed(const double* q);
 
-  /// Of a motion from `state` to the time `end`; what the points hold of their last evaluation is
-  /// lost.
+  /// Rates for a motion from `state` to the time `end`. The points lose the results of their last
+  /// evaluation.
   LargestRate::Rates largestRates(const State& state, double end) {
     return LargestRate(*model_, mass_)(state, end);
   }
 
-  /// Of the damping of laws without walls as they are at `state`; the same is lost.
+  /// Damping rate of laws without walls at `state`. The points lose the same results.
   double rateOfLaws(const State& state) { return LargestRate(*model_, mass_).ofDampingLaws(state); }
 
   CompiledModel& model() { return *model_; }
@@ -74,18 +74,20 @@ class ExplicitRightHandSide {
   linalg::BlockFactor mass_;
 };
 
-/// Where a law without a wall, such as that of a bit, is too steep for the steps, a force that is
-/// bounded keeps the motion from growing without bound: it swings about its value from stage to
-/// stage, and what should stick slides. The mean of the stages is then not that of both ends.
+/// Detects swinging forces. If a law without a wall, such as that of a bit, is too steep for the
+/// steps, its bounded force keeps the motion from growing without bound. The force swings about its
+/// value from stage to stage, and the bit slides where it should stick. The mean of the stages then
+/// differs from that of both ends.
 class ForceSwings {
  public:
-  /// With the forces at the start.
+  /// Starts with the current forces.
   void bind(const CompiledModel& model);
-  /// The forces at the second, third or fourth stage of a step; the first is the end of the last.
+  /// Adds the forces at the second, third or fourth stage of a step; the first stage is the end of
+  /// the previous step.
   void addStage(const CompiledModel& model, int stage);
-  /// After the step, with the forces at its end, where the next one begins.
+  /// Call after the step, with the forces at its end, which is the start of the next.
   void endStep(const CompiledModel& model);
-  /// Part of the steps in which a force swings, the largest of all ranks. Collective.
+  /// Fraction of the steps in which a force swings, the largest of all ranks. Collective.
   double share(const CompiledModel& model) const;
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
@@ -93,7 +95,7 @@ class ForceSwings {
  private:
   struct Seen {
     double atEnd = 0, mean = 0, largest = 0;
-    int steps = 0;  ///< in a row whose mean is another
+    int steps = 0;  ///< consecutive steps with a different mean
   };
   template <class Each>
   void forEach(const CompiledModel& model, const Each& each);
@@ -102,12 +104,12 @@ class ForceSwings {
   double steps_ = 0, swinging_ = 0;
 };
 
-/// Stages of one classical Runge-Kutta step (Nguyen et al. 2020, (B.1)-(B.5), with k41, k42 where
-/// (B.4) prints k31, k32).
+/// Stages of one classical Runge-Kutta step (Nguyen et al. 2020, (B.1)-(B.5), with k41, k42 for
+/// k31, k32 as printed in (B.4)).
 class RungeKuttaStep {
  public:
   void resize(const State& like);
-  /// q, v and x of `to` a time h after `from`, which is complete.
+  /// q, v and x of `to`, a time h after `from`, which must be complete.
   void take(ExplicitRightHandSide& rhs, const State& from, double h, State& to,
             ForceSwings* swings = nullptr);
 

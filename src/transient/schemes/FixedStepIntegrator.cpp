@@ -23,7 +23,7 @@ void FixedStepIntegrator::prepare(CompiledModel& model, const Window& window, St
 }
 
 void FixedStepIntegrator::advance(const State& from, State& to) {
-  // Grid times are products, not sums: no drift over many steps.
+  // Times are products, not sums: no drift over many steps.
   const double end = std::min(window_.begin + static_cast<double>(index_ + 1) * step_, window_.end);
   to.t = window_.end - end < 1e-9 * step_ ? window_.end : end;
   step(from, to);

@@ -9,8 +9,8 @@
 ///     g A_{n+1})
 ///
 /// with am = (2r - 1)/(r + 1), af = r/(r + 1), g = 1/2 - am + af, b = (1 + af - am)^2 / 4 and r the
-/// spectral radius at infinite frequency. For a constant M this is the scheme that averages forces:
-/// second order in q and v, unconditionally stable for linear problems.
+/// spectral radius at infinite frequency. For a constant M this is equivalent to averaging the
+/// forces: second order in q and v, unconditionally stable for linear problems.
 ///
 /// States of point laws, x' = g, are integrated by the formula of the velocity:
 ///
@@ -20,22 +20,22 @@
 /// (Jansen, Whiting and Hulbert 2000 in the same form).
 ///
 /// A step in which a point meets a wall is halved until its rebound is that of the wall
-/// (ImpactResolution); what comes to rest on a wall too stiff for the step stays there without
-/// rebound: averaging its force over two steps would make energy (up to eight times what comes in).
-/// It acts in full over the step in which it arises, and not beyond, as in Kane, Repetto, Ortiz and
-/// Marsden (1999) and Chen, Acary, Virlez and Bruels (2013):
+/// (ImpactResolution). Contact that comes to rest on a wall too stiff for the step stays there
+/// without rebound, because averaging its force over two steps would generate energy (up to eight
+/// times the incoming energy). The force acts in full over the step in which it arises, and not
+/// beyond, as in Kane, Repetto, Ortiz and Marsden (1999) and Chen, Acary, Virlez and Bruels (2013):
 ///
 ///     q_{n+1} = ... + h^2/2 M^-1 R'f,   v_{n+1} = ... + h M^-1 R'f   (with the v of the scheme for
 ///     that q),   A without f
 ///
-/// which never makes energy, and is of first order where it is used.
+/// which never generates energy, and is of first order where it is used.
 ///
-/// The nonlinear equations are those of ImplicitStep; a step in which they do not converge is
-/// halved.
+/// The nonlinear equations are those of ImplicitStep; a step is halved if they do not converge.
 ///
-/// With `Step Tolerance` the step follows its error (StepControl), that of the displacement of one
-/// step: the third term of its series that the scheme has wrong (Zienkiewicz and Xie 1991), and all
-/// that impacts have moved, whose time is not known better than the step:
+/// With `Step Tolerance` the step is chosen by its error (StepControl), the error of the
+/// displacement in one step. It consists of the third-order term of the series that the scheme does
+/// not match (Zienkiewicz and Xie 1991), and of the whole motion due to impacts, whose time is
+/// known only within the step:
 ///
 ///     e = (d/2 + b - 1/6) h^2 (A_{n+1} - A_n) + h^2/2 M^-1 R'f,   d = am - af
 #include <algorithm>
@@ -61,9 +61,9 @@ namespace tooljoint::transient {
 namespace {
 
 constexpr double defaultTolerance = 1e-5, defaultRadius = 0.8;
-/// Of a motion, over the error allowed in a step: with the errors of steps that grow as the square
-/// of their length, a motion 10 times as large is 20 % wrong, one 100 times as large 5 %. What is
-/// smaller than the other is rest.
+/// Motion over the error allowed in a step. With step errors proportional to the square of the step
+/// length, a motion 10 times as large has an error of 20 %, one 100 times as large 5 %. A motion
+/// below the second value is rest.
 constexpr double smallMotion = 100, restingMotion = 1e-2;
 
 std::vector<std::string> strategyTitles() {
@@ -123,7 +123,8 @@ deck::ListSpec generalizedAlphaParameters() {
       .expert();
 }
 
-/// Halves are solved better than the steps of a run, so that what its iterations leave is seen.
+/// The halves use a tighter tolerance than the run, so that the error of its iterations is measured
+/// too.
 constexpr double strictness = 0.1;
 
 class GeneralizedAlpha final : public Integrator, public NumericalDamping {
@@ -144,9 +145,9 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
 
   bool carriesPointStates() const override { return true; }
   bool dividesAmongRanks() const override { return true; }
-  /// Two steps of one length are booked together.
   bool followsCorners() const override { return true; }
   bool followsCornersOfMatrices() const override { return true; }
+  /// The ledger books two steps of equal length together.
   int ledgerStride() const override { return controlled_ ? 1 : 2; }
   std::string advice() const override {
     return std::string("Reduce ") +
@@ -167,7 +168,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   void advance(const State& from, State& to) override;
   bool judgesSteps() const override { return controlled_; }
   double equalStep() const override { return controlled_ ? 0.0 : grid_.length(0); }
-  /// PhaseCorrection knows mass and stiffness alone.
+  /// PhaseCorrection contains only mass and stiffness.
   bool followsPhase(bool gyroscopic) const override {
     return parameters_.phaseCorrection && !gyroscopic;
   }
@@ -202,7 +203,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   double tolerance_;
   int maxHalvings_;
   bool acceptUnconverged_, resolveImpacts_;
-  bool controlled_ = false;  ///< steps follow their error
+  bool controlled_ = false;  ///< steps are chosen by their error
   double stepTolerance_ = 0, smallest_ = 0;
 
   CompiledModel* model_ = nullptr;
@@ -210,9 +211,9 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   StepControl control_;
   ImpactResolution impacts_;
   MassNorm length_;
-  double error_ = 0;    ///< of the step under way [m]
-  Vector start_, way_;  ///< of controlled steps: displacement at the start, and from there
-  double end_ = 0, largest_ = 0;  ///< of the run [s]; largest way, in the norm of the error [m]
+  double error_ = 0;              ///< in the current step [m]
+  Vector start_, way_;            ///< controlled steps: initial displacement; motion since
+  double end_ = 0, largest_ = 0;  ///< of the run [s]; largest motion in the norm of the error [m]
 };
 
 void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State& state) {
@@ -227,7 +228,7 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
       std::min(grid_.deepest(), impacts_.halvingsAtStart(state, grid_.length(grid_.level()))));
 }
 
-/// Of fixed steps. The mass is that of the run.
+/// For fixed steps. The mass is that of the run.
 void GeneralizedAlpha::prepareRetaking(const Integrator& run, CompiledModel& model,
                                        const Window& window, const State& start) {
   parameters_.equations.tolerance *= strictness;
@@ -282,7 +283,7 @@ void GeneralizedAlpha::checkParameters(double step) const {
   throw DeckError(text.str());
 }
 
-/// Halvings of the longest step that leave it no shorter than allowed.
+/// Halvings of the longest step down to the shortest allowed step.
 int GeneralizedAlpha::deepestLevel(double longest) const {
   constexpr int defaultDeepest = 10, deepestOfAll = 30;
   if (!(smallest_ > 0)) return defaultDeepest;
@@ -322,7 +323,7 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   if (resolveImpacts_) impacts_.lengthened();
 }
 
-/// Warns at the end of a motion that is not much larger than what a step may be wrong by.
+/// Warns at the end of a motion that is not much larger than the error allowed in a step.
 void GeneralizedAlpha::watchMotion(const State& to) {
   if (counters_.steps % Tuned::lookStride != 0 && to.t < end_) return;
   way_ = to.q - start_;
@@ -339,7 +340,7 @@ void GeneralizedAlpha::watchMotion(const State& to) {
   log::warn(text.str());
 }
 
-/// False, with a deeper level, when the error of the step just taken is too large.
+/// False, with a deeper level, if the error of the last step is too large.
 bool GeneralizedAlpha::isAccurate(const State& from, double h) {
   error_ = length_(scheme_->localError(h, true));
   if (control_.accepts(error_)) return true;
@@ -349,7 +350,7 @@ bool GeneralizedAlpha::isAccurate(const State& from, double h) {
   return false;
 }
 
-/// False, with a deeper level, when the step just taken does not resolve its impacts.
+/// False, with a deeper level, if the last step does not resolve its impacts.
 bool GeneralizedAlpha::resolvesImpacts(const State& from, const State& to, double h) {
   const int missing = resolveImpacts_ ? impacts_.halvings(from, to, h) : 0;
   if (missing == 0) return true;
@@ -408,7 +409,7 @@ void GeneralizedAlpha::giveUpImpacts(const State& from, double h) const {
   throw ConvergenceError(text.str());
 }
 
-/// The grid of steps begins at the state.
+/// The grid of steps starts at the state.
 void GeneralizedAlpha::carry(CarriedMemory& memory) const {
   scheme_->carry(memory);
   memory.numbers.push_back(grid_.level());

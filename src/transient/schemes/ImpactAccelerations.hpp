@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// M^-1 R'f of the points that met walls as impacts in a step, f times the scheme's factor: zero
-/// but in a few blocks.
+/// M^-1 R'f of the points that met walls as impacts in a step, f times the factor of the scheme:
+/// zero except in a few blocks.
 #pragma once
 
 #include <vector>
@@ -13,22 +13,22 @@ namespace tooljoint::transient {
 
 class ImpactAccelerations {
  public:
-  /// None, for a model whose pattern outlives this.
+  /// Sets none, for a model whose pattern outlives this.
   void bind(const CompiledModel& model);
-  /// Those of the forces in the batches of the model. Collective.
+  /// Computes those of the forces in the batches of the model. Collective.
   void find(const CompiledModel& model, const MassFactor& mass);
   bool none() const { return blocks_.empty(); }
   /// y += factor a
   void add(double factor, Vector& y) const;
 
-  /// Append / take back.
+  /// Append / restore.
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
  private:
   const linalg::BlockPattern* pattern_ = nullptr;
   Vector a_;
-  std::vector<int> blocks_;  ///< where a is not zero
+  std::vector<int> blocks_;  ///< nonzero blocks of a
 };
 
 }  // namespace tooljoint::transient

@@ -32,7 +32,7 @@ bool ImplicitStep::solve(double begin, State& to, const StepScheme& scheme, Coun
          (strategies_.use(Strategy::Newton) && finish(to, counters));
 }
 
-/// Relaxation of the point forces; false, with `to` as it was, when it does not get there.
+/// Relaxation of the point forces; false, with `to` unchanged, if it does not converge.
 bool ImplicitStep::relax(State& to, Counters& counters) {
   strategies_.count(Strategy::Relaxation);
   if (!factor_.isOf(scheme_) || factor_.isWanted()) {
@@ -45,12 +45,12 @@ bool ImplicitStep::relax(State& to, Counters& counters) {
   return false;
 }
 
-/// Newton from where relaxation stopped, which is often wrong at a few points only, and from the
+/// Newton from the end of the relaxation, which is often wrong only at a few points, then from the
 /// predicted state.
 bool ImplicitStep::finish(State& to, Counters& counters) {
   predicted_ = to;
   predict(predicted_);
-  if (equations_.error() <= equations_.reference()) {  // relaxation got somewhere
+  if (equations_.error() <= equations_.reference()) {  // relaxation has made progress
     relaxation_.complete(to);
     equations_.linearise(to);
     if (factor_.phase().isTaken()) equations_.linear() -= factor_.phase().force();
@@ -62,7 +62,7 @@ bool ImplicitStep::finish(State& to, Counters& counters) {
   return newton_.solve(to, scheme_, counters);
 }
 
-/// From q, a where v = 0 to those of the predicted v.
+/// From q, a for v = 0 to those for the predicted v.
 void ImplicitStep::predict(State& to) const {
   to.q += to.v / scheme_.velocity;
   to.a += scheme_.acceleration / scheme_.velocity * to.v;

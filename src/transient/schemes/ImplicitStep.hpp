@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The nonlinear equations of one implicit step. From the q, a of a step that would end at rest,
+/// Nonlinear equations of one implicit step. From the q, a of a step with v = 0 at its end,
 ///
 ///     M (a + ca delta) + cv C delta + K (q + delta) = F + R' f(q + delta, cv delta, t)
 ///
-/// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme has it, see
-/// AlphaStep::setPhaseCorrection) is solved for delta = v / cv, first by relaxation of the point
-/// forces with the effective matrix S = ca M + cv C + K - R'PR factored once
-/// (ContactForceIteration), and where that is slow by modified Newton with exact tangents
+/// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) if the scheme has a phase correction,
+/// see AlphaCoefficients::setPhaseCorrection) is solved for delta = v / cv. The first method is
+/// relaxation of the point forces with the effective matrix S = ca M + cv C + K - R'PR factored
+/// once (ContactForceIteration). If this is slow, modified Newton with exact tangents follows
 /// (NewtonIteration).
 #pragma once
 
@@ -31,20 +31,20 @@ class ImplicitStep {
   };
 
   ImplicitStep() = default;
-  ImplicitStep(const ImplicitStep&) = delete;  // its parts know each other
+  ImplicitStep(const ImplicitStep&) = delete;  // its parts refer to each other
   ImplicitStep& operator=(const ImplicitStep&) = delete;
 
   void bind(CompiledModel& model, const Options& options);
 
-  /// What depends on the scheme alone; solve() calls it when it has another one.
+  /// Prepares the data that depend only on the scheme; solve() calls it for a new scheme.
   void prepare(const StepScheme& scheme, double t);
-  /// Completes `to`, the end of a step from the time `begin`, which has q and a as they are where v
-  /// = 0, and the predicted v; false when nothing converged (`to` then holds the last iterate).
+  /// Completes `to`, the end of a step from the time `begin`. On entry it has q and a for v = 0,
+  /// and the predicted v. False if no iteration converged (`to` then holds the last iterate).
   bool solve(double begin, State& to, const StepScheme& scheme, Counters& counters);
 
-  /// Whether the iterate left by a failed solve() is made of numbers.
+  /// Whether the iterate left by a failed solve() is finite.
   bool isFinite() const { return std::isfinite(equations_.merit()); }
-  /// max |w R| over the largest scaled force, and where, at the end of the last solve().
+  /// max |w R| over the largest scaled force, and its location, at the end of the last solve().
   double relativeError() const { return equations_.relativeError(); }
   std::string worstName() const { return equations_.worstName(); }
 
@@ -63,7 +63,7 @@ class ImplicitStep {
   StepFactor factor_;
   ContactForceIteration relaxation_;
   NewtonIteration newton_;
-  State predicted_;  ///< to go back to
+  State predicted_;  ///< for restoring
 };
 
 }  // namespace tooljoint::transient

@@ -14,26 +14,28 @@
 namespace tooljoint::transient {
 namespace {
 
-/// tau^2 as a part of the smallest M_ii / K_ii: what has mass moves by this part of its deflection.
+/// tau^2 as a part of the smallest M_ii / K_ii: dofs with mass move by this part of their
+/// deflection.
 constexpr double still = 1e-13;
-/// The same where motions of several dofs have no mass, whose tau^2 K stands beside rounding of M.
+/// The same if motions of several dofs are massless: there tau^2 K must exceed the rounding of M.
 constexpr double stillOfSeveral = 1e-10;
-/// The same for accelerations, where what is out of balance by rounding is divided by tau^2.
+/// The same for accelerations, where imbalance by rounding is divided by tau^2.
 constexpr double stillAccelerations = 1e-8;
-/// Change of the state below this part of it that is rounding.
+/// Relative change of the state that counts as rounding.
 constexpr double inBalance = 1e-10;
-/// The same of forces between parts, which only accelerations determine: divided by tau^2.
+/// The same for forces between parts, which only accelerations determine: their rounding is divided
+/// by tau^2.
 constexpr double roundingOfForces = 0.01;
-/// The same of rates, where rounding of what is in balance is divided by tau.
+/// The same for rates, where rounding of balanced forces is divided by tau.
 constexpr double ratesInBalance = 1e-6;
-/// Changes of Newton's method that differ by less than this part of them are those of dofs with
-/// damping: each is tau over their time constant of the way to balance, and is not theirs to make.
+/// If successive changes of Newton's method differ by less than this part, they are creep of dofs
+/// with damping: each is tau over their time constant of the way to balance and must be undone.
 constexpr double creeping = 0.1;
-/// Newton iterations after which such forces are left; most of them: laws with a gap open and close
-/// on the way.
+/// Newton iterations after which such forces are left as they are; iteration limit: laws with a gap
+/// open and close during the iteration.
 constexpr int fewIterations = 3, mostIterations = 60;
 
-/// tau [s], tau^2 this part of the smallest M_ii / K_ii; 0 where nothing has mass and stiffness.
+/// tau [s] with tau^2 = this part of the smallest M_ii / K_ii; 0 if no dof has mass and stiffness.
 double shortTime(const CompiledModel& model, double part) {
   Vector mass(model.size()), stiffness(model.size());
   model.diagonal(1.0, 0.0, 0.0, mass.data());
@@ -45,13 +47,13 @@ double shortTime(const CompiledModel& model, double part) {
   return most > 0.0 ? std::sqrt(part / most) : 0.0;
 }
 
-/// Largest displacement where the coordinates are 0: of a state about which parts were reduced.
+/// Largest displacement at zero coordinates: that of a state about which parts were reduced.
 double referenceSize(const CompiledModel& model) {
   const Vector& offset = model.source().recoveryOffset;
   return model.cut().largest(offset.size() > 0 ? offset.cwiseAbs().maxCoeff() : 0.0);
 }
 
-/// Solutions with M + tau (C - R'f_v R) + tau^2 (K - R'f_d R).
+/// Solves with M + tau (C - R'f_v R) + tau^2 (K - R'f_d R).
 class Balance {
  public:
   Balance(CompiledModel& model, const MassFactor& mass, State& state, double part)
@@ -64,13 +66,13 @@ class Balance {
 
   bool possible() const { return tau_ > 0.0; }
 
-  /// A change of the displacements.
+  /// Whether a change of the displacements is rounding.
   bool isRounding(const Vector& change) const {
     return model_.largest(change) <= inBalance * scale();
   }
 
-  /// A change that is rounding but for forces between parts, whose own is divided by tau^2: they
-  /// follow from accelerations where nothing else determines them.
+  /// Whether a change is rounding except for forces between parts. Their rounding is divided by
+  /// tau^2: they follow from accelerations if nothing else determines them.
   bool isRoundingOfForces(const Vector& change) const {
     double displacement = 0.0;
     const auto& dofs = model_.pattern().partition().dof;
@@ -81,13 +83,13 @@ class Balance {
            model_.largest(change) <= roundingOfForces * scale();
   }
 
-  /// Newton's method for F - C v - K q + R'f = 0 where there is neither mass nor damping; false
-  /// where it does not converge.
+  /// Newton's method for F - C v - K q + R'f = 0 at dofs with neither mass nor damping; false if it
+  /// does not converge.
   bool positions(Vector& moved) {
     const Vector given = state_.q;
     Vector before = Vector::Zero(model_.size());
     double first = 0.0;
-    int alike = 0;  // changes in a row
+    int alike = 0;  // consecutive changes
     for (int i = 0; i < mostIterations; ++i) {
       if (!factor()) return false;
       const Vector unbalanced = force();
@@ -111,14 +113,14 @@ class Balance {
     return false;
   }
 
-  /// Rates where there is damping, but no mass: Newton's method for F - C v - K (q + h v) + R'f = 0
-  /// at q + h v, so that what relaxes in less than a step h does no more than that. As given where
-  /// it does not converge.
+  /// Rates at dofs with damping but no mass: Newton's method for F - C v - K (q + h v) + R'f = 0 at
+  /// q + h v, so that relaxation faster than a step h only reaches balance. The rates are unchanged
+  /// if it does not converge.
   void rates(double h) {
     const Vector given = state_.v;
     for (int i = 0; i < mostIterations && factor(h); ++i) {
       Vector change = solve(tau_ * force(h));
-      // dofs with mass take tau times their acceleration, less of the second order by this
+      // subtracts tau times the acceleration of dofs with mass, to second order
       Vector inertia = Vector::Zero(model_.size());
       model_.addMass(change.data(), inertia.data());
       change -= solve(std::move(inertia));
@@ -131,7 +133,8 @@ class Balance {
     state_.v = given;
   }
 
-  /// (K - R'f_d R) v = 0. A second change is that of what has mass or damping once more.
+  /// (K - R'f_d R) v = 0. The second change repeats the creep of dofs with mass or damping, and is
+  /// subtracted.
   bool velocities() {
     if (!factor()) return false;
     const Vector change = velocityChange(state_.v);
@@ -141,7 +144,7 @@ class Balance {
     return true;
   }
 
-  /// a := (..)^-1 a of a force that is in balance where there is no mass.
+  /// a := (..)^-1 a of a force in balance at massless dofs.
   bool acceleration(Vector& a) {
     if (!factor()) return false;
     factor_.solve(a.data());
@@ -166,7 +169,7 @@ class Balance {
 
   double scale() const { return std::max(model_.largest(state_.q), reference_); }
 
-  /// The largest force over the stiffness of its dof.
+  /// Largest ratio of a force to the stiffness of its dof.
   double deflection(const Vector& force) const {
     Vector stiffness(model_.size());
     model_.diagonal(0.0, 0.0, 1.0, stiffness.data());
@@ -199,8 +202,8 @@ class Balance {
     return out;
   }
 
-  /// Solution for a force; 0 at dofs with mass, unless the mass matrix is singular in motions of
-  /// several of them.
+  /// Solution for a force; 0 at dofs with mass, unless the mass matrix is singular in a motion of
+  /// several dofs.
   Vector solve(Vector force) const {
     factor_.solve(force.data());
     if (mass_.regular())
@@ -213,7 +216,7 @@ class Balance {
   const MassFactor& mass_;
   State& state_;
   linalg::BlockFactor factor_;
-  double reference_;  ///< displacement beside which a change may be rounding
+  double reference_;  ///< displacement to compare rounding with
   double tau_;
 };
 

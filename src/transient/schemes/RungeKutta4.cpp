@@ -14,8 +14,8 @@
 namespace tooljoint::transient {
 namespace {
 
-/// |lambda| h up to which steps are stable, on both axes (2.83 and 2.785); 2.62 between them, where
-/// vibration loses half its length per radian.
+/// |lambda| h up to which steps are stable, on both axes (2.83 and 2.785). Between them it is 2.62,
+/// where vibration loses half its amplitude per radian.
 constexpr double stabilityLimit = 2.78;
 
 deck::ListSpec rungeKutta4Parameters() {
@@ -73,7 +73,7 @@ class RungeKutta4 final : public FixedStepIntegrator {
     const auto rates = rhs_.largestRates(start, window.end);
     const double least = std::max(rates.all / stabilityLimit, rates.impact / rungeKuttaImpactLimit);
     const double step = least > 0 ? safety_ / least : (window.end - window.begin) / 100;
-    // of a model without fast parts stability bounds nothing that accuracy needs
+    // without fast parts the stability limit exceeds what accuracy needs
     return window.sampling > 0 ? std::min(step, window.sampling) : step;
   }
   void step(const State& from, State& to) override {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// `RK4 adaptive`: classical Runge-Kutta, one step against two half steps, Nguyen et al. 2020,
-/// appendix B:
+/// `RK4 adaptive`: classical Runge-Kutta, comparing one step with two half steps, Nguyen et al.
+/// 2020, appendix B:
 ///
 ///     error = (|q1 - q2|_2 + |v1 - v2|_2) / 15
 ///     error <= e0/100: keep the half steps, dt := growth * dt
@@ -10,13 +10,13 @@
 /// over all coordinates, in their own units, as printed there; |x1 - x2|_2 of the states of point
 /// laws is added.
 ///
-/// Where a point meets or leaves a wall within the step, the force has a kink, and one step and two
-/// can agree on a rebound that both miss. Half a step is there at most 0.5 over the rate of the
-/// stiffest contact.
+/// If a point meets or leaves a wall within the step, the force has a kink, and one step and two
+/// half steps can agree on a rebound that both miss. Then half a step is at most 0.5 over the rate
+/// of the stiffest contact.
 ///
-/// Where a law such as that of a bit is steep, a velocity within the tolerance leaves its force
-/// open: steps at the limit of stability would grow until the force swings about its value. Half a
-/// step is at most 2 over the rate at which laws damp, which is found anew every 100 steps.
+/// If a law such as that of a bit is steep, a velocity within the tolerance does not determine its
+/// force: steps at the limit of stability would grow until the force swings about its value. So
+/// half a step is at most 2 over the damping rate of the laws, which is updated every 100 steps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,12 +29,12 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Errors of steps that add up to more than this part of the motion are printed, of the steps of
-/// the first `judged` seconds, as long as equal steps are judged: without damping the error of the
+/// A warning is given if the errors of the steps in the first `judged` seconds (the same time as
+/// for equal steps) add up to more than this part of the motion. Without damping the error of the
 /// motion is as large.
 constexpr double coarse = 0.05, judged = 3.0;
 
-/// Steps for which the rate of laws is good: to find it takes some products, and memory.
+/// Steps for which the rate of laws is kept: computing it takes some products, and memory.
 constexpr int stepsOfARate = 100;
 
 deck::ListSpec rungeKutta4AdaptiveParameters() {
@@ -93,7 +93,7 @@ class RungeKutta4Adaptive final : public Integrator {
 
   void advance(const State& from, State& to) override {
     for (;;) {
-      // A step ends where the run does, or a law has a corner, without a sliver before it.
+      // A step ends at the end of the run, or at a corner of a law, without a sliver before it.
       const double end = rhs_.model().nextCorner(from.t, end_), left = end - from.t;
       step_ = std::min(step_, longestOfLaws_);
       const bool last = step_ >= left * (1 - 1e-9);
@@ -144,8 +144,8 @@ class RungeKutta4Adaptive final : public Integrator {
     sinceRate_ = 0;
   }
 
-  /// Two half steps into `to`, their error against one whole step as result (not a number when the
-  /// step blew up).
+  /// Takes two half steps into `to`; returns their error against one whole step (NaN if the step
+  /// diverged).
   double tryStep(const State& from, State& to, double h) {
     rhs_.look(from.t, h, from.q.data());
     do {
@@ -164,7 +164,7 @@ class RungeKutta4Adaptive final : public Integrator {
            15.0;
   }
 
-  /// Warns when the errors of the judged steps have become a part of the motion that matters.
+  /// Warns if the errors of the judged steps are a significant part of the motion.
   void addUp(const State& to, double error) {
     if (errors_ < 0.0) return;
     errors_ += error;
@@ -185,8 +185,8 @@ class RungeKutta4Adaptive final : public Integrator {
     log::warn(text.str());
   }
 
-  /// Whether the step just tried, by way of half_ to `to`, meets or leaves a wall in halves too
-  /// long for its impact. Collective.
+  /// Whether the last try, from half_ to `to`, meets or leaves a wall with half steps too long for
+  /// its impact. Collective.
   bool isLongAtWalls(const State& to, double h) {
     if (h <= longestAtWalls_ * (1 + 1e-9)) return false;
     auto& model = rhs_.model();
@@ -212,12 +212,12 @@ class RungeKutta4Adaptive final : public Integrator {
 
   double tolerance_ = 0, step_ = 0, growth_ = 0, shrink_ = 0, smallest_ = 0, end_ = 0;
   double judgedUntil_ = 0;  ///< [s]
-  double errors_ = 0;       ///< of the judged steps, in the norm of the tolerance; < 0: judged
-  double largest_ = 0;      ///< way and change of velocity from the start in that norm
+  double errors_ = 0;       ///< sum of the judged steps, in the norm of the tolerance; < 0: judged
+  double largest_ = 0;      ///< largest motion and velocity change since the start, in that norm
   State begin_;
-  double longestAtWalls_ = 0;  ///< step in which a point meets or leaves a wall [s]
-  double longestOfLaws_ = 0;   ///< step by the rate of laws [s]
-  double sinceRate_ = 0;       ///< steps since it was found
+  double longestAtWalls_ = 0;  ///< longest step in which a point meets or leaves a wall [s]
+  double longestOfLaws_ = 0;   ///< longest step by the rate of laws [s]
+  double sinceRate_ = 0;       ///< steps since the last update of the rate
   ExplicitRightHandSide rhs_;
   RungeKuttaStep stage_;
   State whole_, half_;

@@ -8,15 +8,15 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Length of a span: so many seconds, but no more of the run than this part. It is compared at
-/// three to seven times the cost of its motion.
+/// Length of a span in s, and its largest fraction of the run. The comparison costs three to seven
+/// times the motion of the span.
 constexpr double longestSpan = 1, largestPart = 0.1;
-/// Times the numerator of the known spans from which another one is busier: twice the changes of
-/// velocity in a step.
+/// Another span is busier if its numerator exceeds that of the known spans by this factor: twice
+/// the changes of velocity in a step.
 constexpr double busier = 4;
-/// J up to which steps follow the motion: vibration of w h = 0.1 and less.
+/// Largest J of resolved motion: vibration of w h = 0.1 and less.
 constexpr double followed = 0.01;
-/// Of times, in parts of a span.
+/// Tolerance of times, in parts of a span.
 constexpr double untimely = 1e-9;
 
 }  // namespace
@@ -50,7 +50,7 @@ void BusiestSpan::look(const State& from, const State& to) {
   if (to.t - begin_ > (static_cast<double>(closed_ + 1) - untimely) * part_) close();
 }
 
-/// The span that ends with the part under way.
+/// Evaluates the span that ends with the current part.
 void BusiestSpan::close() {
   const auto count = static_cast<long>(parts);
   double sums[2] = {0, 0};

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Where in a run its steps have most to follow. With the change h (a_k - a_k-1) of velocity that
-/// the acceleration at the beginning of a step misses in it,
+/// The span of a run that is hardest for its steps. h (a_k - a_k-1) is the change of velocity in a
+/// step that the acceleration at its beginning misses;
 ///
 ///     J^2 = sum |h (a_k - a_k-1)|^2 / sum |v_k|^2
 ///
-/// over the steps of a span of a second, or a tenth of the run, |.| the norm of the diagonal of the
-/// mass, which costs no product. The busiest span is the one with the largest numerator. Spans
-/// begin a sixth of their length apart, and the state there is kept.
+/// over the steps of a span of a second, or a tenth of the run. |.| is the norm of the diagonal
+/// mass, which needs no product. The busiest span has the largest numerator. Spans start a sixth of
+/// their length apart, and the state there is kept.
 #pragma once
 
 #include <array>
@@ -20,15 +20,16 @@ namespace tooljoint::transient {
 
 class BusiestSpan {
  public:
-  /// \param window  of the run \param known  its motion up to there is judged anyway [s]
-  /// \param like  a state
+  /// \param window of the run
+  /// \param known length of the motion that is judged in any case, from the start of the run [s]
+  /// \param like a state
   BusiestSpan(const CompiledModel& model, const Window& window, double known, const State& like);
-  /// After each step. Collective at the end of a part.
+  /// After each step. Collective at the end of each part.
   void look(const State& from, const State& to);
-  /// The busiest span is not known, has at least four times the numerator of those that are, and a
-  /// J of more than 1 %.
+  /// Whether the busiest span is outside the known motion, has more than four times the numerator
+  /// of the known spans, and J above 1 %.
   bool isLater() const;
-  /// Where it begins.
+  /// State at the start of the busiest span.
   const State& start() const { return best_.from; }
   double end() const { return best_.from.t + length(); }                ///< [s]
   double length() const { return static_cast<double>(parts) * part_; }  ///< [s]
@@ -49,13 +50,13 @@ class BusiestSpan {
   double square(const Vector& v) const { return (v.array().square() * inertia_).sum(); }
 
   const CompiledModel* model_;
-  double begin_, part_, known_;  ///< of the run, length of a part, what is known from the start [s]
-  std::array<Part, parts> last_;  ///< the part under way and those before it, in turn
-  long closed_ = 0;               ///< parts
-  bool empty_ = true;             ///< the part under way has no step
-  double knownJumps_ = 0;         ///< most of a span that is known
+  double begin_, part_, known_;   ///< start of the run, length of a part, known motion [s]
+  std::array<Part, parts> last_;  ///< the current part and those before it, cyclic
+  long closed_ = 0;               ///< number of closed parts
+  bool empty_ = true;             ///< the current part has no step yet
+  double knownJumps_ = 0;         ///< largest numerator of a known span
   Part best_;                     ///< the busiest span so far
-  Eigen::ArrayXd inertia_;        ///< diagonal of the mass; 0 for what another rank counts
+  Eigen::ArrayXd inertia_;        ///< diagonal of the mass; 0 for dofs that another rank counts
   Vector difference_;
 };
 

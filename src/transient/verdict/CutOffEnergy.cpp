@@ -9,7 +9,7 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Of the frequency at which the modes of a part end.
+/// Fraction of the frequency at which the modes of a part end.
 constexpr double upper = 0.5;
 
 }  // namespace

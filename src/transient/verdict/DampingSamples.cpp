@@ -10,8 +10,8 @@
 namespace tooljoint::transient {
 namespace {
 
-/// The damping of the scheme is measured in so many first steps, in which what the start excites
-/// is lost, and then once in so many: a look costs some products with M.
+/// The damping of the scheme is measured in this many first steps, where transients of the start
+/// decay, and then once every `stride` steps, because a measurement costs some products with M.
 constexpr long firstSteps = 64, stride = 11;
 
 }  // namespace
@@ -36,7 +36,7 @@ void DampingSamples::look(const MotionNorm& norm, const State& from, const State
 }
 
 double DampingSamples::damped(const MotionNorm& norm, double span) const {
-  const double energy = 0.5 * norm.inertia() * vibrated_;  // integral over the time measured
+  const double energy = 0.5 * norm.inertia() * vibrated_;  // integral over the measured time
   if (!(energy > 0)) return 0.0;
   return 1 - std::exp(-std::max(0.0, 0.25 * span * lost_ / energy));
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Vibration that a scheme itself damps. In the first 64 steps and one in eleven after them the
-/// energy e that the scheme takes in a step (NumericalDamping) is set beside the energy of
-/// vibration, twice its kinetic energy: at the rate <e / h> / (2 E) of its energy the amplitude
-/// falls in T by exp(-d),
+/// Numerical damping of vibration by the scheme. It is measured in the first 64 steps and in one of
+/// eleven after them. e is the energy that the scheme takes in a step (NumericalDamping), 2 E the
+/// energy of vibration, twice its kinetic energy. With the energy loss rate <e / h> / (2 E) the
+/// amplitude decreases in T by exp(-d),
 ///
 ///     d = T <e / h> / (4 <v'M v / 2>)
 ///
-/// v'M v from the speeds of the nodes. In the same steps it is checked whether contact rests on
-/// walls too stiff for them: vibration of such contact is held down by steps and halves alike.
+/// with v'M v from the speeds of the nodes. The same steps show whether contact rests on walls too
+/// stiff for the step: steps and halves alike damp vibration of such contact.
 #pragma once
 
 #include <vector>
@@ -20,14 +20,15 @@ namespace tooljoint::transient {
 
 class DampingSamples {
  public:
-  /// \param scheme  null: it damps nothing \param like  a displacement
+  /// \param scheme null: no numerical damping
+  /// \param like a displacement
   DampingSamples(const NumericalDamping* scheme, const Vector& like)
       : scheme_(scheme), difference_(like) {}
   /// After each step.
   void look(const MotionNorm& norm, const State& from, const State& to);
-  /// 1 - exp(-d): part of its amplitude that vibration loses in `span` [s].
+  /// 1 - exp(-d): fraction of the amplitude that vibration loses in `span` [s].
   double damped(const MotionNorm& norm, double span) const;
-  /// Contact rests on walls too stiff for the steps in more than a tenth of them.
+  /// Whether contact rests on walls too stiff for the step in more than a tenth of the steps.
   bool hasUnresolvedContact() const;
   const NumericalDamping* scheme() const { return scheme_; }
 
@@ -39,11 +40,11 @@ class DampingSamples {
 
   const NumericalDamping* scheme_;
   Vector difference_;
-  // over all steps, from some of them
+  // estimates for all steps, from the measured ones
   double lost_ = 0, vibrated_ = 0;  ///< sum of e [J], integral of |v|^2
   double rested_ = 0;               ///< steps with unresolved contact
-  long taken_ = 0;                  ///< steps, those of cut ones one by one
-  long looks_ = 0;                  ///< at steps after the first ones
+  long taken_ = 0;                  ///< steps, counting the parts of a cut step
+  long looks_ = 0;                  ///< measurements after the first steps
 };
 
 }  // namespace tooljoint::transient

@@ -10,9 +10,9 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Wrong samples in a row after which a run is refused, and of a balance that is open but makes no
-/// energy, the part of all samples they must be at least: at the start little energy has been
-/// exchanged.
+/// A run is refused after this many consecutive wrong samples. If the balance is open but no energy
+/// is generated, they must also be this fraction of all samples, because little energy has been
+/// exchanged at the start.
 constexpr int sustained = 10;
 constexpr double sustainedPart = 0.1;
 

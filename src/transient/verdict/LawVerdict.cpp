@@ -14,9 +14,9 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Part of the integral of a law of time that fixed steps may miss without a warning.
+/// Part of the integral of a law of time that steps may miss without a warning.
 constexpr double unresolved = 0.01;
-/// And without a refusal: as much as an error of the motion that none passes.
+/// Part above which the run is refused: the error of a motion that is always refused.
 constexpr double lostLaw = 0.5;
 /// Intervals of a step in which LawWatch evaluates laws.
 constexpr int pieces = 16;
@@ -32,7 +32,7 @@ void say(const model::ScalarLaw& law, double missed, const std::string& steps,
   log::warn(text);
 }
 
-/// Simpson's rule on the pieces.
+/// Simpson's rule over the intervals.
 double integralOf(const model::ScalarLaw& law, double begin, double end) {
   const double h = (end - begin) / pieces;
   double sum = law.value(begin) + law.value(end);
@@ -73,7 +73,7 @@ void judgeLaws(const model::SecondOrderModel& model, const Integrator& run,
                const JudgedSpan& span) {
   const Counters& c = run.counters();
   const double equal = run.equalStep(), h = equal > 0 ? equal : c.maxStep;
-  if (!(equal > 0) && c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
+  if (!(equal > 0) && c.minStep < 0.5 * c.maxStep) return;  // steps with error control
   for (std::size_t i = 0; i < model.laws.size(); ++i) {
     const auto& law = model.laws[i];
     const auto follows = [i](const auto& term) {

@@ -24,17 +24,16 @@ RetakenWindow::RetakenWindow(CompiledModel& model, const Integrator& run,
       first_(start.q),
       state_(start),
       to_(start) {
-  run.saveHistory(history_);  // nothing is allocated in the step loop
+  run.saveHistory(history_);  // allocates here, not in the step loop
   points_ = model.makePoints();
   for (const auto& batch : points_) scales_.resize(scales_.size() + at(batch.points()));
   Window halves = window;
-  halves.sampling = h_;  // of which steps of a half are a whole part
+  halves.sampling = h_;  // a multiple of half a step
   halves.step = 0.5 * h_;
   withModel([&] { second_->prepareRetaking(run, model, halves, start); });
 }
 
-/// What is done with the model while the points are those of the second object; then it is as it
-/// was.
+/// Runs `work` on the model with the points of the second object, then restores the model.
 template <class Work>
 void RetakenWindow::withModel(const Work& work) {
   model_->remember(snapshot_);
@@ -53,7 +52,7 @@ void RetakenWindow::begin(const Integrator& run, const State& from) {
     for (int p = 0; p < batch.points(); ++p) scales_.push_back(batch.scale(p));
 }
 
-/// What meets a wall as an impact where the window begins does so in the halves too.
+/// A point that meets a wall as an impact at the start of the window does so in the halves too.
 bool RetakenWindow::take(double endOfFirst, double end) {
   bool solved = false;
   withModel([&] {
@@ -108,7 +107,7 @@ void RetakenWindow::restore(const double*& memory, bool underWay) {
   const double* points = memory;
   for (auto& batch : points_) batch.restore(memory);
   withModel([&] { second_->restore(memory); });
-  for (auto& batch : points_) batch.restore(points);  // the scheme has set scales of its own
+  for (auto& batch : points_) batch.restore(points);  // the scheme has set its own scales
 }
 
 }  // namespace tooljoint::transient

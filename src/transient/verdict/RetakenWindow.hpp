@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Some steps of a run, taken again in steps of half the length by a second object of the
-/// integrator, which has points, factor, counters and memory of its own and leaves the model as it
-/// was: the run does not notice it.
+/// Repeats some steps of a run in steps of half the length. A second object of the integrator does
+/// this with its own points, factor, counters and memory and leaves the model unchanged, so that
+/// the run is not affected.
 ///
-/// A scheme has a velocity of its own for a motion, which depends on the step: a window taken again
-/// with the velocity of the run would begin with an error of the scheme's order that the run does
-/// not have. The velocity is corrected until the first step ends where that of the run does.
+/// The velocity of a scheme for a given motion depends on the step. A window repeated with the
+/// velocity of the run would start with an error of the scheme's order that the run does not have.
+/// The velocity is therefore corrected until the first step ends where that of the run does.
 #pragma once
 
 #include <memory>
@@ -23,16 +23,16 @@ class RetakenWindow {
   /// \param window  of the whole run, with its step h
   RetakenWindow(CompiledModel& model, const Integrator& run, std::unique_ptr<Integrator> second,
                 const Window& window, const State& start);
-  /// The window begins where the run is.
+  /// Starts a window at the current state of the run.
   void begin(const Integrator& run, const State& from);
-  /// Its first step in the run ended there.
+  /// Displacement at the end of the first step of the run in the window.
   void endFirst(const Vector& q) { first_ = q; }
-  /// Takes it again. False when its equations have no solution.
+  /// Repeats the window. False if its equations have no solution.
   bool take(double endOfFirst, double end);
   const Vector& start() const { return from_.q; }
-  const Vector& end() const { return state_.q; }  ///< of the halves
+  const Vector& end() const { return state_.q; }  ///< at the end of the halves
 
-  /// Of the second object; and of the window, where one is under way.
+  /// Memory of the second object, and of the window if `underWay`.
   void save(std::vector<double>& memory, bool underWay) const;
   void restore(const double*& memory, bool underWay);
 
@@ -46,10 +46,10 @@ class RetakenWindow {
   std::vector<PointBatch> points_;    ///< of the second object
   CompiledModel::Snapshot snapshot_;  ///< of the run
   double h_;
-  State from_;                   ///< where the window began
+  State from_;                   ///< start of the window
   Vector first_;                 ///< displacement at the end of its first step
-  std::vector<double> history_;  ///< of the integrator where it began
-  std::vector<double> scales_;   ///< of all points there
+  std::vector<double> history_;  ///< saved by the integrator at the start of the window
+  std::vector<double> scales_;   ///< scales of all points there
   State state_, to_;
 };
 

@@ -5,8 +5,8 @@
 
 namespace tooljoint::transient {
 
-/// s (i + frac(g j)), g the golden ratio: steps a stride s apart, at which no vibration is always
-/// met in the same phase.
+/// s (i + frac(g j)), g the golden ratio: steps about a stride s apart, so that no vibration is
+/// always sampled in the same phase.
 inline long spreadStep(long stride, double i, double j) {
   constexpr double golden = 0.6180339887498949;
   const double spread = golden * j;

@@ -11,15 +11,15 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Part of its velocity that a motion is disturbed by, so often in T, in turns up and down.
+/// Relative disturbance of the velocity, and the number of disturbances in T, of alternating sign.
 constexpr double disturbance = 1e-3;
 constexpr long disturbances = 16;
-/// Motion below this part of all displacement is rounding.
+/// Motion below this part of the displacement is rounding.
 constexpr double rounding = 1e-6;
-/// Speeds of the second half below this part of those of all T are rest: what chatters on after a
-/// landing, or rings out, has no share in the motion.
+/// Speeds of the second half below this part of those of all T count as rest: chatter after a
+/// landing and ringing are no part of the motion.
 constexpr double rest = 0.01;
-/// Shorter steps cost more than they are worth: contact that they do not resolve is warned of.
+/// Shorter steps cost more than they are worth; the run warns of contact that they do not resolve.
 constexpr int mostParts = 32;
 
 }  // namespace
@@ -44,7 +44,7 @@ StepComparison::StepComparison(CompiledModel& model,
   const double steps = std::max(1.0, std::floor(span / window.step + 1e-6));
   window_.end = std::min(window.end, window.begin + steps * window.step);
   whole_ = window.end - window_.end < window.step;
-  window_.sampling = window.step;  // of which steps of a half are a whole part
+  window_.sampling = window.step;  // a multiple of half a step
 }
 
 bool StepComparison::shorten() {
@@ -74,7 +74,7 @@ void StepComparison::begin(Motion& motion, std::unique_ptr<Integrator> scheme, d
   model_->remember(motion.model);
 }
 
-/// To the step that ends at t.
+/// Advances to the end of the step at t.
 void StepComparison::advance(Motion& motion, double t) {
   model_->comeBack(motion.model);
   motion.points.swap(model_->points());

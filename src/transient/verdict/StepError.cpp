@@ -10,30 +10,30 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Steps in a window. An error of the frequency shows in a window that is not short beside 1/omega.
-/// Schemes whose phase is right to second order alone err in steps that are short beside it: their
-/// windows have up to `longest` steps, and so many radians of the motion.
+/// Steps in a window. A frequency error does not show in a window that is short compared with
+/// 1/omega. Schemes whose phase is accurate only to second order have such errors, so their windows
+/// span this many radians of the motion, up to `longestWindow` steps.
 constexpr long usualWindow = 8, longestWindow = 32;
 constexpr double radiansInWindow = 2;
-/// Steps from one window to the next: a usual window costs as much as 20 steps. Short runs still
-/// have `fewest` windows if they can, long ones no more than `most`.
+/// Steps from one window to the next; a usual window costs as much as 20 steps. Short runs have
+/// `fewest` windows if possible, long ones at most `most`.
 constexpr long usualStride = 400, fewest = 8, most = 128;
-/// Fewer windows say nothing.
+/// With fewer windows there is no estimate.
 constexpr double fewestSaying = 2;
-/// Motion in windows that is less than this part of the displacement since the start is rest: what
-/// iterations leave is a part of the displacement, too, of the order of their tolerance.
+/// Motion in windows below this part of the displacement since the start is rest. Errors of the
+/// iterations, too, are a part of the displacement, of the order of their tolerance.
 constexpr double negligibleMotion = 1e-3;
-/// Motion that is less than this part of the displacement has no damping that means anything.
+/// Motion below this part of the displacement has no meaningful damping.
 constexpr double quiet = 1e-6;
-/// Over longer times [s] contact parts any two motions.
+/// Over longer times [s] contact separates any two motions.
 constexpr double longest = 3.0;
-/// Times T that a run lasts in which later motion is measured for itself.
+/// Later motion is measured if the run lasts this many times T.
 constexpr double longer = 1.2;
-/// Motion begins anew where it is so many times as large as before; it is compared from there when
-/// that is after this part of T, of which too little would be left.
+/// The motion begins anew where it becomes this many times as large as before. It is then compared
+/// from there, if that is later than this part of T; otherwise enough of T remains after the start.
 constexpr double risen = 100, lateStart = 0.5;
-/// |C_ij - C_ji| / 2 over twice the fourth root of K_ii M_ii K_jj M_jj from which gyroscopic terms
-/// matter: they then change frequencies by about this part.
+/// |C_ij - C_ji| / 2 over twice the fourth root of K_ii M_ii K_jj M_jj. Above this, gyroscopic
+/// terms matter: they change frequencies by about this part.
 constexpr double strongGyroscopics = 0.05;
 
 bool isGyroscopic(const CompiledModel& model, double t) {
@@ -74,7 +74,7 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
 
 void StepError::plan() {
   const auto i = static_cast<double>(seen_);
-  next_ = stride_ == usualWindow ? stride_ * seen_  // one after the other
+  next_ = stride_ == usualWindow ? stride_ * seen_  // consecutive windows
                                  : spreadStep(stride_, i, i + 1);
 }
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Accuracy of fixed steps, measured: windows of some steps of a run are taken again in steps of
-/// half the length (RetakenWindow). With e the difference of the displacements at the end of a
-/// window that begins at q_0, the estimate of the step error is
+/// Measured accuracy of fixed steps. Windows of some steps of a run are repeated in steps of half
+/// the length (RetakenWindow). With e the difference of the displacements at the end of a window
+/// that starts at q_0, the estimate of the step error is
 ///
 ///     S = N sqrt(<|e|^2> / <max_k |q_k - q_0|^2>)
 ///
-/// Means are over the windows, |.| is the norm over the translations of the nodes, and that of the
-/// mass (MotionNorm.hpp): S is the larger of both. A phase error
-/// grows with the time: N = T sqrt(<|v|^2> / <|q - q(0)|^2>), but at least 1, is about how many
-/// radians the motion turns through in T, the duration of the run but at most 3 s. S does not see
-/// what steps and halves damp alike: DampingSamples do.
+/// Means are over the windows. |.| is the norm over the translations of the nodes and that of the
+/// mass (MotionNorm.hpp); S is the larger value. A phase error grows with time: N = T sqrt(<|v|^2>
+/// / <|q - q(0)|^2>), at least 1, is about the number of radians of the motion in T, the duration
+/// of the run but at most 3 s. S does not include damping common to steps and halves;
+/// DampingSamples measures it.
 #pragma once
 
 #include <memory>
@@ -32,21 +32,22 @@ class StepError {
   /// \param start   state at the start of the run
   StepError(CompiledModel& model, const Integrator& run, std::unique_ptr<Integrator> second,
             const Window& window, const State& start);
-  /// Before the step of `run` from `from`.
+  /// Call before the step of `run` from `from`.
   void before(const Integrator& run, const State& from);
-  /// After it.
+  /// Call after that step.
   void after(const State& from, const State& to);
-  /// S; 0 where nothing moves, and for a run too short to say.
+  /// S; 0 without motion or if the run is too short for an estimate.
   double value() const;
-  /// Part of its amplitude that vibration loses in T by the scheme; 0 where it is not known.
+  /// Fraction of the amplitude that vibration loses in T by the scheme; 0 if not known.
   double damped() const;
-  /// Of a scheme that damps.
+  /// Numerical damping of the scheme.
   const DampingSamples& damping() const { return damping_; }
   double span() const { return turning_; }  ///< T [s]
-  /// From where the motion is worth comparing: the start of the run, or, where the motion begins
-  /// after half of T, its state at the last window before.
+  /// State from which the motion is compared: the start of the run or, if the motion begins after
+  /// half of T, the last window before.
   const State& beginning() const { return calm_; }
-  /// Where the run has most to follow, when that is later and far more than there; null else.
+  /// The span that is hardest for the steps, if it is later and far harder than this motion; else
+  /// null.
   const BusiestSpan* later() const {
     return busiest_ && busiest_->isLater() && busiest_->end() > calm_.t + turning_ ? &*busiest_
                                                                                    : nullptr;
@@ -73,20 +74,20 @@ class StepError {
   long steps_;         ///< in the run
   long stride_;        ///< mean distance of windows in steps
 
-  long seen_ = 0;      ///< windows begun
-  long next_ = 0;      ///< first step of the next one
-  long end_ = -1;      ///< last step of the one under way, -1 for none
-  long inWindow_ = 0;  ///< steps of it
-  Norms most_{0, 0};   ///< max_k |q_k - q_0|^2 in it
+  long seen_ = 0;      ///< windows started
+  long next_ = 0;      ///< first step of the next window
+  long end_ = -1;      ///< last step of the current window, -1 for none
+  long inWindow_ = 0;  ///< steps in the current window
+  Norms most_{0, 0};   ///< max_k |q_k - q_0|^2 in the current window
   struct Sums {
     double windows = 0, duration = 0;   ///< 1, integral of 1
     Norms errors{0, 0}, moved{0, 0};    ///< |e|^2, max_k |q_k - q_0|^2
-    Norms sizes{0, 0};                  ///< |q|^2 at their ends
+    Norms sizes{0, 0};                  ///< |q|^2 at the ends of the windows
     Norms speeds{0, 0}, offsets{0, 0};  ///< integrals of |v|^2, |q - q(0)|^2
-  } sums_;                              ///< over windows
+  } sums_;                              ///< over all windows
   State last_;                          ///< at the start of the last window
-  State calm_;                          ///< where the motion begins
-  double level_ = 0;  ///< offset'M offset at the last window where the motion had risen
+  State calm_;                          ///< beginning()
+  double level_ = 0;  ///< offset'M offset at the last window where the motion began anew
 };
 
 }  // namespace tooljoint::transient

@@ -15,71 +15,73 @@
 namespace tooljoint::transient {
 namespace {
 
-/// The motion is compared from this part of `Step Error Limit` on, and from this part of `Step
-/// Error Warning` that the scheme damps: what it holds down from the start has little to lose.
+/// The motion is compared if S exceeds this part of `Step Error Limit`, or the damping of the
+/// scheme this part of `Step Error Warning`: vibration damped from the start has little amplitude
+/// to lose.
 constexpr double comparedError = 0.5, comparedDamping = 0.2;
-/// S from which a run is lost, unless all of its motion is compared and D within this part of
-/// `Step Error Limit`: steps of first order miss twice D.
+/// A run is refused if S is above this, unless all of its motion is compared and D is within this
+/// part of `Step Error Limit`: D is half of a first-order error.
 constexpr double lostMotion = 1, savedError = 0.5;
-/// Sensitivity over D from which the motion is chaotic.
+/// Sensitivity over D above which the motion is chaotic.
 constexpr double chaoticShare = 0.25;
-/// Speeds, and velocities, may be off by so many times what displacements may.
+/// Allowed errors of speeds and of velocities, as multiples of that of displacements.
 constexpr double speedTolerance = 2.5, velocityTolerance = 4;
-/// V from which velocities are others, and the part of `Step Error Warning` up to which
-/// displacements are right all the same: 2 % at its default.
+/// V above which the velocities are uncorrelated; part of `Step Error Warning` up to which the
+/// displacements are right nevertheless: 2 % at its default.
 constexpr double lostVelocities = 0.8, nearlyRight = 0.4;
 
-/// What is known of the steps of a run, or of its busiest span alone.
+/// Findings on the steps of a run, or on its busiest span alone.
 struct Findings {
   double limit = 0, warning = 0;  ///< of the deck
-  bool late = false;              ///< of the busiest span
-  double begin = 0, span = 0;     ///< of what is compared [s]
-  double error = 0;               ///< S, of the run
-  double damped = 0;              ///< part of the amplitude that the scheme takes
-  bool rests = false;             ///< contact, on walls too stiff for the step
+  bool late = false;              ///< findings on the busiest span
+  double begin = 0, span = 0;     ///< of the compared motion [s]
+  double error = 0;               ///< S of the run
+  double damped = 0;              ///< fraction of the amplitude that the scheme damps
+  bool rests = false;             ///< contact rests on walls too stiff for the step
   double shorterStep = 0;         ///< [s]
   std::optional<StepComparison::Difference> shorter;
   std::optional<StepComparison::Difference> neighbour;  ///< of the shorter steps
 
-  /// Speed over that of the shorter steps, and of their neighbour where it is known: both motions
-  /// are as good, and of chaotic motion the mean of two says more.
+  /// Speed over that of the shorter steps, and over that of their neighbour if known: both motions
+  /// are equally valid, and in chaotic motion a mean of two is more accurate.
   double speeds() const {
     return neighbour ? farthest(shorter->ratios * neighbour->ratios.sqrt()) : shorter->speeds;
   }
   /// max(r, 1/r) - 1
   double speedError() const { return std::exp(std::abs(std::log(speeds()))) - 1; }
-  /// Velocities that are not those at all, of motion that has a share in the displacements.
+  /// Whether the velocities are uncorrelated and their motion is a relevant part of the
+  /// displacements.
   bool isOther() const {
     return shorter->size > nearlyRight * warning && shorter->velocities > lostVelocities;
   }
-  /// S is as large as the motion, and the motion not found right enough in all its length.
+  /// Whether S is as large as the motion and no comparison over all of the motion disproves it.
   bool isLost() const {
     return error > std::max(lostMotion, limit) &&
            !(shorter && shorter->whole && shorter->size <= savedError * limit);
   }
-  /// Of what parts by more than a bound, neighbours part as far as steps and shorter steps do.
+  /// Whether neighbours differ as much as steps and shorter steps in all norms above the bound.
   bool partsLikeNeighbours(double bound) const {
     return neighbour &&
            (shorter->sizes <= bound || neighbour->sizes > chaoticShare * shorter->sizes).all();
   }
-  /// In the busiest span neighbours part as far as all that is not right: so short a span has no
-  /// means either.
+  /// Whether neighbours in the busiest span differ as much in everything that is not right. Such a
+  /// short span has no meaningful averages either.
   bool isParting() const {
     return late && partsLikeNeighbours(warning) &&
            (shorter->velocities <= velocityTolerance * warning ||
             neighbour->velocities > chaoticShare * shorter->velocities);
   }
-  /// By the damping of the scheme, and by nothing else that is known.
+  /// Whether the damping of the scheme, and no other known effect, suppresses the motion.
   bool isHeldDown() const {
     return shorter && isOther() && speeds() * (1 + speedTolerance * limit) < 1 && !isParting() &&
            !isLost() && !rests;
   }
-  /// Contact that neither the steps nor what they are compared with resolve.
+  /// Contact that neither the steps nor the shorter steps resolve.
   bool isUnknown() const { return rests && shorterStep > 0 && (!shorter || shorter->unresolved); }
-  /// The step error. S where nothing is compared, which refuses nothing below 1. Else the largest
-  /// of D, which refuses nothing where neighbours part as far; of the speeds, where the motion is
-  /// another; and of V where it is above the warning, which refuses nothing either: vibration too
-  /// fast for the step has little of the displacement.
+  /// The step error. Without a comparison it is S, at most the limit. Else it is the largest of
+  /// three: D, at most the limit if neighbours differ as much; the error of the speeds, if the
+  /// velocities are uncorrelated; V scaled, at most the limit, if it is above the warning, because
+  /// vibration too fast for the step is a small part of the displacement.
   double stepError() const {
     if (isLost()) return error;
     if (!shorter) return std::min(error, limit);
@@ -89,20 +91,20 @@ struct Findings {
     const double fast = shorter->velocities / velocityTolerance;
     return fast > warning ? std::max(found, std::min(fast, limit)) : found;
   }
-  /// Whether the motion from the start is to be compared.
+  /// Whether the motion from the start must be compared.
   bool isDue() const {
     return error > comparedError * limit || damped > comparedDamping * warning || rests;
   }
   bool isTooLarge() const { return stepError() > limit; }
   bool isWide() const { return stepError() > warning || isUnknown(); }
-  /// D is right where S is not: halves may miss what the steps miss.
+  /// S is large but D is right: halves may miss what the steps miss.
   bool isDoubtful() const {
     return !late && shorterStep > 0 && error > limit && shorter && shorter->size <= warning;
   }
   bool isRight() const { return shorter && !isWide() && speedError() <= warning; }
-  /// What the summary holds: 0 where a step error within the warning is not known to be all.
+  /// Value in the summary: 0 if the step error is within the warning but may be incomplete.
   double reported() const { return isUnknown() && !(stepError() > warning) ? 0.0 : stepError(); }
-  /// Whether neighbours have to be evaluated.
+  /// Whether neighbours must be evaluated.
   bool isInDoubt() const { return shorter && !isLost() && (isTooLarge() || (late && !isRight())); }
 };
 
@@ -131,7 +133,7 @@ std::string describe(const Findings& found) {
   return text.str();
 }
 
-/// Beside steps short enough for contact that rests on walls.
+/// Compares with steps short enough for contact that rests on walls.
 void compare(StepComparison motions, Findings& found) {
   bool confirm = false, confirmed = false;
   do {
@@ -144,7 +146,7 @@ void compare(StepComparison motions, Findings& found) {
   } while (found.shorter && (confirm || found.shorter->unresolved) && !found.isTooLarge() &&
            motions.shorten());
   if (!found.shorter || !found.shorter->still || found.shorter->unresolved) return;
-  found.shorter.reset();  // nothing moves that could be compared
+  found.shorter.reset();  // no motion to compare
   found.rests = false;
 }
 

@@ -67,7 +67,7 @@ void FirstOrderForm::unpack(const double* y, State& state) const {
   });
 }
 
-/// States at y, the held ones as they are.
+/// Sets the states from y; held ones are unchanged.
 void FirstOrderForm::bindStates(const double* y) {
   forStates([&](auto&, const PointStates& states, int x, int z) {
     for (int p = 0; p < states.points(); ++p)
@@ -106,8 +106,8 @@ std::string FirstOrderForm::nameOf(int position) const {
   return name;
 }
 
-/// Solvers evaluate at stages they choose, forwards and backwards in time: no point is left out by
-/// what was seen before.
+/// Solvers evaluate at stages of their choice, forwards and backwards in time, so earlier
+/// evaluations exclude no point.
 void FirstOrderForm::touch(double t, const double* q) {
   model_->setTime(t);
   for (auto& batch : model_->points()) batch.look(t, 0.0, q);

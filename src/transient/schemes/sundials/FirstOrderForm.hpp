@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// A compiled model as y' = f(t, y) with y = (q, v, z), z the rated states of point laws, for
-/// solvers of first-order systems, and the Newton matrix of their implicit formulas solved with
-/// blocks of the second-order model. With x = (x_q, x_v, x_z), r likewise, J = df/dy,
-/// f the forces and g the rates of the laws, and S = (I - g dg/dz)^-1,
+/// solvers of first-order systems. The Newton matrix of their implicit formulas is solved with
+/// blocks of the second-order model. With x = (x_q, x_v, x_z), r likewise, J = df/dy, f the forces
+/// and g the rates of the laws, and S = (I - g dg/dz)^-1,
 ///
 ///     (I - g J) x = r   <=>   (M + g C* + g^2 K*) x_v = M r_v - g K* r_q + g R' df/dz S r_z,
 ///                             x_q = r_q + g x_v,   x_z = S (r_z + g dg/dd R x_q + g dg/dv R x_v),
 ///
-/// where C* = C - R' df/dv R and K* = K - R' df/dd R hold the tangents of the point laws, their
-/// states eliminated (PointStates): one factor of the size of q. Held states are no unknowns: they
-/// change in accept().
+/// where C* = C - R' df/dv R and K* = K - R' df/dd R contain the tangents of the point laws with
+/// their states eliminated (PointStates). One factor of the size of q suffices. Held states are no
+/// unknowns: they change in accept().
 #pragma once
 
 #include <string>
@@ -29,25 +29,25 @@ class FirstOrderForm {
   int dofs() const { return n_; }
   int size() const { return 2 * n_ + rated_; }
 
-  /// The states of point laws at which the motion starts or goes on, held ones above all.
+  /// Sets the states of point laws at the start or restart of the motion, in particular held ones.
   void setStates(const Vector& x) { x_ = x; }
-  /// y of a state, `size()` numbers, and the q, v and x of a y.
+  /// y of a state, `size()` numbers, and q, v and x of a y.
   void pack(const State& state, double* y) const;
   void unpack(const double* y, State& state) const;
-  /// The held states become those of a step that ends at `state`, whose x is completed. True when
-  /// that changes the accelerations or rates there by more than this part of the largest: what the
-  /// solver remembers is then of another system.
+  /// Updates the held states at the end of a step at `state`, and completes its x. True if this
+  /// changes the accelerations or rates there by more than this part of the largest: the history of
+  /// the solver then belongs to another system.
   bool accept(State& state, double tolerance);
 
   /// yDot = (v, M^-1 (F(t) + R' f(q, v, z, t) - C(t) v - K(t) q), g(q, v, z, t)); `size()` numbers
-  /// each. Every point that touches at y acts.
+  /// each. Includes every point that touches at y.
   void rightHandSide(double t, const double* y, double* yDot);
   /// The same for a state: a and xDot.
   void complete(State& state);
   /// "theta_z of node 17", "state 1 of point 3 of cutter".
   std::string nameOf(int position) const;
 
-  /// Factor I - gamma J(t, y) with the tangents at y; false when it is singular.
+  /// Factor I - gamma J(t, y) with the tangents at y; false if it is singular.
   bool factor(double t, const double* y, double gamma);
   /// x := (I - gamma J)^-1 x with the last factor.
   void solve(double* x);
@@ -59,7 +59,7 @@ class FirstOrderForm {
  private:
   void touch(double t, const double* q);
   void bindStates(const double* y);
-  /// act(batch, its PointStates, where its states begin in x, where its rated ones begin in z).
+  /// act(batch, its PointStates, start of its states in x, start of its rated states in z).
   template <class Act>
   void forStates(const Act& act) const;
 
@@ -71,7 +71,7 @@ class FirstOrderForm {
   double gamma_ = 0;
   Vector right_, product_;
   Vector x_;                  ///< states at the last evaluation; held ones of the last accept()
-  Vector y_, yDot_, before_;  ///< of complete() and accept()
+  Vector y_, yDot_, before_;  ///< used in complete() and accept()
   Vector xDot_, rows_, dRows_, vRows_;
   long evaluations_ = 0, factorisations_ = 0;
 };

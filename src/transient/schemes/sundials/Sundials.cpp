@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// `SUNDIALS ARKODE` (diagonally implicit Runge-Kutta) and `SUNDIALS CVODE` (backward
-/// differentiation) on y = (q, v, rated states of point laws), with the error of each step held
-/// below
+/// differentiation) for y = (q, v, rated states of point laws), with the error of each step limited
+/// by
 ///
 ///     sqrt( 1/N sum_i (e_i / (rtol s_i + atol_i))^2 ) <= 1,
 ///     s_i = |v_i| and the tolerance of velocities for v, min(|y_i|, 1) and that of positions else
 ///
-/// Both choose their steps; samples are interpolated. Held states of point laws change where a step
-/// ends; where that changes a force, the method begins anew.
+/// Both choose their steps; samples are interpolated. Held states of point laws change at the end
+/// of a step; if that changes a force, the method restarts.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,20 +26,21 @@ namespace {
 constexpr const char* arkode = "SUNDIALS ARKODE";
 constexpr const char* cvode = "SUNDIALS CVODE";
 
-/// Motion smaller than this is not resolved to the relative tolerance [m], [m/s].
+/// Motion smaller than this is not resolved with the relative tolerance [m], [m/s].
 constexpr double usualLength = 0.01;
 constexpr double usualVelocity = 1.0;
 
-/// When the tolerances of a method are fine enough for a motion. Measured on undamped oscillators
-/// of 5 and 50 Hz over 3 s (SundialsTest.cpp), where errors add up undiminished: a motion that
-/// passes both is right to 20 %. Bounds of BDF are others: its steps are closer to the tolerance.
+/// Limits above which the tolerances of a method are fine enough for a motion. They were measured
+/// on undamped oscillators of 5 and 50 Hz over 3 s (SundialsTest.cpp), where errors accumulate
+/// without decay: the error of a motion within both limits is at most 20 %. BDF has other limits,
+/// because its errors are closer to the tolerance.
 struct Fineness {
-  double motion;  ///< at least this many tolerances, in the norm of the error
-  double steps;   ///< at most this many for each of these tolerances, in the first `judged` seconds
+  double motion;  ///< least motion, in tolerances, in the norm of the error
+  double steps;   ///< most steps per such tolerance in the first `judged` seconds
 };
 constexpr Fineness fineRungeKutta{1e3, 0.8}, fineBdf{3e3, 2.0};
-constexpr double judged = 3.0;  ///< [s], as long as equal steps are judged
-/// A motion that is smaller than this is rest.
+constexpr double judged = 3.0;  ///< [s], the same as for equal steps
+/// Motion below this is rest.
 constexpr double restingMotion = 1e-2;
 
 void addCommon(deck::ListSpec& spec, double tolerance) {
@@ -154,7 +155,7 @@ class Sundials final : public Integrator {
     count();
   }
 
-  /// To the next sample, or to the end of the step under way if that comes first.
+  /// To the next sample, or to the end of the current step if that is earlier.
   void advance(const State& from, State& to) override {
     if (beginsAnew_) beginAnew(from);
     if (!(stepper_->time() > from.t)) step(from);
@@ -184,11 +185,11 @@ class Sundials final : public Integrator {
     beginsAnew_ = true;
   }
 
-  /// SUNDIALS does not hand out its history (Nordsieck array, errors and steps before, age of the
-  /// Newton matrix), and takes none.
+  /// SUNDIALS neither returns nor accepts its history (Nordsieck array, earlier errors and steps,
+  /// age of the Newton matrix).
   bool goesOnFromAnywhere() const override { return false; }
   void forgetHistory() override {
-    // BDF begins again at first order: a step of its own choice
+    // BDF restarts at first order, with a step of its own choice
     firstStep_ = name_ == arkode ? stepper_->nextStep() : 0.0;
     beginsAnew_ = true;
   }
@@ -196,7 +197,7 @@ class Sundials final : public Integrator {
  private:
   std::unique_ptr<SundialsStepper> makeStepper();
 
-  /// Throws where makeStepper() has nothing to make.
+  /// Throws if makeStepper() cannot create a stepper.
   void requireLibrary() const {
 #ifndef TOOLJOINT_HAS_SUNDIALS
     throw DeckError("Transient/Integrator: this program was built without SUNDIALS, which \"" +
@@ -211,9 +212,9 @@ class Sundials final : public Integrator {
     stepper_->restart(from.t, y_.data(), window_.end, firstStep_);
   }
 
-  /// From a checkpoint, or from where a held state has changed a force, with its step but without
-  /// what the method remembers of earlier ones. The rest of a step that reached beyond is given up:
-  /// the step then ends here, also for the held states.
+  /// Restarts from a checkpoint, or where a held state has changed a force, with the current step
+  /// but without the history of the method. The rest of a longer step is dropped: the step then
+  /// ends here, also for the held states.
   void beginAnew(const State& from) {
     beginsAnew_ = false;
     form_.setStates(from.x);
@@ -283,7 +284,7 @@ class Sundials final : public Integrator {
            (std::floor((t - window_.begin) / window_.sampling + 1e-6) + 1) * window_.sampling;
   }
 
-  /// What SUNDIALS and the form counted since the last time.
+  /// Adds the counts of SUNDIALS and of the form since the last call.
   void count() {
     const SundialsCounts now = stepper_->counts();
     counters_.rejected += now.rejected - seen_.rejected;
@@ -300,7 +301,7 @@ class Sundials final : public Integrator {
     const double t = stepper_->time();
     const std::string own = "Transient/" + name_ + "/";
     std::ostringstream text;
-    // A force that is no number is met as a step that cannot be short enough.
+    // SUNDIALS reports a force that is not finite as a step that cannot be short enough.
     State state = from;
     for (const double later : {0.0, 1e-9 * (window_.end - window_.begin)}) {
       if (!state.a.allFinite()) continue;
@@ -346,15 +347,15 @@ class Sundials final : public Integrator {
   FirstOrderForm form_;
   Window window_;
   std::unique_ptr<SundialsStepper> stepper_;
-  Vector y_, start_;    ///< first-order form: now, and at the start
+  Vector y_, start_;    ///< first-order form: current, at the start
   double largest_ = 0;  ///< motion() so far
-  double early_ = 0;    ///< steps for each of these tolerances, until judgedUntil_
+  double early_ = 0;    ///< steps per such tolerance, until judgedUntil_
   double judgedUntil_ = 0;
   SundialsCounts seen_;
   long evaluations_ = 0, factorisations_ = 0;
-  double firstStep_ = 0;     ///< of the next start; 0: chosen by SUNDIALS
-  bool ended_ = true;        ///< the state handed out last is the end of a step
-  bool beginsAnew_ = false;  ///< before the next step
+  double firstStep_ = 0;     ///< of the next restart; 0: chosen by SUNDIALS
+  bool ended_ = true;        ///< the last state is the end of a step
+  bool beginsAnew_ = false;  ///< restart before the next step
 };
 
 #ifdef TOOLJOINT_HAS_SUNDIALS
@@ -364,7 +365,7 @@ std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
 #else
 std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
   return nullptr;
-}  // prepare() has refused before
+}  // never reached: prepare() refuses before
 #endif
 
 const bool registeredArkode = IntegratorRegistry::instance().add(

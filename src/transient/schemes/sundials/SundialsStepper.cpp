@@ -17,12 +17,12 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Tries of one step before SUNDIALS gives up; impacts and stick-slip need more than its own 7
-/// and 10.
+/// Tries of one step before SUNDIALS gives up; impacts and stick-slip need more than its defaults
+/// of 7 and 10.
 constexpr int maxTries = 40;
 
-/// What both solvers share: context, vectors, the Newton matrix as a SUNMatrix without entries and
-/// its solver, callbacks that keep exceptions of the model out of C.
+/// Common parts of both solvers: context, vectors, the Newton matrix as a SUNMatrix without entries
+/// and its solver, callbacks that keep exceptions of the model out of C.
 class Stepper : public SundialsStepper {
  public:
   Stepper(FirstOrderForm& form, const SundialsOptions& options) : form_(form), options_(options) {
@@ -62,8 +62,8 @@ class Stepper : public SundialsStepper {
   static Stepper& self(void* data) { return *static_cast<Stepper*>(data); }
   static double* data(N_Vector x) { return N_VGetArrayPointer(x); }
 
-  /// yDot = f(t, y): 0, or 1 when it is no number or a law cannot give one (a shorter step may do),
-  /// or -1 when the model threw something else.
+  /// yDot = f(t, y). Returns 0; 1 if it is not finite or a law fails (a shorter step may help); -1
+  /// if the model threw something else.
   static int rightHandSide(realtype t, N_Vector y, N_Vector yDot, void* me) {
     return self(me).guarded([&](FirstOrderForm& form) {
       try {
@@ -109,7 +109,7 @@ class Stepper : public SundialsStepper {
     const int n = form_.dofs();
     return i >= n && i < 2 * n ? options_.allowedVelocity(y) : options_.allowedPosition(y);
   }
-  /// Largest of the errors in work_, weighted by y.
+  /// Position of the largest error in work_, weighted by y.
   int worst() const {
     int position = 0;
     double largest = -1;
@@ -123,7 +123,7 @@ class Stepper : public SundialsStepper {
   void require(int flag, const char* call) const {
     if (flag < 0) throw std::runtime_error(std::string(call) + " of SUNDIALS failed: " + message_);
   }
-  /// \param flag  what the step returned: a failed one rethrows what a law refused last
+  /// \param flag result of the step: after a failed one the last exception of a law is rethrown
   void rethrow(int flag = 0) {
     if (!thrown_ && flag < 0) thrown_ = refused_;
     refused_ = nullptr;
@@ -143,7 +143,7 @@ class Stepper : public SundialsStepper {
   std::string message_;
 
  private:
-  /// The sum is a number when all entries are, but for an overflow that is no motion either.
+  /// The sum is finite if all entries are, except for an overflow, which is no valid motion either.
   static bool isFinite(N_Vector x) {
     double sum = 0;
     const double* values = data(x);
@@ -216,8 +216,8 @@ class Arkode final : public Stepper {
     require(ARKStepGetCurrentStep(memory_, &h), "ARKStepGetCurrentStep");
     return h;
   }
-  /// The interpolation of ARKODE is of the third degree, less than the methods are worth; q, v and
-  /// a at both ends of the step give one of the fifth. States of point laws have the third.
+  /// The interpolation of ARKODE is of third degree, less accurate than the methods. q, v and a at
+  /// both ends of the step give one of fifth degree. States of point laws use third degree.
   void at(double t, double* y) override {
     if (t == time_) return unload(y_, y);
     if (!interpolates_) {
@@ -279,11 +279,12 @@ class Arkode final : public Stepper {
     require(ARKStepSetLinearSolver(memory_, solver_, matrix_), "ARKStepSetLinearSolver");
     require(ARKStepSetLinSysFn(memory_, newtonMatrix), "ARKStepSetLinSysFn");
     require(ARKStepSetMaxNonlinIters(memory_, options_.maxIterations), "ARKStepSetMaxNonlinIters");
-    // ARKODE takes a first correction as good when corrections shrank fast before, even if the
-    // factor has another gamma since.
+    // ARKODE accepts a first correction if earlier corrections converged fast, even if the factor
+    // belongs to another gamma.
     require(ARKStepSetDeltaGammaMax(memory_, 1e-6), "ARKStepSetDeltaGammaMax");
-    // Nor is a correction as good as the rate of those before promises where dry friction may turn:
-    // a bit at rest was found to turn at 70 rad/s. With 1 each is measured by its own length.
+    // The convergence rate of earlier corrections is no measure either where dry friction may
+    // reverse: a bit at rest was found to turn at 70 rad/s. With 1 each correction is measured by
+    // its own size.
     require(ARKStepSetNonlinCRDown(memory_, 1.0), "ARKStepSetNonlinCRDown");
     require(ARKStepSetMaxErrTestFails(memory_, maxTries), "ARKStepSetMaxErrTestFails");
     require(ARKStepSetMaxConvFails(memory_, maxTries), "ARKStepSetMaxConvFails");
@@ -293,7 +294,7 @@ class Arkode final : public Stepper {
   void* memory_ = nullptr;
   double end_ = 0;
   N_Vector from_ = nullptr, fromRate_ = nullptr,
-           rate_ = nullptr;    ///< y and f where the last step began, f where it ended
+           rate_ = nullptr;    ///< y and f at the start of the last step, f at its end
   bool interpolates_ = false;  ///< they belong to the last step
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// ARKODE and CVODE of SUNDIALS (Hindmarsh et al. 2005; Reynolds et al. 2023) behind a plain
-/// interface: one step after the other on a FirstOrderForm, whose Newton matrix they solve. A build
-/// without SUNDIALS has this header but not its source.
+/// interface: steps on a FirstOrderForm, which solves their Newton matrix. A build without SUNDIALS
+/// has this header but not its source.
 #pragma once
 
 #include <algorithm>
@@ -24,23 +24,23 @@ struct SundialsOptions {
   int maxOrder = 2;          ///< CVODE
   std::string table;         ///< ARKODE
 
-  /// Error allowed in a step where a position or a state of a law, or a velocity, has the value y:
+  /// Error allowed in a step for a position or a state of a law, or a velocity, with the value y:
   ///     rtol min(|y|, 1) + atol,   rtol |y| + atol_v
-  /// A string that has turned a hundred times is no stiffer in angle than one that has not, so a
-  /// position counts up to 1 m or 1 rad.
+  /// Positions count up to 1 m or 1 rad, because a string that has turned a hundred times is no
+  /// stiffer in angle than one that has not.
   double allowedPosition(double y) const {
     return relative * std::min(std::abs(y), 1.0) + positions;
   }
   double allowedVelocity(double v) const { return relative * std::abs(v) + velocities; }
 };
 
-/// Why a step could not be taken.
+/// Reason why a step failed.
 enum class SundialsTrouble {
   None,
   Accuracy,   ///< tolerances below rounding
-  ErrorTest,  ///< the error test failed however short the step
-  Newton,     ///< Newton did not converge however short the step
-  NotFinite,  ///< f(t, y) is no number, at once or however short the step
+  ErrorTest,  ///< the error test failed for all step lengths
+  Newton,     ///< Newton did not converge for all step lengths
+  NotFinite,  ///< f(t, y) is not finite, at once or for all step lengths
   Other,
 };
 
@@ -52,24 +52,24 @@ struct SundialsCounts {
 class SundialsStepper {
  public:
   virtual ~SundialsStepper() = default;
-  /// Begin at (t, y) and never step past `end`; firstStep 0 leaves the first step to SUNDIALS.
+  /// Start at (t, y); steps never pass `end`. firstStep 0 leaves the first step to SUNDIALS.
   virtual void restart(double t, const double* y, double end, double firstStep) = 0;
-  /// Steps do not pass this time, which is not after that end.
+  /// Steps do not pass this time, which is at or before that end.
   virtual void stopAt(double t) = 0;
-  /// One step, however short. Rethrows what the model throws; a ConvergenceError (a delay shorter
-  /// than the step) only when a shorter step meets it too.
+  /// One step, however short. Rethrows exceptions of the model; a ConvergenceError (a delay shorter
+  /// than the step) only if shorter steps fail too.
   virtual SundialsTrouble step() = 0;
-  /// Time the last step reached, and its length.
+  /// End time of the last step, and its length.
   virtual double time() const = 0;
   virtual double lastStep() const = 0;
   /// Length proposed for the next step.
   virtual double nextStep() const = 0;
-  /// The solution at a time within the last step, by an interpolation as good as the method.
+  /// Solution at a time within the last step, by an interpolation as accurate as the method.
   virtual void at(double t, double* y) = 0;
   virtual SundialsCounts counts() const = 0;
-  /// Where in y the error of the last try was largest against its tolerance.
+  /// Position in y with the largest error of the last try, relative to its tolerance.
   virtual int worstPosition() = 0;
-  /// What SUNDIALS itself said last.
+  /// Last message of SUNDIALS.
   virtual const std::string& message() const = 0;
 };
 
