@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The program `tooljoint`: reads the command line, runs one command, and turns every error into a
-/// sentence and its exit code.
+/// The program `tooljoint`: reads the command line, runs one command, and converts every error to a
+/// sentence and an exit code.
 #include <CLI/CLI.hpp>
 #include <Tpetra_Core.hpp>
 #include <cstdio>
@@ -27,7 +27,7 @@ using tooljoint::ExitCode, tooljoint::app::print;
 
 int code(ExitCode exit) { return static_cast<int>(exit); }
 
-/// What the program prints without a command.
+/// Text printed without a command.
 constexpr const char* kFirstWords =
     "Tooljoint: component mode synthesis, and the drillstring simulator built on it.\n\n"
     "Begin with a folder of your own:\n\n"
@@ -41,7 +41,7 @@ constexpr const char* kFirstWords =
     "tooljoint --help lists the commands, tooljoint COMMAND --help what each takes, and\n"
     "tooljoint doc the parameters of a deck.\n";
 
-/// Prints what has ended the command, once all ranks have ended with it.
+/// Prints the error that ended the command, after all ranks have ended with it.
 int failed(ExitCode why, const std::string& sentence) {
   using tooljoint::terminal::Colour;
   tooljoint::parallel::meetFailing(why, sentence);
@@ -49,7 +49,7 @@ int failed(ExitCode why, const std::string& sentence) {
   return code(why);
 }
 
-/// Runs the command; every error that leaves it ends here.
+/// Runs the command and handles every error it throws.
 int guarded(const tooljoint::app::Action& command) {
   try {
     command();
@@ -67,14 +67,14 @@ int guarded(const tooljoint::app::Action& command) {
   }
 }
 
-/// Reads the command line; an exit code where nothing is left to do (help, or an error that has
-/// been printed).
+/// Reads the command line; returns an exit code if there is nothing to run (help, or an error that
+/// has been printed).
 std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
   using tooljoint::terminal::wrapped;
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // CLI11 takes --help before words it does not know.
+    // CLI11 handles --help before unknown words.
     if (const auto unknown = program.remaining(true); !unknown.empty()) {
       print(std::cerr,
             wrapped("tooljoint: " + tooljoint::texts::describeUnknown(program, unknown)) + "\n");
@@ -113,7 +113,7 @@ int run(int argc, char** argv) {
   return guarded(actions.at(given.front()));
 }
 
-/// What went to the standard output may not have arrived: a full disk, say.
+/// Checks that the standard output was written; it fails on a full disk, for example.
 int afterOutput(int exit) {
   std::cout.flush();
   const bool written = std::cout.good() && std::fflush(stdout) == 0;
@@ -127,8 +127,7 @@ int afterOutput(int exit) {
 int main(int argc, char** argv) {
   tooljoint::installInterruptHandlers();
   tooljoint::linalg::shareLargePages();
-  // Neither MPI nor Kokkos takes arguments from the command line: Kokkos would answer --help with
-  // its own.
+  // Neither MPI nor Kokkos gets arguments from the command line: Kokkos would answer --help itself.
   int none = 0;
   char* end = nullptr;
   char** nothing = &end;

@@ -29,7 +29,7 @@ void list(const OutlineItem& item) {
   log::info(line);
 }
 
-/// How the modes are chosen when a tolerance does it, and which errors are estimated.
+/// Choice of the modes if a tolerance determines it, and estimated errors.
 void listEstimates(const Teuchos::ParameterList& reduction) {
   std::vector<std::string> tolerances;
   for (const char* name : {"Frequency Tolerance", "Motion Tolerance"})
@@ -45,7 +45,7 @@ void listEstimates(const Teuchos::ParameterList& reduction) {
         estimated == "None" ? "Error Estimate is None" : "a posteriori, \"" + estimated + "\""});
 }
 
-/// What happens to the joined dofs.
+/// Treatment of the joined dofs.
 void listInterfaces(const Teuchos::ParameterList& reduction) {
   const auto name = reduction.get<std::string>("Interface Reduction");
   list({name != "None", "interface reduction",
@@ -104,7 +104,7 @@ std::vector<OutlineItem> analysesOf(const Case& one) {
   return found;
 }
 
-/// Solves for the state at rest and reduces the case to know both models.
+/// Solves for the state at rest and reduces the case, to compare the cost of both models.
 void listCost(const Case& one) {
   if (!one.reduces() || !one.moves()) {
     log::info("cost        nothing to compare: the deck has " +

@@ -10,7 +10,7 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// Lists of the cases that come with another library of the package, as CMakeLists.txt knows them.
+/// Lists of the cases in other libraries of the package, as listed in CMakeLists.txt.
 constexpr struct {
   const char* list;
   const char* library;
@@ -49,7 +49,8 @@ const CaseKind& CaseKinds::of(const std::vector<std::string>& lists) const {
 
 namespace {
 
-/// The case of the deck that read() gives with the description that `file` needs.
+/// Makes the case of the deck that read() returns. The lists of the deck choose its kind; `file` is
+/// its name in errors.
 std::unique_ptr<Case> makeCase(
     const std::string& file, const std::function<deck::Deck(const deck::Deck::ChooseSpec&)>& read) {
   const CaseKind* kind = nullptr;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck lists that every kind of case takes (Coupling, Reduction, Transient, Output and those
-/// of analyses): their description, reading and checks, with all faults of a deck collected.
+/// The deck lists common to every kind of case (Coupling, Reduction, Transient, Output and those of
+/// analyses): description, reading and checks. All faults of a deck are collected.
 #pragma once
 
 #include <functional>
@@ -18,14 +18,14 @@ namespace tooljoint::cases {
 
 class Case;
 
-/// The list of an analysis that every kind of case takes, such as Study; registered by the
-/// analysis.
+/// The list of an analysis that is available for every kind of case, such as Study; registered by
+/// the analysis.
 struct AnalysisList {
   std::string name;                                         ///< of the list
   std::function<deck::ListSpec()> parameters;               ///< its description
-  std::function<void(const Teuchos::ParameterList&)> read;  ///< DeckError: it makes no sense
+  std::function<void(const Teuchos::ParameterList&)> read;  ///< DeckError: inconsistent values
   std::function<std::string(const Case&)> describe;         ///< for `check`; DeckError
-  /// What a deck without the list lacks for it, for `check`; empty: nothing is said.
+  /// Line of `check` for a deck without the list; empty: no line.
   std::string without = {};
 };
 
@@ -34,20 +34,20 @@ class AnalysisLists {
   static AnalysisLists& instance();
   /// Call from a namespace-scope constant in the file of the analysis.
   bool add(AnalysisList list);
-  /// By name: in whatever order they were linked.
+  /// Sorted by name, independent of the link order.
   const std::vector<AnalysisList>& lists() const { return lists_; }
 
  private:
   std::vector<AnalysisList> lists_;
 };
 
-/// Runs readers one after the other and keeps the faults of all of them, with file and line.
+/// Runs readers one after the other and collects the faults of all of them, with file and line.
 class Faults {
  public:
   /// \param spec description of the root list
   Faults(const deck::Deck& deck, const deck::ListSpec& spec);
 
-  /// Keeps the message of a DeckError; messages may begin with the name of a list of the deck.
+  /// Collects the message of a DeckError; messages may begin with the name of a list of the deck.
   template <class Read>
   void attempt(const Read& read) {
     try {
@@ -58,9 +58,9 @@ class Faults {
   }
   void add(const std::string& path, const std::string& sentence);
   bool none() const { return lines_.empty(); }
-  /// DeckError with a line for each fault; returns when there is none.
+  /// DeckError with a line for each fault; returns if there is none.
   void raise() const;
-  /// The lines of a message with file and line in front.
+  /// The lines of a message, each preceded by file and line.
   std::string located(const std::string& message) const;
 
  private:
@@ -74,19 +74,19 @@ class Faults {
 /// Adds Reduction, Transient, Output and the lists of analyses to the description of a root list.
 void addCommonLists(deck::ListSpec& scene);
 
-/// The sublist, or the defaults of its description when the deck leaves it out.
+/// The sublist, or the defaults of its description if the deck omits it.
 Teuchos::ParameterList listOrDefaults(const Teuchos::ParameterList& deck,
                                       const deck::ListSpec& spec);
 
-/// Output and Coupling as plain values; the other common lists are read for their faults alone.
+/// Typed values of Output and Coupling; the other common lists are read only for their faults.
 struct CommonLists {
   io::OutputSettings output;
   std::optional<coupling::CouplingInput> coupling;  ///< null without the list
 };
 CommonLists readCommonLists(const Teuchos::ParameterList& deck, Faults& faults);
 
-/// What the lists Reduction, Coupling, Transient and Output require of each other.
-/// \param parts names of the substructures, as far as they are known
+/// Consistency of the lists Reduction, Coupling, Transient and Output.
+/// \param parts  names of the substructures, as far as they are known
 void checkCommonLists(const Teuchos::ParameterList& deck, const CommonLists& common,
                       const std::vector<std::string>& parts, Faults& faults);
 

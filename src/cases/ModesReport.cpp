@@ -67,7 +67,7 @@ Growth growthOf(const std::vector<std::complex<double>>& values) {
   return growth;
 }
 
-/// Prints whether damped modes grow, and warns of states of point laws that they leave out.
+/// Prints whether damped modes grow; warns of states of point laws that the modes ignore.
 void reportStability(const Growth& growth, std::size_t listed, const model::SecondOrderModel& model,
                      double t) {
   if (growth.modes == 0)
@@ -82,15 +82,15 @@ void reportStability(const Growth& growth, std::size_t listed, const model::Seco
   stability::warnOfHeldStates(model, t);
 }
 
-/// What is listed, for the files.
+/// The listed modes, for the files.
 struct ListedModes {
   std::optional<io::Csv> undamped, damped;  ///< modes.csv, damped_modes.csv
   Vector hertz;                             ///< of the undamped modes
   std::optional<Growth> growth;             ///< of the damped modes
-  std::optional<Growth> coupledGrowth;      ///< of the coupled modes beside them
+  std::optional<Growth> coupledGrowth;      ///< of the coupled modes
   std::optional<double> error, estimate;    ///< of the coupled frequencies, the largest
   Matrix shapes;                            ///< undamped modes of the full model, dofs x modes
-  model::SecondOrderModel model;            ///< the full model, where there are shapes
+  model::SecondOrderModel model;            ///< the full model, if there are shapes
 };
 
 io::Csv tableOf(const std::vector<estimate::ModeComparison>& modes) {
@@ -121,11 +121,11 @@ io::Csv tableOf(const std::vector<estimate::ModeComparison>& modes) {
   return table;
 }
 
-/// A mode whose displacements have less than this part of its squares moves by rotations alone.
+/// A mode with a smaller fraction of its sum of squares in displacements consists of rotations.
 constexpr double noDisplacement = 1e-6;
 
-/// The largest displacement is 1; of a mode without displacements the largest rotation.
-/// \param shape rows of the recovery, a node after the other
+/// Scales the largest displacement to 1, or the largest rotation for a mode without displacements.
+/// \param shape  rows of the recovery, node by node
 Vector scaled(const Vector& shape, const model::ComponentNames& components) {
   const auto width = sizeOf(components);
   const Matrix all = shape.reshaped<Eigen::RowMajor>(shape.size() / width, width);
@@ -159,10 +159,11 @@ void writeShapes(const ListedModes& listed, io::ResultsFile& file) {
       "the largest rotation");
 }
 
-/// More modes than these are announced before they are computed.
+/// A larger number of modes is announced before the computation.
 constexpr int manyModes = 200;
 
-/// The number of modes to list, printed where that takes long or is not what was given.
+/// The number of modes to list; printed if the computation is long or the number differs from
+/// `wanted`.
 int modesOf(const model::SecondOrderModel& model, int wanted) {
   const int count = std::min(wanted, model.size());
   if (count > manyModes)
@@ -171,7 +172,7 @@ int modesOf(const model::SecondOrderModel& model, int wanted) {
   return count;
 }
 
-/// Those with damping: dofs that do not vibrate have two each.
+/// The number of damped modes: dofs that do not vibrate have two each.
 int dampedModesOf(const model::SecondOrderModel& model, int wanted) {
   return std::min(wanted, 2 * model.size());
 }
@@ -223,7 +224,7 @@ ListedModes listFullModes(const model::SecondOrderModel& full, const ModesOption
 }
 
 /// Full and coupled modes side by side, undamped and with the matrices of time t.
-/// \param maps of the full model where it was coupled from the parts, see estimate::compareModes
+/// \param maps  of the full model if it was coupled from the parts, see estimate::compareModes
 ListedModes listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps,
                               const std::vector<model::Substructure>& parts,
                               const coupling::Synthesis& synthesis, const ModesOptions& options,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a case records of its motion beside the time and the motion of its nodes: channels of the
-/// results file, the rows of motion.csv, figures for the summary, pictures.
+/// Recorded quantities of a case in addition to the time and the motion of its nodes: channels of
+/// the results file, the rows of motion.csv, values for the summary, pictures.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace tooljoint::cases {
 
-/// One sample of a motion: coordinates of the model, and what they mean for the nodes.
+/// One sample of a motion: coordinates of the model, and the motion of the nodes.
 struct Sample {
   double t = 0.0;  ///< [s]
   const Vector& q;
@@ -25,7 +25,7 @@ struct Sample {
   const Vector& displacement;  ///< rows of the recovery: offset + Phi q
   const Vector& velocity;      ///< Phi q'
   const Vector& acceleration;  ///< Phi q''
-  const Vector& states;        ///< of the point laws, set by set; empty where no law has some
+  const Vector& states;        ///< of the point laws, set by set; empty if no law has states
 };
 
 /// A time series of the results file.
@@ -33,7 +33,7 @@ struct Channel {
   std::string path;
   io::Shape shape;
   std::string unit, longName;
-  const double* values;  ///< of the latest sample, as many as the shape holds
+  const double* values;  ///< values of the latest sample, as many as the shape has entries
 };
 
 /// Unit and long name of a field of all nodes.
@@ -41,30 +41,31 @@ struct FieldText {
   std::string unit, longName;
 };
 
-/// Made by a case for one model, full or reduced. The lists below keep their order and size, and
-/// the values of the channels their place, from the construction on.
+/// Made by a case for one model, full or reduced. The lists below keep order and size, and the
+/// values of the channels keep their addresses, from the construction on.
 class MotionRecord {
  public:
   virtual ~MotionRecord() = default;
 
-  /// Brings channels, row and figures to this sample.
+  /// Updates channels, row and results with this sample.
   virtual void sample(const Sample& sample) = 0;
 
-  /// Of displacement, velocity and acceleration.
+  /// Texts of displacement, velocity and acceleration.
   virtual std::array<FieldText, 3> fields() const = 0;
   virtual std::vector<Channel> channels() const = 0;
   /// Columns of motion.csv, the time first, and their values at the latest sample.
   virtual std::vector<io::Csv::Column> columns() const = 0;
   virtual const std::vector<double>& row() const = 0;
 
-  /// Appends what a run that continues needs of the samples so far, and takes it back.
+  /// save() appends the data of previous samples that a continued run needs; restore() reads them
+  /// back.
   virtual void save(std::vector<double>& memory) const = 0;
   virtual void restore(const double*& memory) = 0;
 
-  /// The main figures, as summary keys and as one line of the log.
+  /// The main results, as summary keys and as one line of the log.
   virtual void summarise(io::Summary& summary) const = 0;
   virtual std::string describe() const = 0;
-  /// Figures of merit of nodes: groups of results.h5 behind the motion, and tables beside it.
+  /// Results for nodes: groups of results.h5 after the motion, and tables.
   virtual void write(io::ResultsFile& file) const { (void)file; }
   virtual void stageTables(io::OutputFolder& folder) const { (void)folder; }
   /// Doubts about the motion, one sentence each.
@@ -72,7 +73,7 @@ class MotionRecord {
 
   /// Null for a case without geometry.
   virtual const io::XdmfScene* picture() const { return nullptr; }
-  /// Fills what a picture shows beside displacements and velocities at time t.
+  /// Adds the data of a picture other than displacements and velocities at time t.
   virtual void complete(double t, io::XdmfFrame& frame) const {
     (void)t;
     (void)frame;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name of a part as a name of a file.
+/// Converts a part name to a file name.
 std::string fileName(std::string name) {
   for (char& c : name)
     if (c == '/' || c == '\\' || c == ':') c = '_';
@@ -30,7 +30,7 @@ std::string fileName(std::string name) {
 struct ExportKind {
   parts::FileKind kind;
   const char* ending;
-  bool whole;  ///< the file holds all of a part
+  bool whole;  ///< the file contains the complete part
 };
 
 ExportKind kindOf(io::ExportFormat format) {
@@ -46,22 +46,22 @@ ExportKind kindOf(io::ExportFormat format) {
   }
 }
 
-/// Files and folders of rank 0 that have names of their own until all of them are written: a
-/// failure leaves none of them, and what was there before.
+/// Files and folders of rank 0 under temporary names until all of them are written. A failure
+/// leaves none of them and keeps the previous ones.
 class StagedFiles {
  public:
   StagedFiles() = default;
   ~StagedFiles() {
     std::error_code ignored;
-    for (const auto& one : open_)  // and what a writer has not finished
+    for (const auto& one : open_)  // and unfinished files of a writer
       for (const char* ending : {"", ".part"})
         fs::remove_all(one.staged.string() + ending, ignored);
   }
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// Where to write what will be called `path`. FileError when something of the other kind is
-  /// there.
+  /// Temporary path for the final `path`. FileError if a folder has the name of the file, or vice
+  /// versa.
   std::string add(const fs::path& path, bool folder) {
     if (parallel::rank() == 0 && fs::exists(path) && fs::is_directory(path) != folder)
       throw FileError("The part cannot be written to " + path.string() + ": that is a " +
@@ -75,7 +75,7 @@ class StagedFiles {
   void finish() {
     for (const auto& one : open_) {
       std::error_code failed;
-      if (fs::is_directory(one.staged)) {  // files there of other names stay
+      if (fs::is_directory(one.staged)) {  // other files in that folder remain
         fs::create_directories(one.path, failed);
         for (const auto& file : fs::directory_iterator(one.staged))
           if (!failed) fs::rename(file.path(), one.path / file.path().filename(), failed);
@@ -147,7 +147,7 @@ void exportParts(const std::vector<parts::PartContent>& originals,
             "\" is written in its own axes, without its rotation in the scene. OpenFAST takes "
             "them for those of the platform.");
       auto path = fs::path(folder) / written[p];
-      if (folders) path = path.parent_path();  // without the slash at the end
+      if (folders) path = path.parent_path();  // without the final slash
       parts::writePart(content, files.add(path, folders), kindOf(format).kind, times);
     }
     files.finish();

@@ -17,8 +17,8 @@ bool sameRow(const Sparse& a, Eigen::Index i, const Sparse& b, Eigen::Index j) {
   return !x && !y;
 }
 
-/// Of every row of the points: the row of the recovery that is the same, a component of the node of
-/// the point; nothing when one has none.
+/// For every row of the points the equal row of the recovery, a component of the node of the point;
+/// empty if a point has no such row.
 std::vector<Eigen::Index> recoveredRows(const model::SecondOrderModel& model,
                                         const model::PointSet& set) {
   const auto components = static_cast<Eigen::Index>(model.componentNames.size());

@@ -14,7 +14,7 @@ namespace tooljoint::cases {
 
 class PointRecord {
  public:
-  /// `set` is one of the model's, which must outlive the record.
+  /// `set` belongs to the model, which must outlive the record.
   PointRecord(const model::SecondOrderModel& model, const model::PointSet& set);
 
   /// Evaluates the channels of the law at this sample.
@@ -22,7 +22,7 @@ class PointRecord {
 
   const model::PointSet& set() const { return *set_; }
   const std::vector<model::Channel>& channels() const { return channels_; }
-  /// Position of the channel with this name, -1 when the law has none.
+  /// Position of the channel with this name, -1 if the law has none.
   int find(const std::string& name) const;
   /// Values of a channel, one per point.
   const double* values(int channel) const {
@@ -33,10 +33,10 @@ class PointRecord {
   const model::PointSet* set_;
   Eigen::Index firstState_ = 0;  ///< of the set among the states of the model
   std::vector<model::Channel> channels_;
-  std::vector<Eigen::Index> recovered_;  ///< rows of the recovery that are the rows of the set;
-                                         ///< empty where some are not among them
-  Vector shift_;                         ///< d less these
-  linalg::GroupedRows rows_;             ///< of the set, where they are needed
+  std::vector<Eigen::Index> recovered_;  ///< rows of the recovery equal to the rows of the set;
+                                         ///< empty if some are not among them
+  Vector shift_;                         ///< d minus these rows
+  linalg::GroupedRows rows_;             ///< of the set, if recovered_ is empty
   Vector d_, v_, values_;
 };
 

@@ -17,17 +17,18 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// A motion that is faster than its samples is sampled up to so many times as often; more often
-/// than its steps it cannot be sampled.
+/// Largest factor of refined sampling for a motion faster than its samples. The samples cannot be
+/// closer than the steps.
 constexpr double mostSamples = 1024;
 
-/// Of the cost of the best cut so far, below which that of another one is worth trying further.
+/// Another cut is pursued only if its cost is below this fraction of the best cost so far.
 constexpr double worthTrying = 0.98;
 
-/// Of a part without modes: both planes of bending, torsion and tension of a beam among them.
+/// Number of watched modes of a part without modes: both planes of bending, torsion and tension of
+/// a beam.
 constexpr int watchedModes = 4;
 
-/// Modes of a part that its basis does not have; rows in the coordinates of the reduced part.
+/// Modes of a part that are not in its basis; rows in the coordinates of the reduced part.
 std::vector<transient::MissingMode> modesBeyond(const model::Substructure& part,
                                                 const reduction::Basis& basis, double time) {
   const auto view =
@@ -55,7 +56,7 @@ estimate::MotionOptions motionOptions(const RestingCase& rest) {
   return options;
 }
 
-/// As the deck cuts them.
+/// Reduces the parts as cut by the deck.
 ReducedCase reduceAsGiven(const Case& one, const RestingCase& rest, bool progress) {
   ReducedCase out;
   out.unreduced = rest.parts();
@@ -83,8 +84,9 @@ Overrides joined(Overrides all, const Overrides& more) {
   return all;
 }
 
-/// Each choice in turn, with what was best of those before; alternatives are tried while they are
-/// cheaper. What follows the first choice is for models that are hardly faster than the full one.
+/// Makes the choices in turn, each with the best of the previous ones. Alternatives are tried while
+/// they are cheaper. Choices after the first are made only if the reduced model is hardly faster
+/// than the full one.
 ReducedCase reduceCheapest(const Case& one, const RestingCase& rest, bool progress) {
   const auto options = transient::readOptions(one.transient());
   const double full = transient::costModel(rest.full().model, options).total();
@@ -114,7 +116,7 @@ std::vector<double> ReducedCase::cutOffs() const {
   std::vector<double> ends;
   for (const auto& part : parts()) {
     const auto& basis = part.report;
-    // fewer than dofs where some have no mass
+    // fewer candidates than dofs if some dofs have no mass
     const bool all = part.basis && part.basis->complete &&
                      part.basis->modes() == static_cast<int>(part.basis->candidates.size());
     const bool whole = all || basis.modes >= basis.interior;
@@ -144,7 +146,7 @@ std::vector<transient::MissingMode> missingModes(const Case& one, const ReducedC
     const auto [place, isNew] = known.try_emplace(part.basis.get());
     if (isNew) place->second = modesBeyond(reduced.unreduced.parts[p], *part.basis, start);
     for (auto mode : place->second) {
-      mode.row = reduced.coupled().maps[p].transpose() * mode.row;  // of the coupled model
+      mode.row = reduced.coupled().maps[p].transpose() * mode.row;  // to the coupled model
       out.push_back(std::move(mode));
     }
   }

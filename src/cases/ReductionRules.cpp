@@ -79,7 +79,7 @@ class Rules {
           "choose \"Frequencies\".");
   }
 
-  /// Requests that the basis cannot fulfil.
+  /// Requests that the basis cannot satisfy.
   void basis() {
     reduction::MethodTraits traits;
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Consistency of the lists Reduction, Coupling, Transient and Output in any case: checked with the
+/// Consistency of the lists Reduction, Coupling, Transient and Output in any case, checked with the
 /// deck alone, before any part is built.
 #pragma once
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The ranks that work together.
+/// Communicator of the cooperating ranks.
 #pragma once
 
 #include <mpi.h>
 
 namespace tooljoint::parallel {
 
-/// The ranks that work together now.
+/// The communicator in use.
 MPI_Comm communicator();
 
-/// While it lives, Parallel.hpp works over the ranks of `comm` instead of MPI_COMM_WORLD; `comm` is
-/// duplicated, so that messages of the caller keep apart. Scopes may be nested; made and destroyed
-/// by all ranks of `comm`. Without MPI it does nothing.
+/// During its lifetime Parallel.hpp uses the ranks of `comm` instead of MPI_COMM_WORLD. `comm` is
+/// duplicated to separate its messages from those of the caller. Scopes may be nested; all ranks of
+/// `comm` create and destroy them together. Without MPI it has no effect.
 class CommunicatorScope {
  public:
   explicit CommunicatorScope(MPI_Comm comm);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What can go wrong for a user, and the exit code each kind ends with (docs/user-manual.md lists
-/// them).
+/// Kinds of errors for users, with their exit codes (listed in docs/user-manual.md).
 #pragma once
 
 #include <stdexcept>
@@ -21,8 +20,8 @@ enum class ExitCode : int {
   Interrupted = 130,
 };
 
-/// An error a user can act on: a full sentence saying what was found, what is expected and what to
-/// change.
+/// An error that a user can correct: a full sentence with the value found, the value expected and
+/// the remedy.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
@@ -45,7 +44,7 @@ struct DeckError : Error {
 struct ModelError : Error {
   explicit ModelError(const std::string& sentence) : Error(ExitCode::ModelNotBuilt, sentence) {}
 };
-/// A solver did not converge: what was tried and what to change (exit code 4).
+/// A solver did not converge; the sentence states the attempt and the remedy (exit code 4).
 struct ConvergenceError : Error {
   explicit ConvergenceError(const std::string& sentence)
       : Error(ExitCode::NotConverged, sentence) {}
@@ -54,7 +53,7 @@ struct ConvergenceError : Error {
 struct FileError : Error {
   explicit FileError(const std::string& sentence) : Error(ExitCode::Files, sentence) {}
 };
-/// The run was interrupted; what was written so far is readable (exit code 130).
+/// The run was interrupted; results written so far are readable (exit code 130).
 struct InterruptedError : Error {
   explicit InterruptedError(const std::string& sentence) : Error(ExitCode::Interrupted, sentence) {}
 };

@@ -13,11 +13,11 @@
 
 namespace tooljoint {
 
-/// The index cast between the signed indices of Eigen and MPI and the containers of the standard
-/// library: `i` >= 0 as v[at(i)].
+/// Casts the signed indices of Eigen and MPI for containers of the standard library: `i` >= 0 as
+/// v[at(i)].
 constexpr std::size_t at(std::ptrdiff_t i) { return static_cast<std::size_t>(i); }
 
-/// Number of elements, in the type positions of dofs have.
+/// Number of elements, as the type of dof positions.
 template <class Container>
 int sizeOf(const Container& values) {
   return static_cast<int>(values.size());
@@ -35,14 +35,14 @@ bool contains(const Container& values, const Value& value) {
   return std::find(std::begin(values), std::end(values), value) != std::end(values);
 }
 
-/// Sorts, and leaves out what stands there twice.
+/// Sorts and removes duplicates.
 template <class Value>
 void makeUnique(std::vector<Value>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// The matrix with these entries; entries of one place are added.
+/// The matrix with these entries; entries with the same indices are added.
 inline Sparse sparse(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
   Sparse A(rows, columns);
   A.setFromTriplets(entries.begin(), entries.end());
@@ -57,14 +57,14 @@ void forEachEntry(const Matrix& A, const Visit& visit) {
       visit(row, static_cast<int>(it.col()), it.value());
 }
 
-/// The same of one row: visit(column, value).
+/// The same for one row: visit(column, value).
 template <class Matrix, class Visit>
 void forEachInRow(const Matrix& A, Eigen::Index row, const Visit& visit) {
   for (typename Matrix::InnerIterator it(A, row); it; ++it)
     visit(static_cast<int>(it.col()), it.value());
 }
 
-/// Without the entries that are exactly zero.
+/// Removes entries that are exactly zero.
 inline Sparse withoutZeros(Sparse A) {
   A.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
   return A;

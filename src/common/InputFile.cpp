@@ -19,13 +19,13 @@ std::string kindOf(mode_t mode) {
   return "a device";
 }
 
-/// Opens a regular file without waiting; the descriptor, or -1 with the reason.
+/// Opens a regular file without blocking; returns the descriptor, or -1 with the reason.
 int openRegular(const std::string& path, std::uint64_t& size, std::string& reason) {
-  // Without O_NONBLOCK the open of a FIFO waits for a writer; for a regular file it means nothing.
+  // Without O_NONBLOCK the open of a FIFO waits for a writer; regular files ignore the flag.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   struct stat status {};
   if (descriptor < 0 || ::fstat(descriptor, &status) != 0) {
-    // A socket cannot be opened, so that its kind is looked up by name.
+    // A socket cannot be opened, so its kind is determined by name.
     const int error = errno;
     const bool special =
         ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
@@ -81,7 +81,7 @@ std::string InputFile::all(std::uint64_t most) {
   text.reserve(size_);
   do {
     text.append(buffer_.data() + at_, end_ - at_);
-    if (text.size() > most) refuse();  // it has grown
+    if (text.size() > most) refuse();  // the file has grown
   } while (fill());
   return text;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The one place that opens files for reading. Only regular files are read: opening a FIFO would
-/// wait for a writer, and a device may have no end. Every rank reads for itself.
+/// All files are opened for reading here. Only regular files are read: opening a FIFO would wait
+/// for a writer, and a device may have no end. Every rank reads for itself.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace tooljoint {
 
-/// Why a file cannot be read ("No such file or directory", "it is a folder", "it is no regular
-/// file, but a FIFO"); "" when it can. Nothing is read from it.
+/// Reason why a file cannot be read ("No such file or directory", "it is a folder", "it is no
+/// regular file, but a FIFO"); "" if it can. Does not read from it.
 std::string whyUnreadable(const std::string& path);
 
 /// A regular file open for reading. Closes itself.
@@ -23,11 +23,11 @@ class InputFile {
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// Bytes the file had when it was opened.
+  /// Size of the file when it was opened [bytes].
   std::uint64_t size() const { return size_; }
 
-  /// What is left of the file. FileError when it is longer than `most` bytes (nothing is read
-  /// then), or reading fails.
+  /// The rest of the file. FileError if it is longer than `most` bytes (nothing is read then), or
+  /// if reading fails.
   std::string all(std::uint64_t most);
 
   /// The next line without its line feed; false at the end. FileError for a line of more than

@@ -11,8 +11,8 @@ namespace {
 
 volatile std::sig_atomic_t requested_ = 0;
 
-/// Of a SIGTERM after the first signal: one that comes sooner is that of mpirun beside that of a
-/// terminal or a batch system.
+/// A SIGTERM sooner than this after the first signal is ignored: mpirun sends one in addition to
+/// that of a terminal or a batch system.
 constexpr double repeated = 1.0;  // [s]
 timespec first_{};
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Values as bytes, and back, by cereal: for messages between the ranks of one run. Both ends are
-/// the same program on the same kind of machine. A type of one's own needs a function `serialize`
-/// for cereal, in the namespace of the type. Set-up code only; the step loop sends plain arrays.
+/// Conversion of values to bytes and back, by cereal, for messages between the ranks of one run.
+/// Both ends are the same program on the same kind of machine. A user-defined type needs a function
+/// `serialize` for cereal, in the namespace of the type. For set-up code only; the step loop sends
+/// plain arrays.
 #pragma once
 
 #include <cereal/archives/binary.hpp>
@@ -106,7 +107,7 @@ std::string toBytes(const T& value) {
   return out.str();
 }
 
-/// Throws Error (Internal) when `bytes` are not those of one T.
+/// Throws Error (Internal) unless `bytes` represent exactly one T.
 template <class T>
 void fromBytes(const std::string& bytes, T& value) {
   std::istringstream in(bytes);

@@ -17,10 +17,10 @@
 namespace tooljoint::parallel {
 namespace {
 
-/// For which a failing rank waits for the others: they may still be writing results.
+/// Time for which a failing rank waits for the others: they may still be writing results.
 constexpr std::chrono::seconds patience{8};
 
-/// The ranks that work together.
+/// The communicator in use.
 MPI_Comm world = MPI_COMM_WORLD;
 
 bool active() {
@@ -40,8 +40,8 @@ double reduce(double value, MPI_Op operation) {
   return result;
 }
 
-/// Completes the messages of a rank that fails; where the others do not answer, they are elsewhere,
-/// and all ranks end with this error.
+/// Completes the messages of a failing rank. If the other ranks do not answer, only this rank has
+/// failed, and all ranks end with this error.
 void awaitOthers(std::vector<MPI_Request>& messages, ExitCode code, const std::string& sentence) {
   const auto start = std::chrono::steady_clock::now();
   for (int answered = 0; answered == 0;) {
@@ -86,7 +86,7 @@ int size() {
   return value;
 }
 
-/// MPI counts are int: long messages go in pieces.
+/// MPI counts are int: long messages are sent in pieces.
 void broadcastBytes(std::string& bytes, int root) {
   constexpr std::size_t piece = 1U << 30U;
   std::uint64_t length = bytes.size();
@@ -163,7 +163,7 @@ void agree(const std::function<void()>& work) {
 
 void meetFailing(ExitCode code, const std::string& sentence) {
   if (alone()) return;
-  constexpr int tag = 32001;  // of no other message
+  constexpr int tag = 32001;  // not used by other messages
   const int me = rank(), others = size() - 1;
   std::vector<MPI_Request> requests;
   for (int r = 0; r <= others; ++r) {

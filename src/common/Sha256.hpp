@@ -15,12 +15,12 @@ namespace tooljoint {
 /// The digest of `data` as 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view data);
 
-/// Of data that comes in pieces.
+/// For data that arrive in pieces.
 class Sha256 {
  public:
   Sha256();
   void add(const void* data, std::size_t bytes);
-  /// Of all that was added; nothing can be added after.
+  /// Digest of all added data; nothing can be added afterwards.
   std::string digest();
 
  private:

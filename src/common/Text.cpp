@@ -13,8 +13,7 @@
 namespace tooljoint {
 namespace {
 
-/// Lower case without blanks, "_" and "-": "Time_Step" and "timestep" are the same word to a
-/// person.
+/// Lower case without blanks, "_" and "-": "Time_Step" and "timestep" then compare equal.
 std::string normalised(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -24,7 +23,7 @@ std::string normalised(std::string_view text) {
   return result;
 }
 
-/// Bytes of the printable character that the text begins with; 0 where it begins with none.
+/// Length in bytes of the printable character at the start of the text; 0 if there is none.
 std::size_t characterOfUtf8(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
@@ -68,11 +67,11 @@ std::string closest(std::string_view name, const std::vector<std::string>& candi
     const std::size_t longer = std::max(mine.size(), theirs.size()),
                       shorter = std::min(mine.size(), theirs.size());
     const std::size_t allowed = 2 * std::max<std::size_t>(1, longer / 3);
-    // The distance is the difference of the lengths at least: texts that differ too much there need
-    // no table.
+    // The distance is at least the difference of the lengths: texts with very different lengths
+    // need no table.
     std::size_t distance = 2 * (longer - shorter);
     if (distance <= allowed) distance = 2 * editDistance(mine, theirs);
-    // A whole word of the candidate (or one that begins it) is a good guess too: "Young" for "Young
+    // A whole word of the candidate, or its beginning, is also a good match: "Young" for "Young
     // Modulus".
     const bool begins = mine.size() >= 3 && theirs.compare(0, mine.size(), mine) == 0;
     const bool extends = theirs.size() >= 3 && mine.compare(0, theirs.size(), theirs) == 0;
@@ -162,7 +161,7 @@ std::string excerpt(std::string_view text, std::size_t most) {
   if (shown.size() <= most) return shown;
   std::size_t end = most - std::min(most, dots.size());
   while (end > 0 && (static_cast<unsigned char>(shown[end]) & 0xC0U) == 0x80U)
-    --end;  // never within a character of UTF-8
+    --end;  // not within a UTF-8 character
   return shown.substr(0, end).append(dots);
 }
 

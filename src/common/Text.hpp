@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Small text helpers: did-you-mean, numbers as text, splitting and joining.
+/// Small text helpers: suggestions for misspelt names, numbers as text, splitting and joining.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ namespace tooljoint {
 /// Edit distance (insertions, deletions, substitutions, swaps of neighbours), case matters.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-/// The candidate a person most probably meant by `name`, or "" when none is close. Differences of
-/// case, blanks, "_" and "-" weigh little; of equal ones the first wins.
+/// The candidate most similar to `name`, or "" if none is similar enough. Differences of case,
+/// blanks, "_" and "-" count little; among equal ones the first is returned.
 std::string closest(std::string_view name, const std::vector<std::string>& candidates);
 
 /// Shortest text that reads back as the same double ("0.1", "2.1e+11"); "inf", "-inf", "nan" for
@@ -22,24 +22,24 @@ std::string closest(std::string_view name, const std::vector<std::string>& candi
 std::string formatNumber(double value);
 std::string formatNumber(int value);
 
-/// A count with three digits, "1.2e+09"; smaller than 1e6 whole.
+/// A count with three digits, "1.2e+09"; below 1e6 with all digits.
 std::string countText(double count);
 
-/// Without leading and trailing white space.
+/// Removes leading and trailing white space.
 std::string trim(std::string_view text);
 std::string lower(std::string_view text);
 std::string upper(std::string_view text);
 std::vector<std::string> split(std::string_view text, char separator);
 std::string join(const std::vector<std::string>& parts, const std::string& separator);
 
-/// The first `most` lines of a message, and "WHERE: 12 more errors follow." below them where there
-/// are more.
+/// The first `most` lines of a message; if there are more, "WHERE: 12 more errors follow." is
+/// added.
 std::string firstLines(std::vector<std::string> lines, std::size_t most, const std::string& where);
 
-/// Characters of a value that messages quote at most.
+/// Largest number of characters of a value quoted in a message.
 constexpr std::size_t longestQuote = 200;
 
-/// The text with every byte that is no printable character of UTF-8 as "\\x1b".
+/// Replaces every byte that is not part of a printable UTF-8 character by "\\x1b" and the like.
 std::string printable(std::string_view text);
 
 /// The printable text, cut to `most` bytes with "..." at its end where it is longer.
@@ -48,7 +48,7 @@ std::string excerpt(std::string_view text, std::size_t most = longestQuote);
 /// `"text"`, shortened by excerpt().
 std::string inQuotes(std::string_view text);
 
-/// As a shell reads it: the text, in single quotes where it needs them.
+/// The text in shell syntax, in single quotes if needed.
 std::string inShellQuotes(const std::string& text);
 
 /// `"a", "b", "c"`, each shortened by excerpt().

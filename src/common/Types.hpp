@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The numeric types shared by all rooms. Dense and sparse storage is Eigen's; solvers turn it into
-/// Tpetra objects behind one .cpp each (src/linalg), so that Trilinos headers stay out of the
+/// The numeric types used by all rooms. Dense and sparse storage is Eigen's; solvers convert it to
+/// Tpetra objects, each behind one .cpp (src/linalg), so that Trilinos headers stay out of the
 /// physics.
 #pragma once
 

@@ -11,7 +11,7 @@
 
 #include "common/Text.hpp"
 
-// The build defines them for this one file.
+// The build defines them only for this file.
 #ifndef TOOLJOINT_VERSION
 #define TOOLJOINT_VERSION "0.1.0"
 #endif
@@ -40,7 +40,7 @@ std::string mpiVersion() {
   int length = 0;
   MPI_Get_library_version(text.data(), &length);
   const std::string whole(text.data(), static_cast<std::size_t>(length));
-  // Open MPI: "Open MPI v4.1.4, package: ..., ident: ..."; others give several lines.
+  // Open MPI: "Open MPI v4.1.4, package: ..., ident: ..."; other libraries give several lines.
   return trim(whole.substr(0, whole.find_first_of(",\n")));
 }
 

@@ -27,10 +27,10 @@ int counted(Sparse A, double bound, parallel::Ranks ranks = parallel::Ranks::Own
                          "there.");
 }
 
-/// What the interior outside the basis of one part adds.
+/// Contribution of the interior of one part outside its basis.
 struct Truncated {
   int negative = 0;   ///< n(A_II) - n(W' A_II W)
-  Matrix correction;  ///< r' F r in `columns`; empty where the basis has all of the interior
+  Matrix correction;  ///< r' F r in `columns`; empty if the basis spans the whole interior
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -38,7 +38,7 @@ struct Truncated {
   }
 };
 
-/// Columns of the basis on which the interior outside of it acts, and those that are modes.
+/// Columns of the basis that the interior outside it acts on, and the modal ones among them.
 struct Columns {
   std::vector<int> others, modes;
   explicit Columns(const reduction::Basis& basis) {

@@ -10,7 +10,7 @@
 namespace tooljoint::coupling {
 namespace {
 
-/// Energy of the start that the bases may lose without a warning.
+/// Fraction of the initial energy that may be lost without a warning.
 constexpr double startLoss = 0.01;
 
 }  // namespace

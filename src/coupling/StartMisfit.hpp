@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a coupled reduced model does not represent of the start of a motion.
+/// Part of the initial state of a motion that a coupled reduced model does not represent.
 #pragma once
 
 #include "coupling/Synthesis.hpp"
 
 namespace tooljoint::coupling {
 
-/// Energy of what is lost of the start over the energy of the start; 0 for a start at rest. Lost is
-/// what the bases do not represent, and what the coupling does not leave them: coordinates that
-/// depend on others, modes of interfaces.
+/// Lost energy of the initial state over its total energy; 0 for a start at rest. Energy is lost if
+/// the bases do not represent the state, or if the coupling removes coordinates: those that depend
+/// on others, and interface dofs replaced by modes.
 double startMisfit(const Synthesis& synthesis);
 
-/// A warning where that is more than a hundredth.
+/// Warns if this exceeds a hundredth.
 void warnOfStart(const Synthesis& synthesis);
 
 }  // namespace tooljoint::coupling

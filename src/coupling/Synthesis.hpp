@@ -19,13 +19,13 @@ struct Synthesis {
 
 /// reduceAll, couple, then ReductionMethod::augment until nothing changes (at most ten rounds, else
 /// ConvergenceError), then the interface reduction of the options. Bases with interface forces as
-/// coordinates are assembled dual whatever `coupling` says. Collective.
+/// coordinates are always assembled dual, whatever `coupling` specifies. Collective.
 Synthesis synthesise(const std::vector<model::Substructure>& parts,
                      const reduction::ReductionMethod& basis,
                      const reduction::ReductionOptions& options,
                      const CouplingOptions& coupling = {});
 
-/// The same in rounds over the same parts; reductions are cached between rounds.
+/// The same in several rounds over the same parts; reductions are cached between rounds.
 Synthesis synthesise(const std::vector<model::Substructure>& parts,
                      const reduction::ReductionMethod& basis,
                      const reduction::ReductionOptions& options, reduction::ReductionCache& cache,

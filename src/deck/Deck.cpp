@@ -28,7 +28,7 @@ struct Deck::Source {
 struct Deck::Map {
   Places places;
 
-  /// The place of a path, or of the nearest list around it.
+  /// Position of a path, or of the nearest list that contains it.
   const Place& nearest(std::string path) const {
     while (true) {
       const auto it = places.find(path);
@@ -179,7 +179,8 @@ std::string Deck::error(const std::string& path, const std::string& sentence) co
 std::string Deck::located(const std::string& message) const {
   const std::string root = "/" + name_;
   if (message.compare(0, root.size(), root) != 0) return message;
-  // Names may hold blanks and colons: the longest known path that the message begins with is meant.
+  // Names may contain blanks and colons, so the longest known path at the beginning of the message
+  // is used.
   std::string best;
   for (const auto& [path, place] : places_->places) {
     const std::string full = root + (path.empty() ? "" : "/" + path);
@@ -199,7 +200,7 @@ void Problems::add(const std::string& path, const std::string& sentence) {
 
 void Problems::add(const Deck& library, const std::string& path, const std::string& sentence) {
   const Place& place = library.places_->nearest(library.relative(path));
-  // The deck itself comes first (""), then its libraries by name.
+  // The deck comes first (""), then its libraries by name.
   const std::string file = library.file() == deck_.file() ? "" : library.file();
   items_.push_back({file, place.overrideNumber, place.line, library.error(path, sentence)});
 }

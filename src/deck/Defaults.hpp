@@ -14,8 +14,8 @@ class ParameterList;
 namespace tooljoint::deck {
 
 /// Calls use() with a copy of `given` in which the absent parameters of `spec` have their defaults
-/// (required and optional ones stay absent). The strict reader has checked lists of a deck; of
-/// others, DeckError when the text of a choice is none of its choices.
+/// (required and optional ones stay absent). Lists of a deck have been checked by the strict
+/// reader; for other lists, DeckError if the value of a choice is not among its choices.
 void withDefaults(const ListSpec& spec, const Teuchos::ParameterList& given,
                   const std::function<void(const Teuchos::ParameterList&)>& use);
 

@@ -29,8 +29,7 @@ std::string clause(const std::string& doc) {
   return text;
 }
 
-/// What is printed about a thing that was named: "It is the ..." where the words begin with
-/// an article.
+/// Description of a named thing: "It is the ..." if the words begin with an article.
 std::string introduce(const std::string& name, const std::string& words) {
   for (const char* article : {"the ", "a ", "an "}) {
     if (words.compare(0, std::char_traits<char>::length(article), article) == 0)
@@ -113,7 +112,7 @@ std::string describe(const Default& value) {
 }
 
 std::string describe(const ParameterSpec& parameter) {
-  // Unit and range belong behind the first sentence.
+  // Unit and range follow the first sentence.
   const std::string words = clause(parameter.doc);
   const auto end = words.find(". ");
   std::string text = words.substr(0, end);

@@ -12,7 +12,7 @@
 namespace tooljoint::deck {
 namespace {
 
-/// Whole numbers may stand for real defaults in the builder's calls: real("Length", "m", 1, ...).
+/// Allows whole numbers as defaults of real parameters: real("Length", "m", 1, ...).
 Default asReal(Default value) {
   if (const int* whole = std::get_if<int>(&value)) return static_cast<double>(*whole);
   if (const auto* wholes = std::get_if<std::vector<int>>(&value))
@@ -46,7 +46,7 @@ bool fits(Kind kind, const Default& value) {
   return false;
 }
 
-/// The default as numbers, none when it holds none.
+/// The default as numbers, empty if it has none.
 std::vector<double> numbersOf(const Default& value) {
   if (const double* real = std::get_if<double>(&value)) return {*real};
   if (const int* whole = std::get_if<int>(&value)) return {static_cast<double>(*whole)};

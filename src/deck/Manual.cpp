@@ -29,7 +29,7 @@ const std::string unitsIntroduction =
     "m/s2. `sg` is the density "
     "referred to 1000 kg/m3.";
 
-/// A list with its path; the root's path is its name.
+/// A list with its path; the path of the root is its name.
 struct Located {
   const ListSpec* list;
   std::string path;
@@ -55,7 +55,7 @@ std::string lastName(const std::string& path) {
   return name.size() > 2 && name.front() == '<' ? name.substr(1, name.size() - 2) : name;
 }
 
-/// Is `path` the topic, or does it end with "/topic"? Case does not matter.
+/// True if `path` is the topic, or ends with "/topic". Case does not matter.
 bool matches(const std::string& path, const std::string& topic) {
   const std::string whole = lower(path);
   const std::string end = lower(topic);
@@ -68,8 +68,8 @@ bool startsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// Lists of a topic: those named so with all below them, else those that hold a parameter of that
-/// name.
+/// Lists of a topic: those with that name and all below them, otherwise those with a parameter of
+/// that name.
 std::vector<Located> select(const std::vector<Located>& all, const std::string& rawTopic) {
   std::string topic = trim(rawTopic);
   while (!topic.empty() && topic.front() == '/') topic.erase(0, 1);
@@ -112,8 +112,8 @@ std::vector<Located> select(const std::vector<Located>& all, const std::string& 
                    ", the names of parameters, and \"" + unitsTopic + "\".");
 }
 
-/// Text of a table cell: "|" and line ends would break the table, "<" would start HTML. Read on
-/// terminals, too.
+/// Text of a table cell: "|" and line ends would break the table, "<" would start HTML. Also
+/// readable on terminals.
 std::string cell(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -144,7 +144,7 @@ std::string sentence(const std::string& doc) {
   return text.empty() || text.back() == '.' ? text : text + ".";
 }
 
-/// The parameters of one level; "" when there are none.
+/// The parameters of one level; "" if there are none.
 std::string table(const ListSpec& list, Level level) {
   std::string rows;
   for (const ParameterSpec& parameter : list.parameters()) {
@@ -256,7 +256,7 @@ std::string printMarkdown(const std::vector<Located>& all, const std::string& to
   return text;
 }
 
-/// Of a topic only the lists at its top: those below them are inside them.
+/// For a topic only its top lists; the lists below are inside them.
 std::string printJson(const std::vector<Located>& all, const std::string& topic) {
   Json result = Json::array();
   std::string last;

@@ -17,7 +17,8 @@ PrintedSystem& chosen() {
   return system;
 }
 
-/// SI value of a printed unit; "deg/30 m" is read as "deg/30m". 1 for what is no unit ("1", "").
+/// SI value of a printed unit; "deg/30 m" is read as "deg/30m". 1 for a text that is not a unit
+/// ("1", "").
 double factorOf(const std::string& unit) {
   std::string text;
   for (const char c : unit)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// name -> {factory, documented parameters, one sentence}. A new basis, integrator, trajectory or
-/// law is one new file that registers itself; nobody else is edited.
+/// law is one new file that registers itself; no other file changes.
 #pragma once
 
 #include <functional>
@@ -17,13 +17,13 @@
 
 namespace tooljoint::deck {
 
-/// Registry of the variants of Base, created from Args...: first a `const Teuchos::ParameterList&`
-/// with the variant's own parameters, in which the registry fills in the defaults of absent ones.
+/// Registry of the variants of Base, made from Args...: first a `const Teuchos::ParameterList&`
+/// with the variant's parameters, in which the registry fills in the defaults of absent ones.
 template <class Base, class... Args>
 class Registry {
  public:
   struct Entry {
-    std::string doc;      ///< one sentence: what it is, and the source it follows
+    std::string doc;      ///< one sentence: what it is, and its source
     ListSpec parameters;  ///< the sublist named after the variant; empty when it has no parameters
                           ///< of its own
     std::function<std::unique_ptr<Base>(Args...)> make;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A check of two parameters of a list together. Header only.
+/// A check of two parameters of a list against each other. Header only.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -11,8 +11,8 @@
 
 namespace tooljoint::deck {
 
-/// DeckError when the parameter `name` of the list is above its parameter `bound`; `why` is a
-/// sentence. Both are numbers of one unit that the list holds.
+/// DeckError if the parameter `name` of the list is above its parameter `bound`; `why` is a
+/// sentence. The list contains both, as numbers with the same unit.
 inline void requireAtMost(const Teuchos::ParameterList& list, const std::string& name,
                           const std::string& bound, const std::string& why) {
   const auto value = list.get<double>(name), most = list.get<double>(bound);

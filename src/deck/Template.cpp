@@ -27,7 +27,7 @@ std::string escaped(const std::string& text) {
     else if (c == '"')
       result += "&quot;";
     else if (c == '-' && before == '-')
-      result += "&#45;";  // "--" must not stand in a comment
+      result += "&#45;";  // "--" is not allowed in a comment
     else
       result += c;
     before = c;
@@ -35,8 +35,8 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// A sentence inside a comment: "--" would end it, and a leading "<" would make it a commented-out
-/// line.
+/// A sentence for a comment: "--" would end the comment, and a leading "<" would make it look like
+/// a commented-out element.
 std::string remark(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -75,19 +75,19 @@ class Writer {
     return given != nullptr ? *given : exampleValue(parameter);
   }
 
-  /// `hanging`: how much further in the second line stands.
+  /// `hanging`: additional indentation of continuation lines.
   void line(int depth, const std::string& content, std::size_t hanging = 4) {
     const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
     text_ += terminal::wrapped(indent + content, hanging) + "\n";
   }
 
-  /// A sentence about what is below it.
+  /// A sentence on the elements below it.
   void note(int depth, const std::string& text) {
     line(depth, remark(text), std::string("<!-- ").size());
   }
 
-  /// `active` lines stand as they are, the others are commented out (an XML comment must not hold
-  /// "--").
+  /// `active` elements are written plainly, the others are commented out (an XML comment must not
+  /// contain "--").
   void element(int depth, const std::string& content, bool active) {
     line(depth, active ? content : "<!-- " + content + " -->");
   }
@@ -101,8 +101,8 @@ class Writer {
                        [](const ListSpec& l) { return l.required(); });
   }
 
-  /// Does the example of a choice in `list` name the variant `sublist`, which cannot do without
-  /// values?
+  /// True if the example of a choice in `list` names the variant `sublist`, and the variant
+  /// requires values.
   bool chosen(const ListSpec& list, const ListSpec& sublist, const std::string& path) const {
     const auto& parameters = list.parameters();
     return asksForSomething(sublist) &&
@@ -112,7 +112,7 @@ class Writer {
            });
   }
 
-  /// `path`: of the list, with "/" at its end; "" of the root.
+  /// `path` of the list, with "/" at its end; "" for the root.
   void writeList(const ListSpec& list, const std::string& name, const std::string& path, int depth,
                  bool active) {
     element(depth, "<ParameterList name=\"" + escaped(name) + "\">", active);
@@ -140,7 +140,7 @@ class Writer {
     element(depth, "</ParameterList>", active);
   }
 
-  /// `diameter`: what may be given instead of a radius, or null.
+  /// `diameter`: the parameter that may replace a radius, or null.
   void writeParameter(const ParameterSpec& parameter, const ParameterSpec* diameter,
                       const std::string& path, int depth, bool active) {
     const bool required = std::holds_alternative<Required>(parameter.value);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Puts the registered variants of one kind into a list's description: a choice that names the
-/// variant, and for each variant with parameters of its own an optional sublist with the variant's
+/// Adds the registered variants of one kind to the description of a list: a choice that names the
+/// variant, and for each variant with its own parameters an optional sublist with the variant's
 /// name.
 #pragma once
 
@@ -21,7 +21,7 @@ ListSpec variantSpec(const std::string& name, const Entry& entry) {
 }
 
 /// `declareVariants<Integrator, ...>(list, "Integrator", "Generalized-alpha", "The time
-/// integrator.")`. The sentence of the choice is followed by what each variant is.
+/// integrator.")`. The sentence of the choice is followed by the description of each variant.
 template <class Base, class... Args>
 ListSpec& declareVariants(ListSpec& list, const std::string& parameter, Default&& chosen,
                           const std::string& doc) {

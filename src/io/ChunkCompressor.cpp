@@ -11,11 +11,11 @@ namespace tooljoint::io {
 
 namespace {
 
-/// Entropy of the bytes of a plane below which deflating it pays [bit of 8].
+/// A plane of bytes with a lower entropy is worth deflating [bit of 8].
 constexpr double structuredEntropy = 6.5;
-/// Share of bytes that are those of the row before from which it pays, too.
+/// A plane is also worth deflating if this fraction of its bytes equals those of the previous row.
 constexpr double repeatedShare = 0.6;
-/// The strategy of zlib for values spread at random: the same size in three quarters of the time.
+/// The zlib strategy for randomly distributed values: the same size in three quarters of the time.
 constexpr int bytesOfNumbers = Z_FILTERED;
 
 /// Entropy of single bytes [bit].
@@ -30,7 +30,7 @@ double entropy(const unsigned char* plane, std::size_t count) {
   return sum;
 }
 
-/// Does deflate shorten a plane by what its time is worth?
+/// True if deflating a plane is worth its time.
 bool structured(const unsigned char* plane, std::size_t count, std::size_t rowSize) {
   std::size_t repeated = 0;
   for (std::size_t i = rowSize; i < count; ++i) repeated += plane[i] == plane[i - rowSize] ? 1 : 0;
@@ -62,7 +62,7 @@ const std::vector<unsigned char>& ChunkCompressor::compress(const std::vector<do
   }
   z_stream& stream = *stream_;
   require(deflateReset(&stream) == Z_OK);
-  // besides its bound, a few bytes for each change of the level
+  // in addition to its bound, a few bytes for each change of the level
   bytes_.resize(deflateBound(&stream, static_cast<uLong>(planes_.size())) + 64 * width);
   stream.next_out = bytes_.data();
   stream.avail_out = static_cast<uInt>(bytes_.size());

@@ -11,11 +11,11 @@ struct z_stream_s;
 
 namespace tooljoint::io {
 
-/// Gives a chunk the bytes that the filters shuffle and deflate of HDF5 undo.
+/// Converts a chunk to the bytes that the HDF5 filters shuffle and deflate decode.
 ///
-/// Shuffled bytes lie in planes: the lowest byte of all values, the next one, ... Low bytes of
-/// computed numbers are noise, which deflate cannot shorten, but takes most of its time on. Such a
-/// plane is a stored block of the stream, the others are deflated.
+/// Shuffled bytes form planes: the lowest byte of all values, the next one, ... Low bytes of
+/// computed numbers are noise. Deflate cannot shorten them but spends most of its time on them.
+/// Such a plane is a stored block of the stream; the other planes are deflated.
 class ChunkCompressor {
  public:
   /// `level` of deflate, 1 to 9.
@@ -24,8 +24,7 @@ class ChunkCompressor {
   ChunkCompressor(const ChunkCompressor&) = delete;
   ChunkCompressor& operator=(const ChunkCompressor&) = delete;
 
-  /// Bytes of `values`, rows of `rowSize` numbers one after the other; they stay until the next
-  /// call.
+  /// Bytes of `values`, consecutive rows of `rowSize` numbers; they are valid until the next call.
   const std::vector<unsigned char>& compress(const std::vector<double>& values,
                                              std::size_t rowSize);
 

@@ -47,7 +47,7 @@ void Csv::row(const std::vector<double>& values) {
                                           "\" was given the value " + formatNumber(values[i]) +
                                           "; tables hold finite numbers only.");
     }
-    text_ += (i > 0 ? "," : "") + formatNumber(values[i] + 0.0);  // -0 is 0
+    text_ += (i > 0 ? "," : "") + formatNumber(values[i] + 0.0);  // turns -0 into 0
   }
   text_ += "\n";
 }

@@ -15,25 +15,25 @@ class Csv {
  public:
   struct Column {
     std::string name;
-    std::string unit;  ///< SI unit; "" or "1" for a pure number or a text, then the header has the
-                       ///< name alone
+    std::string unit;  ///< SI unit; "" or "1" for a pure number or a text, whose header has only
+                       ///< the name
   };
 
   explicit Csv(std::vector<Column> columns);
 
-  /// Add a row, one number per column. Error(Internal) for a wrong count or a number that is not
+  /// Adds a row, one number per column. Error(Internal) for a wrong count or a number that is not
   /// finite.
   void row(const std::vector<double>& values);
-  /// Add a row of texts; a text with a comma, a quote or a line end is quoted.
+  /// Adds a row of texts; a text with a comma, a quote or a line end is quoted.
   void row(const std::vector<std::string>& values);
 
   /// The table so far.
   const std::string& text() const { return text_; }
-  /// Write `path`.part, to be published later (OutputFolder). FileError when that fails.
+  /// Writes `path`.part, to be published later (OutputFolder). FileError when that fails.
   void stage(const std::string& path) const;
-  /// Write `path` at once, never half.
+  /// Writes `path` directly; a partial file never appears.
   void write(const std::string& path) const;
-  /// Rank 0 makes the folder where it is missing and writes the file in it. Collective; FileError
+  /// Makes the folder if it is missing and writes the file in it, on rank 0. Collective; FileError
   /// on all ranks when that fails.
   void writeInto(const std::string& folder, const std::string& name) const;
 

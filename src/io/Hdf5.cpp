@@ -38,8 +38,8 @@ std::string& noted() {
   return reason;
 }
 
-/// HDF5 calls this when one of its functions fails, while the error stack is still whole (the next
-/// call clears it).
+/// Called by HDF5 when one of its functions fails, while the error stack is complete (the next call
+/// clears it).
 herr_t note(hid_t stack, void* /*data*/) {
   Reason reason;
   H5Ewalk2(stack, H5E_WALK_UPWARD, collect, &reason);
@@ -78,7 +78,7 @@ bool reserve(hid_t file) {
   if (now.st_size >= wanted) return true;
   int error = ::posix_fallocate(descriptor, now.st_size, wanted - now.st_size);
   if (error != 0 && error != ENOSPC && error != EFBIG &&
-      error != EDQUOT) {  // this file system cannot: try a byte at the end
+      error != EDQUOT) {  // not supported by this file system: try a byte at the end
     error = ::pwrite(descriptor, "", 1, wanted - 1) == 1 ? 0 : errno;
   }
   if (error != 0) noted() = std::strerror(error);
@@ -87,7 +87,7 @@ bool reserve(hid_t file) {
 
 bool fits(hid_t file, std::size_t bytes) {
   constexpr hsize_t structure =
-      1U << 18U;  ///< more than headers and indices grow by between two calls
+      1U << 18U;  ///< more than the growth of headers and indices between two calls
   rlimit limit{};
   hsize_t end = 0;
   if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||

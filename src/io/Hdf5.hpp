@@ -36,36 +36,37 @@ class Handle {
   Close close_ = nullptr;
 };
 
-/// Keep HDF5 from printing its own error stack; its reasons are noted instead, for our sentences.
+/// Stops HDF5 from printing its error stack; the reasons are stored for the messages of this
+/// program.
 void silence();
 
-/// Reason of the last failed call: the system's text ("No space left on device") when there is one,
-/// else HDF5's innermost.
+/// Reason of the last failed call: the text of the system ("No space left on device") if there is
+/// one, otherwise the innermost one of HDF5.
 std::string lastReason();
 
-/// Make the disk hold a place for everything the file will have once flushed; false, with the
-/// reason noted, when it has no room. A flush that fails half-way leaves HDF5 1.10 unable to close
-/// the file, so it must not be tried then.
+/// Reserves disk space for the complete file after the next flush; false, with the reason stored,
+/// if there is not enough. HDF5 1.10 cannot close a file after a flush that failed half-way, so the
+/// flush must not be tried then.
 bool reserve(hid_t file);
 
-/// Whether a file that grows by so many bytes stays within the largest size of a file of this
-/// process (RLIMIT_FSIZE); false, with the reason noted. Ask before HDF5 allocates: what it holds
-/// must fit even into the memory of letGo(), to which the limit applies too.
+/// True if a file that grows by this number of bytes stays within the file size limit of the
+/// process (RLIMIT_FSIZE); otherwise false, with the reason stored. Call it before HDF5 allocates:
+/// the limit also applies to the memory of letGo(), which must hold the data of HDF5.
 bool fits(hid_t file, std::size_t bytes);
 
-/// Close a file that can no longer be written. HDF5 would try to write what it still holds, fail,
-/// keep the file open and crash at the end of the process; so its descriptor is first turned to
-/// anonymous memory, and the file stays as last flushed.
+/// Closes a file that can no longer be written. HDF5 would try to write its buffered data, fail,
+/// keep the file open and crash at the end of the process. Its descriptor is therefore first
+/// redirected to anonymous memory, and the file remains as last flushed.
 void letGo(hid_t file);
 
 /// Variable-length UTF-8 string type.
 Handle textType();
 
-/// Is there an object of this path? Every group on the way is opened, so a missing one is no
-/// error.
+/// True if an object of this path exists. Every group of the path is opened, so a missing group is
+/// no error.
 bool hasLink(hid_t file, const std::string& path);
 
-/// Write (or replace) a scalar text or number attribute; false when HDF5 refuses.
+/// Writes (or replaces) a scalar text or number attribute; false if HDF5 fails.
 bool putAttribute(hid_t object, const std::string& name, const std::string& value);
 bool putAttribute(hid_t object, const std::string& name, double value);
 bool putAttribute(hid_t object, const std::string& name, int value);

@@ -26,7 +26,7 @@ constexpr std::size_t longestLine = 1024;  // NISTIR 5935
 constexpr long shortestEntry = 6;          // "1 1 1\n"
 constexpr long shortestNumber = 2;         // "1\n"
 
-/// Where Teuchos puts the entries: checked against the sizes.
+/// Receives the entries from Teuchos and checks them against the sizes.
 struct Entries {
   using index_type = int;
   using value_type = double;
@@ -52,7 +52,7 @@ struct Lines : market::CoordDataReader<Adder, int, double> {
   using market::CoordDataReader<Adder, int, double>::readLine;
 };
 
-/// The whole text is one finite number.
+/// True if the whole text is one finite number.
 bool isNumber(const std::string& text) {
   double value = 0;
   const char* begin = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);
@@ -61,14 +61,14 @@ bool isNumber(const std::string& text) {
   return result.ec == std::errc() && result.ptr == end && std::isfinite(value);
 }
 
-/// Of a number with an exponent of Fortran.
+/// Hint for a number with a Fortran exponent.
 std::string hint(const std::string& text) {
   return text.find_first_of("dD") == std::string::npos
              ? ""
              : ". Write exponents with E: the format has no D";
 }
 
-/// One file from its banner to its last line.
+/// Reads one file from its banner to its last line.
 class File {
  public:
   explicit File(const std::string& path) : path_(path), in_(path) {}
@@ -109,7 +109,7 @@ class File {
   }
   bool symmetric() const { return banner_->symmType() != "general"; }
 
-  /// The next line that is no comment and not empty.
+  /// Goes to the next line that is neither comment nor empty.
   bool next() {
     while (in_.line(text_, longestLine)) {
       ++line_;
@@ -159,7 +159,7 @@ class File {
     return sizes;
   }
 
-  /// A file that is too short for what it announces is refused before anything is stored.
+  /// Rejects a file that is too short for its announced content, before anything is stored.
   void requireRoom(long announced, long bytesEach) const {
     const auto possible = static_cast<long>(in_.size()) / bytesEach + 1;
     if (announced > possible || announced > std::numeric_limits<int>::max())
@@ -197,12 +197,13 @@ class File {
     } catch (const std::out_of_range& outside) {
       failAt(row, column, outside.what());
     } catch (const std::exception&) {
-      // what is wrong is said below
+      // the fault is reported below
     }
     failAt(row, column, "is " + inQuotes(value) + ", which is no finite number" + hint(value));
   }
 
-  /// Columns one after the other; of symmetric matrices their part on and below the diagonal.
+  /// Reads the columns one after the other; for symmetric matrices the part on and below the
+  /// diagonal.
   void readArray() {
     Adder add(entries_, banner_->symmType());
     const int first = banner_->symmType() == "skew-symmetric" ? 1 : 0;

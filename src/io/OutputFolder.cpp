@@ -32,7 +32,8 @@ bool isPlain(const std::string& name) {
   return !name.empty() && name.find('/') == std::string::npos;
 }
 
-/// Moves these files into a new folder beside them. \param what  they are, for messages
+/// Moves these files into a new subfolder.
+/// \param what  describes them in messages
 std::filesystem::path moved(const std::filesystem::path& here,
                             const std::vector<std::string>& names, const std::string& folder,
                             const std::string& what) {
@@ -68,7 +69,7 @@ OutputFolder::OutputFolder(const std::string& folder, OldCheckpoint old)
     throw FileError("The output folder " + folder_ + " cannot be opened: " + std::strerror(errno) +
                     ". Name another one with --output.");
   }
-  // file systems that cannot lock answer otherwise; then two runs are the user's own care
+  // file systems without locks return another error; preventing two runs is then up to the user
   const bool taken = ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   try {
     if (taken)
@@ -100,8 +101,8 @@ void OutputFolder::prove() const {
   ::unlink((probe + ".part").c_str());
 }
 
-/// A checkpoint and its samples stay together. Finished results of a run before are not of the
-/// interrupted one, and stay.
+/// Moves a checkpoint with its samples. Finished results belong to an earlier run, not to the
+/// interrupted one, and remain.
 void OutputFolder::setAside() {
   namespace fs = std::filesystem;
   const fs::path here(folder_);
@@ -151,7 +152,7 @@ std::vector<std::string> OutputFolder::files() const {
 }
 
 void OutputFolder::renameAll() {
-  // summary.json is the mark of a complete set: it goes last
+  // summary.json marks a complete set, so it is published last
   std::stable_partition(names_.begin(), names_.end(),
                         [](const std::string& name) { return name != summaryName; });
   for (const auto& name : names_) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The folder a run leaves its files in. During the run every file is called NAME.part; only a run
-/// that ended well gives them their names, so a finished result is never overwritten by a failed
-/// run.
+/// The output folder of a run. During the run every file is called NAME.part; only a successful run
+/// renames its files, so a failed run never overwrites a finished result.
 #pragma once
 
 #include <string>
@@ -12,51 +11,51 @@ namespace tooljoint::io {
 
 inline constexpr const char* summaryName = "summary.json";
 inline constexpr const char* resultsName = "results.h5";
-/// The state an interrupted run goes on from.
+/// The state from which an interrupted run continues.
 inline constexpr const char* checkpointName = "checkpoint.bin";
-/// The samples before that state, from the start of the run that goes on until its own file holds
-/// them.
+/// The samples before that state; needed from the start of the continued run until its own file
+/// contains them.
 inline constexpr const char* checkpointSamplesName = "checkpoint.h5";
 
-/// What happens to the checkpoint of an interrupted run that the folder holds.
+/// Treatment of the checkpoint of an interrupted run in the folder.
 enum class OldCheckpoint {
-  SetAside,  ///< it moves with its samples and tables into a folder of its own, "interrupted", and
-             ///< a warning says so
-  GoOn,      ///< this run goes on from it
+  SetAside,  ///< it is moved with its samples and tables into a new subfolder, "interrupted", with
+             ///< a warning
+  GoOn,      ///< this run continues from it
 };
 
-/// Rank 0 does all the work, the other ranks only know the names (wrap calls in parallel::agree to
-/// end alike).
+/// Rank 0 does all the work; the other ranks only know the names (wrap calls in parallel::agree to
+/// fail together).
 class OutputFolder {
  public:
-  /// Make the folder if need be, lock it against a second run, and prove that a file can be written
-  /// there: call before anything is computed. FileError with the system's reason.
+  /// Makes the folder if needed, locks it against a second run, and checks that a file can be
+  /// written there: call before any computation. FileError with the reason of the system.
   explicit OutputFolder(const std::string& folder, OldCheckpoint old = OldCheckpoint::SetAside);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   const std::string& folder() const { return folder_; }
-  /// True when a run that ended with status "finished" left its results here.
+  /// True if a run with status "finished" left its results here.
   bool hasFinishedResults() const { return finished_; }
 
-  /// FileError when the file system has less room than `bytes`: a full disk is better found before
-  /// a long run.
+  /// FileError if the file system has less space than `bytes`, to detect a full disk before a long
+  /// run.
   void requireSpace(double bytes) const;
 
-  /// Path for a file of this run ("results.h5" -> "DIR/results.h5"), to be handed to a writer that
-  /// stages it as .part. A .part of that name left by an earlier run is removed.
+  /// Path for a file of this run ("results.h5" -> "DIR/results.h5"), for a writer that stages it as
+  /// .part. Removes a .part with that name from an earlier run.
   std::string file(const std::string& name);
   /// Names given to file(), sorted, without .part: the summary lists them.
   std::vector<std::string> files() const;
 
-  /// The run ended well: give every staged file its name, summary.json last. Files of the run
-  /// before that this one did not write are removed; where it wrote none of them but summary.json,
-  /// they are those of another command and move into a folder of their own, "earlier".
+  /// After a successful run: renames every staged file, summary.json last. Files of the previous
+  /// run that this one did not write are removed. If this run wrote none of them except
+  /// summary.json, they belong to another command and are moved into a new subfolder, "earlier".
   void publish();
 
-  /// The run failed or was interrupted. Without finished results here, the files get their names
-  /// (their summary says what happened); with them, they stay NAME.part beside the old results.
+  /// After a failure or an interrupt. Without finished results in the folder, the files are renamed
+  /// (their summary describes the failure); otherwise they stay NAME.part next to the old results.
   /// Returns true in the first case.
   bool publishUnfinished();
 

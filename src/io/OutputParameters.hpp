@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list `Output`: what a run leaves behind.
+/// The deck list `Output`: files of a run.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -12,7 +12,7 @@
 
 namespace tooljoint::io {
 
-/// How reduced parts are written.
+/// Format of exported reduced parts.
 enum class ExportFormat { None, Hdf5, MatrixMarket, NastranDmig, ExtPtfm };
 
 /// Life of a section under cycles of one stress range S: N = cycles (stressRange/S)^slope.
@@ -22,7 +22,7 @@ struct SnLine {
   double cycles = 0.0;
 };
 
-/// What the figures of merit of a motion are taken over and measured by.
+/// Window and parameters for the results of a motion.
 struct FigureSettings {
   std::optional<double> begin, end;  ///< [s]; the second half of the motion unless given
   double stuckSpeed = 0.5;           ///< the bit sticks below it [rad/s]
@@ -30,7 +30,7 @@ struct FigureSettings {
 };
 
 struct OutputSettings {
-  std::string folder;  ///< "" when the deck names none; the command line goes first
+  std::string folder;  ///< "" if the deck names none; the command line takes precedence
   std::vector<std::string> fields{"displacement", "velocity", "normal_force"};
   bool csv = true;
   bool report = true;
@@ -44,10 +44,10 @@ struct OutputSettings {
   bool hasField(const std::string& name) const;
 };
 
-/// The deck list `Output`; a deck without it means all defaults.
+/// The deck list `Output`; a deck without it uses all defaults.
 deck::ListSpec parameters();
 
-/// From the validated deck list `Output`. DeckError when a field stands twice.
+/// From the validated deck list `Output`. DeckError for a repeated field.
 OutputSettings readOutput(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::io

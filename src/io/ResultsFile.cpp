@@ -24,8 +24,7 @@ using hdf5::Handle;
 
 namespace {
 
-/// Rows of one chunk of a time series: so many that it has about these bytes, and a few of long
-/// rows.
+/// Rows of one chunk of a time series: about as many as give these bytes, and a few for long rows.
 constexpr std::size_t chunkBytes = 1U << 16U, longChunkBytes = 1U << 18U, fewRows = 4;
 
 std::size_t rowsOfChunk(std::size_t rowSize) {
@@ -62,9 +61,9 @@ std::string now() {
   return text;
 }
 
-/// Access properties under which the file on disk changes its structure only in flush(): no
-/// metadata is evicted from the cache in between, so that what a killed process leaves is the state
-/// of the last flush.
+/// Access properties with which the structure of the file on disk changes only in flush(): no
+/// metadata is evicted from the cache in between, so a killed process leaves the state of the last
+/// flush.
 Handle accessProperties() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5AC_cache_config_t cache;
@@ -79,9 +78,9 @@ Handle accessProperties() {
   return access;
 }
 
-/// Creation properties of a dataset. `early`: its place in the file is known before its values are
-/// written, so that it can be reserved (not for compressed data and texts, whose size is not known
-/// before).
+/// Creation properties of a dataset. `early`: its position in the file is fixed before its values
+/// are written, so that it can be reserved (not for compressed data and texts, whose size is
+/// unknown then).
 Handle creationProperties(bool early) {
   Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   if (early) {
@@ -124,14 +123,14 @@ void TimeSeries::append(const double* row) {
   begun_ = false;
 }
 
-/// Write the chunk of number `chunk`; what `values` lack of a whole one is filled up with zeros.
+/// Writes chunk number `chunk`; `values` are padded with zeros to a complete chunk.
 void TimeSeries::writeChunk(std::vector<double>& values, std::size_t chunk, bool compressed) {
   if (rowSize_ == 0) return;
   written_ = std::max(written_, chunk * chunkRows_ + values.size() / rowSize_);
   values.resize(chunkRows_ * rowSize_);
   const void* bytes = values.data();
   std::size_t size = values.size() * sizeof(double);
-  std::uint32_t leftOut = 0;  // a bit for each filter that the chunk has not passed
+  std::uint32_t leftOut = 0;  // a bit for each filter not applied to the chunk
   if (file_.compressor_) {
     constexpr std::uint32_t shuffleAndDeflate = 3;
     leftOut = shuffleAndDeflate;
@@ -186,7 +185,7 @@ ResultsFile::ResultsFile(const std::string& path, const Provenance& provenance,
     compressor_ = std::make_unique<ChunkCompressor>(options_.compression);
   hdf5::silence();
   stageText(path_,
-            std::string(4096, '\0'));  // a full disk shows here, with less ado than inside HDF5
+            std::string(4096, '\0'));  // a full disk is detected here, more simply than inside HDF5
   file_ = H5Fcreate(partPath().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, accessProperties().get());
   if (file_ < 0) fail("creating it");
   try {
@@ -213,7 +212,7 @@ ResultsFile::ResultsFile(const std::string& path, const Provenance& provenance,
 ResultsFile::~ResultsFile() {
   try {
     close();
-  } catch (...) {  // a destructor must not throw; whoever needs to know calls close() or finish()
+  } catch (...) {  // a destructor must not throw; errors are reported by close() or finish()
     abandon();
   }
 }
@@ -232,8 +231,7 @@ void ResultsFile::fail(const std::string& doing) {
                   "): " + reason + ". " + advice);
 }
 
-/// Give up what is buffered and let go of the file; that closes its datasets too
-/// (H5F_CLOSE_STRONG).
+/// Discards buffered data and releases the file; this also closes its datasets (H5F_CLOSE_STRONG).
 void ResultsFile::abandon() noexcept {
   for (auto& s : series_) {
     s->buffer_.clear();
@@ -361,7 +359,7 @@ TimeSeries& ResultsFile::series(const std::string& path, const Shape& rowShape,
     H5Pset_shuffle(creation.get());
     H5Pset_deflate(creation.get(), static_cast<unsigned>(options_.compression));
   }
-  // no chunk cache: the rows are buffered here, and what is written is on the disk or has failed
+  // no chunk cache: rows are buffered here, and a write either reaches the disk or fails
   const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(access.get(), 0, 0, 0.0);
   result.dataset_ = createDataset(
@@ -424,8 +422,8 @@ void ResultsFile::attribute(const std::string& object, const std::string& name, 
 
 void ResultsFile::flush() { writeBuffers(false); }
 
-/// Chunks of which the disk holds a part are replaced one by one: the place that one leaves must
-/// not be taken before the index on the disk has left it, too.
+/// Chunks that are partly on disk are replaced one by one: the space of the old chunk must not be
+/// reused before the index on disk no longer refers to it.
 void ResultsFile::writeBuffers(bool last) {
   if (!active_ || file_ < 0) return;
   const auto synchronise = [this] {
@@ -433,7 +431,7 @@ void ResultsFile::writeBuffers(bool last) {
   };
   for (auto& s : series_) {
     if (s->replace()) synchronise();
-    if (s->writeBuffer(last)) synchronise();  // into the place that the replaced one has left
+    if (s->writeBuffer(last)) synchronise();  // may use the space of the replaced chunk
   }
   synchronise();
 }

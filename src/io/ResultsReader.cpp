@@ -15,10 +15,10 @@ using hdf5::Handle;
 namespace {
 
 constexpr double largestDataset = 2147483648.0;  // values: 16 GB of numbers
-constexpr double smallDataset = 8388608.0;       // bytes that a dataset may always announce
-constexpr hsize_t largestTexts = 1U << 30U;  // bytes; many texts may refer to the same stored one
+constexpr double smallDataset = 8388608.0;       // bytes; always allowed for a dataset
+constexpr hsize_t largestTexts = 1U << 30U;  // bytes; many texts may refer to the same stored text
 constexpr double bestCompression =
-    1032.0;  // bytes that a byte of deflate can stand for (zlib: technical details)
+    1032.0;  // largest compression ratio of deflate (zlib: technical details)
 
 Handle openDataset(hid_t file, const std::string& path) {
   return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose};
@@ -32,20 +32,20 @@ std::vector<std::size_t> extents(hid_t dataset) {
   return {extent.begin(), extent.end()};
 }
 
-/// Product of the extents, infinite where it is too large for an integer.
+/// Product of the extents, infinite if too large for an integer.
 double valuesOf(const std::vector<std::size_t>& shape) {
   double count = 1.0;
   for (std::size_t extent : shape) count *= static_cast<double>(extent);
   return count;
 }
 
-/// Does a dataset keep its values in other files, which may be anything?
+/// True if a dataset stores its values in other files, which may be anything.
 bool isElsewhere(hid_t dataset) {
   const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   return H5Pget_external_count(creation.get()) != 0 || H5Pget_layout(creation.get()) == H5D_VIRTUAL;
 }
 
-/// Name of a filter of a dataset that this HDF5 cannot undo; empty where it can undo all.
+/// Name of a filter of a dataset that this HDF5 cannot decode; empty if it can decode all.
 std::string unknownFilter(hid_t dataset) {
   const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   for (int i = 0; i < H5Pget_nfilters(creation.get()); ++i) {
@@ -59,7 +59,7 @@ std::string unknownFilter(hid_t dataset) {
   return {};
 }
 
-/// Bytes of a file that HDF5 has open.
+/// Size of a file opened by HDF5 [bytes].
 double fileSize(hid_t file) {
   hsize_t size = 0;
   H5Fget_filesize(file, &size);
@@ -72,19 +72,19 @@ herr_t visit(hid_t /*file*/, const char* name, const H5O_info_t* info, void* dat
   return 0;
 }
 
-/// Does an attribute hold exactly one value?
+/// True if an attribute has exactly one value.
 bool isSingle(const Handle& attribute) {
   const Handle space(H5Aget_space(attribute.get()), H5Sclose);
   return H5Sget_simple_extent_npoints(space.get()) == 1;
 }
 
-/// Is the class of a dataset's or attribute's type one of two?
+/// True if the type of a dataset or attribute belongs to one of two classes.
 bool isClass(const Handle& type, H5T_class_t a, H5T_class_t b) {
   const H5T_class_t found = H5Tget_class(type.get());
   return found == a || found == b;
 }
 
-/// A text of a fixed length, filled up with zeros or blanks.
+/// A text of fixed length, padded with zeros or blanks.
 bool isFixedText(const Handle& type) {
   return H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) <= 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Reading results.h5 again: for restart, studies and tests.
+/// Reads results.h5: for restart, studies and tests.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace tooljoint::io {
 
-/// An open results file, finished or .part. Every method throws FileError naming file and dataset
-/// when something is not there or of another type.
+/// An open results file, finished or .part. Every method throws FileError with file and dataset if
+/// an object does not exist or has another type.
 class ResultsReader {
  public:
   explicit ResultsReader(const std::string& path);
@@ -28,7 +28,7 @@ class ResultsReader {
   std::vector<std::size_t> shape(const std::string& path) const;
   /// All values, row-major.
   std::vector<double> numbers(const std::string& path) const;
-  /// `count` rows (first index) from row `first` on.
+  /// `count` rows (first index) starting at row `first`.
   std::vector<double> rows(const std::string& path, std::size_t first, std::size_t count) const;
   std::vector<int> integers(const std::string& path) const;
   std::vector<std::string> texts(const std::string& path) const;
@@ -39,8 +39,8 @@ class ResultsReader {
   std::string textAttribute(const std::string& object, const std::string& name) const;
 
  private:
-  /// Number of values of an open dataset. FileError when they stand in other files, or are more
-  /// than what is stored can hold: nothing is allocated for what a file only announces.
+  /// Number of values of an open dataset. FileError if they are in other files, or exceed what the
+  /// stored bytes can contain; nothing is allocated for announced sizes alone.
   std::size_t count(const std::string& path, std::int64_t dataset) const;
   [[noreturn]] void fail(const std::string& what) const;
   std::string path_;

@@ -36,7 +36,7 @@ void stageText(const std::string& path, const std::string& text) {
       error = errno;
     }
   }
-  // a full disk may show only now
+  // a full disk may be reported only now
   if (::fsync(file) != 0 && error == 0 && errno != EINVAL && errno != EROFS) error = errno;
   if (::close(file) != 0 && error == 0) error = errno;
   if (error == 0) return;

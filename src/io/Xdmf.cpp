@@ -95,8 +95,8 @@ XdmfRecorder::XdmfRecorder(ResultsFile& file, const XdmfScene& scene, double int
   }
 }
 
-/// A ring of points around each node in its x-y plane, and quadrilaterals between neighbouring
-/// rings.
+/// Writes a ring of points around each node in its x-y plane, and quadrilaterals between
+/// neighbouring rings.
 void XdmfRecorder::writeWall(ResultsFile& file, const XdmfScene& scene) {
   const std::size_t nodes = scene.positions.size();
   const auto sectors = static_cast<std::size_t>(scene.wallSectors);
@@ -126,7 +126,7 @@ void XdmfRecorder::writeWall(ResultsFile& file, const XdmfScene& scene) {
 }
 
 bool XdmfRecorder::due(double time) const {
-  // half a part in a million of the interval forgives the rounding of accumulated times
+  // half a part in a million of the interval allows for rounding of accumulated times
   return times_.empty() || time >= times_.back() + interval_ * (1.0 - 5e-7);
 }
 

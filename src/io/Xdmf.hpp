@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Pictures for ParaView: a chain of nodes moving inside its channel, in the global frame. The
-/// numbers stand in the group /xdmf of results.h5, results.xdmf says where.
+/// numbers are in the group /xdmf of results.h5; results.xdmf refers to them.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace tooljoint::io {
 
-/// What does not change in time.
+/// Data that are constant in time.
 struct XdmfScene {
   std::vector<Vector3> positions;  ///< nodes in the order of the chain, global [m]
   std::vector<Matrix3> frames;     ///< nodal frames, columns are the axes in global components
@@ -21,7 +21,7 @@ struct XdmfScene {
   int wallSectors = 24;            ///< points around the channel
 };
 
-/// One picture; arrays are node-major. What is null is left out, the same at every picture.
+/// One picture; arrays are node-major. Null arrays are omitted, the same ones in every picture.
 struct XdmfFrame {
   double time = 0.0;                     ///< [s]
   const double* displacement = nullptr;  ///< nodes x 6, nodal frames [m, rad]
@@ -38,19 +38,19 @@ class XdmfRecorder {
   /// Error(Internal) for sizes that do not match.
   XdmfRecorder(ResultsFile& file, const XdmfScene& scene, double interval);
 
-  /// True when a picture is due at this time: only then the caller need have the fields at hand.
+  /// True if a picture is due at this time; the fields are needed only then.
   bool due(double time) const;
-  /// Add a picture if one is due.
+  /// Adds a picture if one is due.
   void append(const XdmfFrame& frame);
 
   std::size_t pictures() const { return times_.size(); }
 
-  /// Append / take back the times of the pictures, for a results file whose series continue those
-  /// of another; `frame` has the fields of a picture, no numbers.
+  /// save() appends the times of the pictures, restore() reads them back, for a results file whose
+  /// series continue those of another; `frame` has the fields of a picture, but no numbers.
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory, const XdmfFrame& frame);
 
-  /// Text of the XDMF file for a results file of this name beside it ("results.h5").
+  /// Text of the XDMF file for a results file with this name in the same folder ("results.h5").
   std::string text(const std::string& resultsName) const;
 
  private:

@@ -88,7 +88,7 @@ std::vector<std::string> words(const std::string& text) {
   return out;
 }
 
-/// Only those of `positions` with one of the components named.
+/// Keeps those of `positions` with one of the named components.
 std::vector<int> filtered(const PartContent& content, const std::vector<int>& positions,
                           const std::vector<std::string>& components, const std::string& who) {
   if (components.empty()) return positions;
@@ -115,7 +115,7 @@ std::vector<int> filtered(const PartContent& content, const std::vector<int>& po
 std::vector<int> positionsOf(const PartContent& content, const std::string& text) {
   const auto all = words(text);
   if (all.empty()) throw DeckError("holds an empty text. Give a node or an interface set");
-  for (std::size_t length = all.size(); length > 0; --length) {  // names of sets may hold blanks
+  for (std::size_t length = all.size(); length > 0; --length) {  // names of sets may contain blanks
     const std::string name =
         join({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(length)}, " ");
     for (const auto& set : content.interfaces)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Changes of a part from its file to the model.
+/// Changes of a part between its file and the model.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace tooljoint::parts {
 /// "u of node 3" or "mode 2".
 std::string dofName(const model::SecondOrderModel& m, int position);
 
-/// The labels of the part in `names`, which hold all of its own; recovery gets rows of zeros for
+/// Relabels the part with `names`, which contain all of its own; recovery gets rows of zeros for
 /// the new ones.
 void widen(PartContent& content, const model::ComponentNames& names);
 
@@ -21,8 +21,8 @@ void widen(PartContent& content, const model::ComponentNames& names);
 /// dof.
 void hold(PartContent& content, const std::vector<char>& held);
 
-/// Positions that a text of the deck means: "5", "5 u v", "clamp", "clamp u". DeckError (without
-/// place) when there are none.
+/// Positions for a text of the deck: "5", "5 u v", "clamp", "clamp u". DeckError (without position)
+/// if there are none.
 std::vector<int> positionsOf(const PartContent& content, const std::string& text);
 
 }  // namespace tooljoint::parts

@@ -15,7 +15,8 @@ using Links = std::set<std::pair<std::int64_t, std::int64_t>>;
 /// Half of the 26 neighbours of a node in a grid of hexahedra.
 constexpr std::size_t gridLinksPerNode = 13;
 
-/// Nodes of each part by their numbers in the scene: axes A of the part times the position x in it.
+/// Nodes of each part by their numbers in the scene: axes A of the part times the position x in the
+/// part.
 std::vector<Positions> turned(const PartsScene& scene, const std::vector<ImportedPart>& imported) {
   std::vector<Positions> out(scene.contents.size());
   for (const auto& [number, names] : scene.nodes)

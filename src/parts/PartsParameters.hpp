@@ -18,7 +18,7 @@ namespace tooljoint::parts {
 struct ImportedPart {
   std::string name;
   std::string where;                   ///< path of its list, for messages
-  std::string file;                    ///< as the deck gives it
+  std::string file;                    ///< as given in the deck
   Matrix3 axes = Matrix3::Identity();  ///< axes of the part in the common frame, columns
   bool turned = false;
   std::vector<std::string> fixed;
@@ -60,8 +60,8 @@ struct PartsSettings {
 /// Description of the list `Parts`.
 deck::ListSpec parameters();
 
-/// The validated list as plain values. DeckError: no part, an axis without length, laws that make
-/// no sense.
+/// Typed values of the validated list. DeckError: no part, an axis without length, inconsistent
+/// laws.
 PartsSettings readSettings(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::parts

@@ -65,7 +65,7 @@ class Builder {
     return tooljoint::join(lines, "\n");
   }
 
-  /// A file is read once, however many parts come from it.
+  /// Reads each file once, however many parts use it.
   void read() {
     std::map<std::string, PartContent> known;
     for (const auto& part : imported()) {
@@ -96,7 +96,7 @@ class Builder {
     for (auto& content : scene_.contents) widen(content, names);
   }
 
-  /// Components that a part moves in once it is turned, and no part has.
+  /// Adds components in which a turned part moves and that no part has.
   static void addTurned(const PartContent& content, const Matrix3& axes,
                         model::ComponentNames& names) {
     for (const auto& name : coupling::namesTurnedInto(content.part.model.componentNames, axes))
@@ -207,7 +207,7 @@ class Builder {
                       formatNumber(m.initialVelocity[i]) + ". A fixed dof must start at zero.");
   }
 
-  /// Joints of the list Parts as joints and releases of the plan.
+  /// Converts the joints of the list Parts to joints and releases of the coupling input.
   void join() {
     if (settings_.joints.empty()) return;
     plan_.ownNumbers = true;
@@ -227,8 +227,8 @@ class Builder {
       });
   }
 
-  /// Nodes of equal numbers: a dof that is fixed in one part and free in another. Joints say so
-  /// themselves.
+  /// Rejects dofs at nodes of equal numbers that are fixed in one part and free in another. Joints
+  /// check this themselves.
   void refuseHeldAndFree() {
     if (plan_.ownNumbers) return;
     for (const auto& [p, label] : held_)
@@ -244,7 +244,7 @@ class Builder {
       }
   }
 
-  /// The parts as coupling::plan takes them: interface dofs are those another part has.
+  /// The parts for coupling::resolve: their interface dofs are those that another part has.
   std::vector<model::Substructure> plain() {
     std::map<DofLabel, int> owners;
     for (const auto& content : scene_.contents)
@@ -275,7 +275,7 @@ class Builder {
           if (given.frame.part == frame.name && given.frame.node == 0)
             throw DeckError(imported()[p].where + "/Rotation Angle has no effect: " + given.path +
                             " gives the axes of the whole part. Leave one out.");
-        plan_.frames.insert(plan_.frames.begin(), frame);  // frames of single nodes go on top
+        plan_.frames.insert(plan_.frames.begin(), frame);  // frames of single nodes override it
       }
     }
     return parts;
@@ -339,7 +339,7 @@ PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingInp
 
 namespace {
 
-/// Of a dof that a constraint holds at `value`.
+/// Checks a start of a dof that a constraint holds at `value`.
 void requireHeldThere(const PartStart& start, double value) {
   constexpr double rounding = 1e-9;
   if (start.velocity == 0.0 &&
@@ -356,7 +356,7 @@ Vector findStart(const PartsSettings& settings, double t, const model::Nonlinear
   if (!settings.atRest && settings.starts.empty()) return {};
   auto options = scene.coupling;
   options.assembly = coupling::Assembly::Primal;
-  options.requireAgreeingStarts = false;  // they are found here
+  options.requireAgreeingStarts = false;  // starts are computed here
   const auto full = coupling::coupleWithPositions(scene.parts, options);
   Vector z = settings.atRest ? restState(full.model, t, solver) : full.model.initialDisplacement;
   Vector zDot = settings.atRest ? Vector(Vector::Zero(z.size())) : full.model.initialVelocity;
@@ -378,7 +378,7 @@ Vector findStart(const PartsSettings& settings, double t, const model::Nonlinear
     } catch (const DeckError& fault) {
       throw DeckError(start.where + " " + fault.what() + ".");
     }
-    // z += row' v: rows of a primal coupling in turned frames are orthonormal; another row would
+    // z += row' v: rows of a primal coupling in turned frames are orthonormal; any other row would
     // not give the requested value
     const auto part = static_cast<std::size_t>(it - scene.contents.begin());
     const Vector row = Vector(full.maps[part].row(position).transpose());

@@ -18,33 +18,33 @@
 
 namespace tooljoint::parts {
 
-/// A node in the numbers of its file.
+/// A node with its number in its file.
 struct NodeName {
   int part = 0;           ///< 0-based
-  std::int64_t node = 0;  ///< as the file of the part numbers it
+  std::int64_t node = 0;  ///< node number in the file of the part
 };
 
 struct PartsScene {
-  std::vector<PartContent> contents;  ///< as the files number nodes, held dofs taken out
+  std::vector<PartContent> contents;  ///< with the node numbers of the files, without held dofs
   std::vector<model::Substructure>
-      parts;  ///< the same in numbers of the scene; interface: what is joined
-  coupling::CouplingOptions coupling;                   ///< in numbers of the scene
-  std::map<std::int64_t, std::vector<NodeName>> nodes;  ///< of a number of the scene
+      parts;  ///< the same with the node numbers of the scene; interface: joined dofs
+  coupling::CouplingOptions coupling;                   ///< with the node numbers of the scene
+  std::map<std::int64_t, std::vector<NodeName>> nodes;  ///< by node number of the scene
 
   int dofs() const;
 };
 
-/// Reads the files and puts the parts together. Interface dofs that nothing joins become retained
-/// ones, as do dofs that connections name. \param given what the list Coupling says, defaults
-/// without it \param resolve file name of the deck -> path DeckError naming the place in the deck,
-/// the part and the dof, all faults of one kind together. ModelError as in coupling::plan.
-/// Collective.
+/// Reads the files and joins the parts. Interface dofs that are not joined become retained dofs, as
+/// do dofs named by connections. \param given    values of the list Coupling, defaults without it
+/// \param resolve  file name of the deck -> path
+/// DeckError with the position in the deck, the part and the dof, all faults of one kind together.
+/// ModelError as in coupling::resolve. Collective.
 PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingInput& given,
                       const std::function<std::string(const std::string&)>& resolve);
 
-/// The state the motion starts from, in coordinates of the coupled unreduced parts: that of the
-/// files, or rest under the loads of time t (K q = F + point forces, by `solver`); and what
-/// "Starts" adds. Returns that rest; empty where it is not wanted. ConvergenceError, DeckError.
+/// The initial state of the motion, in coordinates of the coupled unreduced parts: that of the
+/// files, or rest under the loads of time t (K q = F + point forces, by `solver`), plus the values
+/// of "Starts". Returns the rest state; empty if it is not requested. ConvergenceError, DeckError.
 Vector findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver,
                  PartsScene& scene);
 

@@ -61,7 +61,7 @@ PartContent reducedContent(const PartContent& original,
   out.omitted = original.omitted;
   for (const auto& set : reduced.model.points) out.omitted.push_back(set.name);
 
-  // coordinates q + s: K_i s joins the loads with the law of K_i
+  // coordinates q + s: K_i s is added to the loads with the law of K_i
   Vector s = Vector::Zero(m.size());
   for (std::size_t k = 0; k < kept.size() && reduced.offset.size() > 0; ++k)
     s[static_cast<Eigen::Index>(k)] = reduced.offset[kept[k]];
@@ -72,8 +72,7 @@ PartContent reducedContent(const PartContent& original,
     m.initialDisplacement += s;
     if (m.recovery.rows() > 0) m.recoveryOffset -= m.recovery * s;
   }
-  // springs and stops count from where they count for the original: in a scene that finds its
-  // equilibrium not from there
+  // springs and stops keep the reference of the original, unless the scene computes its equilibrium
   if (original.part.reference.size() > 0) {
     Vector reference = Vector::Zero(m.size());
     for (std::size_t k = 0; k < kept.size(); ++k)
@@ -113,7 +112,7 @@ PartContent reducedContent(const PartContent& original,
   const auto known = nodesOf(out);
   for (const auto& [node, position] : original.positions)
     if (known.count(node) > 0)
-      out.positions.emplace(node, position);  // a fixed node does not belong to the part any more
+      out.positions.emplace(node, position);  // a fixed node is no longer part of the model
   return out;
 }
 

@@ -19,11 +19,12 @@ namespace tooljoint::parts {
 
 namespace {
 
-/// Step of the differences of forces whose states follow the rest: part of d, and at least [m].
+/// Step of finite differences for forces whose states depend on rest: fraction of d, and least step
+/// [m].
 constexpr double differencePart = 1e-6, leastDifference = 1e-9;
 
-/// df/dd of a law whose states start anew at each d, as they do at rest, less df/dd of held states:
-/// 0 and -k of a spring and a dashpot in series.
+/// df/dd of a law whose states are reset at each d, as at rest, minus df/dd at constant states: 0
+/// and -k for a spring and a dashpot in series.
 Matrix changeByStates(const model::PointLaw& law, double t, const Vector& d) {
   const int w = law.width(), size = static_cast<int>(d.size());
   std::vector<int> all(static_cast<std::size_t>(law.size()));
@@ -78,7 +79,7 @@ class Equilibrium : public model::NonlinearProblem {
     }
   }
   Vector residualScale() const override {
-    // forces are measured by the largest load, or, without loads, by the point forces of the start
+    // forces are scaled by the largest load or, without loads, by the point forces of the start
     double size = load_.size() > 0 ? load_.cwiseAbs().maxCoeff() : 0.0;
     if (size == 0.0)
       size = model_.pointForce(time_, model_.initialDisplacement, still_).cwiseAbs().maxCoeff();

@@ -8,8 +8,8 @@
 
 namespace tooljoint::parts {
 
-/// q with K(t) q = F(t) + sum R' f(d, 0, t), from the initial displacement of the model.
-/// ConvergenceError; ModelError when a dof is not supported.
+/// q with K(t) q = F(t) + sum R' f(d, 0, t), starting from the initial displacement of the model.
+/// ConvergenceError; ModelError if a dof is not supported.
 Vector restState(const model::SecondOrderModel& model, double t,
                  const model::NonlinearSolver& solver);
 

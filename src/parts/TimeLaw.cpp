@@ -63,7 +63,7 @@ class Harmonic : public TimeLaw {
   double mean_, amplitude_, pulsation_, phase_, start_, end_;
 };
 
-/// f = f_0 before the start, f_1 after the ramp, straight in between
+/// f = f_0 before the start, f_1 after the ramp, linear in between
 class Ramp : public TimeLaw {
  public:
   explicit Ramp(const ParameterList& list)
@@ -80,7 +80,7 @@ class Ramp : public TimeLaw {
   double from_, to_, start_, duration_;
 };
 
-/// Straight lines between points, constant before the first and after the last.
+/// Linear between points, constant before the first and after the last.
 class Table : public TimeLaw {
  public:
   explicit Table(const ParameterList& list) : Table(list, "Times", "times", "s") {}
@@ -114,7 +114,7 @@ class Table : public TimeLaw {
   std::vector<double> places_, values_;
 };
 
-/// The same against the rotary speed.
+/// The same as a function of the rotary speed.
 class SpeedTable final : public Table {
  public:
   explicit SpeedTable(const ParameterList& list) : Table(list, "Speeds", "speeds", "rad/s") {}
@@ -122,7 +122,7 @@ class SpeedTable final : public Table {
   std::vector<double> places() const override { return corners(); }
 };
 
-/// f = c |Omega|^n, with the sign of Omega where it is odd
+/// f = c |Omega|^n, with the sign of Omega for an odd law
 class SpeedPower final : public TimeLaw {
  public:
   explicit SpeedPower(const ParameterList& list)

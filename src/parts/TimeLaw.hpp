@@ -24,23 +24,23 @@ class TimeLaw {
   virtual double value(double t) const = 0;
   /// As ScalarLaw::corners.
   virtual std::vector<double> corners() const { return {}; }
-  /// True: value() takes the rotary speed [rad/s] in the place of the time.
+  /// True: value() takes the rotary speed [rad/s] instead of the time.
   virtual bool ofSpeed() const { return false; }
-  /// Places, in order, outside of which value() is that of the first or the last; none of a
+  /// Increasing arguments outside which value() is that of the first or the last one; empty for a
   /// formula.
   virtual std::vector<double> places() const { return {}; }
 };
 
-/// name -> form; a new form is one file that registers itself.
+/// name -> form; a form is one file that registers itself.
 using TimeLaws = deck::Registry<TimeLaw, const Teuchos::ParameterList&>;
 
-/// Description of one law: its form, and a sublist of the numbers of each form.
+/// Description of one law: its form, and a sublist with the numbers of each form.
 deck::ListSpec timeLawParameters();
 
-/// The law of a validated list, under the name of the law. The law rotarySpeedName, its derivative
-/// "dOmega/dt" and forms of the speed hold a model::SpeedLaw. \param speed rotary speed over time;
-/// without a value: the deck has no such law. DeckError when its numbers are missing or make no
-/// sense together, or when it needs the speed and there is none.
+/// The law of a validated list; it has the name of the list. The law rotarySpeedName, its
+/// derivative "dOmega/dt" and forms that depend on the speed contain a model::SpeedLaw. \param
+/// speed  rotary speed over time; none: the deck has no such law. DeckError if numbers are
+///               missing or inconsistent, or if the law needs the speed and there is none.
 model::ScalarLaw readTimeLaw(const std::string& name, const Teuchos::ParameterList& list,
                              const model::ScalarLaw& speed);
 

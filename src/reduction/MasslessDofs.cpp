@@ -14,7 +14,7 @@ namespace {
 
 Vector rowSizes(const Sparse& A) { return A.cwiseAbs() * Vector::Ones(A.cols()); }
 
-/// Of what is relative to the rows of a matrix, rounding.
+/// Relative size of rounding in the rows of a matrix.
 constexpr double roundingOfRows = 1e-12;
 
 /// Dofs of a part without mass, but with damping.

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Dofs without mass whose motion or damping a basis does not hold.
+/// Massless dofs whose motion or damping a basis does not represent.
 #pragma once
 
 #include "model/Substructure.hpp"
 
 namespace tooljoint::reduction {
 
-/// Interior dofs without mass are what the others make them, x_m = -K_mm^-1 K_mr x_r. A basis has
-/// this of the symmetric part of K.
+/// Interior dofs without mass depend on the others, x_m = -K_mm^-1 K_mr x_r. A basis uses the
+/// symmetric part of K for this.
 void warnOfUnsymmetricMassless(const model::Substructure& part);
 
-/// Interior dofs without mass follow the others through springs and dampers, a motion of first
-/// order that modes of mass and stiffness do not hold; where C = alpha K in the rows of all of
-/// them, their static answer is exact.
+/// Interior dofs without mass are driven by the others through springs and dampers. This is a
+/// first-order motion that modes of mass and stiffness do not represent. If C = alpha K in all
+/// their rows, their static response is exact.
 void warnOfDampedMassless(const model::Substructure& part);
 
-/// The flexibility of dofs without mass is in no mode; bases whose residual coordinates have no
-/// damping lose what damps them.
+/// No mode contains the flexibility of dofs without mass; bases whose residual coordinates have no
+/// damping lose their damping.
 void warnOfDampedMasslessBoundary(const model::Substructure& part);
 
 }  // namespace tooljoint::reduction

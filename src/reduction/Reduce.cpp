@@ -34,7 +34,7 @@ using constants::twoPi;
 /// Modes of the first attempt with an interface criterion.
 constexpr int firstCandidates = 12;
 
-/// Modal columns with omega^2 < 0 beyond rounding; a rigid-body motion is at rounding.
+/// Number of modal columns with omega^2 < 0 beyond rounding; a rigid-body motion is at rounding.
 int buckledModes(const PartView& part, const Basis& basis) {
   const auto modes = basis.eigenvalues.size();
   if ((basis.eigenvalues.array() < 0).count() == 0) return 0;
@@ -107,7 +107,7 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
             request.count == ModeRule::whole ? ModeRequest::Kind::Whole : ModeRequest::Kind::Count;
         break;
       case ModeRule::Kind::Total: {
-        // The share of the part by size, with some margin; repeated where it is too small.
+        // The part's share by size, with a margin; repeated with more modes if it is too small.
         const double share =
             interior > 0 ? static_cast<double>(parts[p].interior().size()) / interior : 0.0;
         request.kind = ModeRequest::Kind::Count;
@@ -123,7 +123,7 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
         break;
       case ModeRule::Kind::InterfaceMass:
       case ModeRule::Kind::InterfaceMoment:
-        // Doubled until the modes hold the fraction.
+        // Doubled until the modes reach the fraction.
         request.kind = ModeRequest::Kind::Count;
         request.count = firstCandidates;
         break;
@@ -141,7 +141,7 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
 std::vector<int> identicalParts(const std::vector<int>& classes,
                                 const std::vector<ModeRequest>& requests) {
   std::vector<int> representative(classes.size());
-  std::map<int, std::vector<int>> firsts;  // of each class, one for each request
+  std::map<int, std::vector<int>> firsts;  // of each class, one per request
   for (std::size_t p = 0; p < classes.size(); ++p) {
     auto& candidates = firsts[classes[p]];
     const auto found = std::find_if(candidates.begin(), candidates.end(), [&](int q) {
@@ -153,8 +153,8 @@ std::vector<int> identicalParts(const std::vector<int>& classes,
   return representative;
 }
 
-/// Interior dofs without mass and stiffness are in no basis, and dampers on them neither: a load
-/// there would be lost.
+/// Rejects loads on interior dofs without mass and stiffness. No basis contains such dofs, even
+/// with dampers, so their loads would be lost.
 void refuseLostLoads(const model::Substructure& part) {
   auto undamped = part.model;
   undamped.damping.clear();
@@ -169,7 +169,7 @@ void refuseLostLoads(const model::Substructure& part) {
                        "Retain or fix the dof, give it mass or stiffness, or remove the load.");
 }
 
-/// checkPart for the first of identical parts; of the others what may differ from it.
+/// checkPart for the first of identical parts; for the others only the data that may differ.
 void checkParts(const std::vector<model::Substructure>& parts, const std::vector<int>& classes) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& m = parts[p].model;
@@ -271,13 +271,13 @@ class Team {
   }
 
  private:
-  /// All ranks work on each part.
+  /// True if all ranks work on each part.
   bool together() const { return dynamic_cast<const CollectiveMethod*>(&basis_) != nullptr; }
   bool first(std::size_t p) const { return representative_[p] == static_cast<int>(p); }
-  /// To be reduced now.
+  /// True if the part is to be reduced now.
   bool open(std::size_t p) const { return first(p) && !cores_[p]; }
 
-  /// Takes what was reduced in an earlier round with the same number of modes.
+  /// Reuses reductions of an earlier round with the same number of modes.
   void recall() {
     for (std::size_t p = 0; p < parts_.size() && cache_.remembers; ++p) {
       const auto found = cache_.cores.find({cache_.classes[p], requests_[p].count});
@@ -290,8 +290,8 @@ class Team {
       if (first(p)) cache_.cores[{cache_.classes[p], requests_[p].count}] = cores_[p];
   }
 
-  /// Coupling to the boundary: enough modes are computed to hold the fraction, and those with the
-  /// largest shares are kept.
+  /// Choice by coupling to the boundary: computes enough modes to reach the fraction, and keeps
+  /// those with the largest shares.
   void chooseByInterface() {
     const auto& rule = options_.modes;
     parallel::agree([&] {
@@ -305,7 +305,7 @@ class Team {
           auto keep = keepByShare(shares, bases_[p].eigenvalues, rule.fraction, rule.pairTolerance);
           const bool all = bases_[p].complete && bases_[p].modes() == bases_[p].candidates.size();
           if (keep.empty() &&
-              (all || bases_[p].modes() == 0))  // all there are do not reach it but for rounding
+              (all || bases_[p].modes() == 0))  // all existing modes miss it only by rounding
             keep.assign(static_cast<std::size_t>(shares.size()),
                         shares.size() > 0 && shares.sum() > 0 ? 1 : 0);
           else if (keep.empty()) {
@@ -342,7 +342,7 @@ class Team {
     });
   }
 
-  /// Part after part by all ranks, of a collective method.
+  /// Reduces the parts one after the other with all ranks, for a collective method.
   void buildTogether(const std::vector<char>& wanted) {
     const auto kind = options_.modes.kind;
     if (kind == ModeRule::Kind::InterfaceMass || kind == ModeRule::Kind::InterfaceMoment)
@@ -359,7 +359,7 @@ class Team {
     }
   }
 
-  /// Total Modes: compute until every spectrum is long enough, then cut all at the same
+  /// Total Modes: computes until every spectrum is long enough, then cuts all at the same
   /// frequency.
   void shareTotalModes() {
     for (;;) {
@@ -400,7 +400,7 @@ class Team {
             bases_[p] = basis_.build(views_[p], requests_[p]);
             return;
           }
-          bases_[p].remarks.clear();  // they refer to the number of this part alone
+          bases_[p].remarks.clear();  // they refer to the number of modes of this part alone
           truncate(bases_[p], counts[p],
                    "above the lowest " + std::to_string(options_.modes.total) + " of all parts");
         });

@@ -31,21 +31,22 @@ enum class InitialState {
                  ///< (38)-(42)
 };
 
-/// All choices of the deck list "Reduction" that do not belong to one basis.
+/// All choices of the deck list "Reduction" that are common to all bases.
 struct ReductionOptions {
   std::string basis = "Craig-Bampton";
   ModeRule modes;
   InitialState initialState = InitialState::KeepStatic;
   bool checks = true;
-  LoadVectorOptions loadVectors;  ///< static responses to loads beside the modes; none by default
+  LoadVectorOptions loadVectors;  ///< static responses to loads in addition to the modes; none by
+                                  ///< default
   std::shared_ptr<const linalg::EigenOptions> eigen;  ///< null: the defaults of the eigensolver
   std::shared_ptr<const InterfaceBasis> interface;  ///< reduction of the joined dofs of the coupled
                                                     ///< model (coupling::synthesise); null: none
 };
 
 /// Reads the list "Reduction" (defaults filled in). Throws DeckError, also those of
-/// readModeSelection.
-/// The options refer to the list (its sublist "Anasazi"), which must outlive them.
+/// readModeSelection. The options refer to the sublist "Anasazi" of the list, so the list must
+/// outlive them.
 ReductionOptions readOptions(const Teuchos::ParameterList& reduction, int parts);
 
 /// The basis named in the list, made from the sublist of its name.
@@ -53,23 +54,23 @@ std::unique_ptr<ReductionMethod> makeBasis(const std::string& name,
                                            const Teuchos::ParameterList& reduction);
 
 /// Projects `part` on `basis`: M, C_i, K_i, loads, point rows, recovery and initial state. Matrices
-/// are projected full, unsymmetric parts included (Nguyen et al. 2020, (43)); stiffness terms that
-/// are constant in time become one term, every other one stays a term with its own law. `index`
-/// numbers the part in the labels of its modes.
+/// are projected completely, unsymmetric parts included (Nguyen et al. 2020, (43)). Constant
+/// stiffness terms become one term; every other term keeps its law. `index` numbers the part in the
+/// labels of its modes.
 ReducedSubstructure reduce(const PartView& part, const Basis& basis,
                            const ReductionOptions& options, int index);
 
 /// Reduces all parts. Every rank passes the same parts and gets the same result; each part is
-/// reduced by one rank and sent to the others. Parts that are identical (findIdenticalParts) are
-/// reduced once. Collective over MPI_COMM_WORLD. An error on one rank is thrown on all. Throws
-/// ModelError, ConvergenceError.
+/// reduced by one rank and sent to the others. Identical parts (findIdenticalParts) are reduced
+/// once. Collective over MPI_COMM_WORLD. An error on one rank is thrown on all. Throws ModelError,
+/// ConvergenceError.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
                                            const ReductionMethod& basis,
                                            const ReductionOptions& options);
 
-/// Data shared by rounds of reduction of the same parts: their views, the classes of identical
-/// parts, and every part reduced so far by its number of modes. The same on every rank except for
-/// the views.
+/// Data shared by several rounds of reduction of the same parts: their views, the classes of
+/// identical parts, and every reduction so far by its number of modes. The same on every rank
+/// except for the views.
 struct ReductionCache {
   bool remembers = true;
   std::vector<PartView> views;  ///< one for each part
@@ -79,7 +80,7 @@ struct ReductionCache {
 };
 
 /// The same with the cache of earlier rounds: only parts with a new number of modes are reduced if
-/// the cache remembers the others, which needs ModeRule::Kind::PerPart.
+/// the cache contains the others; this needs ModeRule::Kind::PerPart.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
                                            const ReductionMethod& basis,
                                            const ReductionOptions& options, ReductionCache& cache);

@@ -13,18 +13,18 @@
 
 namespace tooljoint::reduction {
 
-/// Interface of a reduced part whose displacement is not among its coordinates: u_b = rows q +
+/// Interface of a reduced part whose displacements are not among its coordinates: u_b = rows q +
 /// offset.
 struct DerivedInterface {
-  std::vector<model::DofLabel> dofs;  ///< what is joined, labels of the part
+  std::vector<model::DofLabel> dofs;  ///< joined dofs, labels of the part
   Sparse rows;                        ///< dofs x coordinates
   Vector offset;                      ///< u_b at q = 0: the static state, or zero
-  /// The last so many coordinates are the forces g that the rest of the model exerts on `dofs`, one
-  /// for each; 0: there are none. They need dual assembly, which puts its multipliers in their
-  /// place, g = C' lambda, after K and M were projected on all coordinates (D. J. Rixen 2004).
+  /// Number of trailing coordinates that are the forces g of the rest of the model on `dofs`, one
+  /// for each; 0: none. They need dual assembly, which replaces them by its multipliers, g = C'
+  /// lambda, after K and M were projected on all coordinates (D. J. Rixen 2004).
   int forces = 0;
-  Vector staticForces;  ///< with `forces`: those of the static state, about which the coordinates
-                        ///< count; the loads of the part have them
+  Vector staticForces;  ///< with `forces`: forces in the static state, from which the coordinates
+                        ///< are measured; part of the loads
 };
 
 /// A reduced part: a small SecondOrderModel in q = (interface, retained, modes), with D = offset +
@@ -38,14 +38,14 @@ struct ReducedSubstructure {
   int modes = 0;      ///< the last `modes` ones are modal
   Vector offset;      ///< D at q = 0, dofs of the part: the static state, or zero
   std::shared_ptr<const Basis>
-      basis;  ///< one for all identical parts; its rows stand in the report
+      basis;  ///< shared by all identical parts; its rows are in the report
   BasisReport report;
   std::optional<DerivedInterface>
-      derivedInterface;  ///< only where the basis does not have the interface dofs as coordinates;
-                         ///< then `interface` is 0
+      derivedInterface;  ///< only if the basis does not have the interface dofs as coordinates;
+                         ///< `interface` is then 0
 
   int size() const { return model.size(); }
-  /// report.rows with the names of the dofs of this part: those of the report are of the first of
+  /// report.rows with the names of the dofs of this part; the report has those of the first of the
   /// identical parts.
   std::vector<BasisRow> basisRows() const;
 };

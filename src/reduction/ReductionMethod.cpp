@@ -21,8 +21,8 @@ void ReductionMethod::checkInput(const std::vector<PartOutline>&) const {}
 
 namespace {
 
-/// Leaves the modal columns with keep[k] != 0 in Phi, eigenvalues and kinds, and gives the rows of
-/// all of them their reasons.
+/// Keeps the modal columns with keep[k] != 0 in Phi, eigenvalues and kinds; sets the reasons in the
+/// rows of all.
 void keepColumns(Basis& basis, const std::vector<char>& keep, const std::string& kept,
                  const std::string& dropped) {
   const int boundary = sizeOf(basis.partition.boundary);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The interface of a reduction method. A variant is one file that adds itself with addMethod.
+/// The interface of a reduction method. A method is one file that registers itself with addMethod.
 #pragma once
 
 #include <memory>
@@ -23,23 +23,23 @@ namespace tooljoint::reduction {
 
 /// D = Phi q with q = (interface dofs, retained dofs, modal coordinates). The rows of Phi of the
 /// boundary dofs are the identity and zero, so that interface dofs stay physical and parts are
-/// joined by equal labels. Dual bases have interface forces as coordinates, and interface dofs
-/// among the interior ones: q = (retained dofs, modal coordinates, forces).
+/// joined by equal labels. Dual bases have interface forces as coordinates, and interface dofs are
+/// among the interior dofs: q = (retained dofs, modal coordinates, forces).
 struct Basis {
   Partition partition;
   model::SharedSparse vectors;        ///< Phi: dofs x (boundary + modes), structural zeros absent
   std::vector<std::string> modeKind;  ///< one per modal column
   Vector eigenvalues;                 ///< omega^2 of the modal columns [rad^2/s^2], increasing
   Vector candidates;                  ///< omega^2 of all modes computed, kept ones first
-  bool complete = false;              ///< `candidates` are all modes the part has
+  bool complete = false;              ///< `candidates` are all modes of the part
   bool orthonormal =
-      false;  ///< the modal columns are meant to be mass-orthonormal and to diagonalise sym(K)
-  Sparse inertial;  ///< what mass and damping are projected on where that is not `vectors`
-                    ///< (MacNeal); empty: `vectors`
-  std::vector<int> forceDofs;  ///< positions of interface dofs that are no coordinates: the last
+      false;        ///< the modal columns should be mass-orthonormal and diagonalise sym(K)
+  Sparse inertial;  ///< mass and damping are projected on this instead of `vectors` (MacNeal);
+                    ///< empty: on `vectors`
+  std::vector<int> forceDofs;  ///< positions of interface dofs that are not coordinates; the last
                                ///< columns are then the forces on them, one each (dual bases)
-  bool removable = true;       ///< modal columns may be left out one by one; otherwise a basis with
-                               ///< fewer modes is another one
+  bool removable = true;       ///< single modal columns may be removed; otherwise fewer modes need
+                               ///< another basis
   std::vector<BasisRow> rows;
   double orthogonality = 0;
   std::string method;
@@ -49,17 +49,17 @@ struct Basis {
   int forces() const { return static_cast<int>(forceDofs.size()); }
 };
 
-/// Keep only the first `modes` modal columns of `basis`; the rows of the others are marked dropped
-/// with the reason `why`.
+/// Keeps only the first `modes` modal columns of `basis`; the rows of the others are marked as
+/// dropped with the reason `why`.
 void truncate(Basis& basis, int modes, const std::string& why);
 
-/// Keep only the modal columns with keep[k] != 0; their rows say `kept`, the others are marked
-/// dropped with the reason `dropped`.
+/// Keeps only the modal columns with keep[k] != 0; their rows get the reason `kept`, the others are
+/// marked as dropped with the reason `dropped`.
 void select(Basis& basis, const std::vector<char>& keep, const std::string& kept,
             const std::string& dropped);
 
-/// Dependent coordinates of a coupled model: q_dofs = rows q_others, others in
-/// increasing order.
+/// Dependent coordinates of a coupled model: q_dofs = rows q_others, with the others in increasing
+/// order.
 struct DependentCoordinates {
   std::vector<int> dofs;  ///< of the coupled model
   Matrix rows;            ///< dofs x others
@@ -69,11 +69,11 @@ struct DependentCoordinates {
 struct MethodTraits {
   bool ownMass = true;  ///< mass and damping are projected on its vectors; otherwise the coupled
                         ///< mass is singular and residuals give no error estimate
-  bool interfaceForces = false;  ///< interface forces are coordinates, and interface dofs are none
+  bool interfaceForces = false;  ///< interface forces are coordinates, and interface dofs are not
   bool dependent =
-      false;  ///< it has coordinates that depend on others, by the inverse of the coupled mass
-  bool selectable = false;  ///< its modes have a fixed interface and may be left out one by one
-  bool needsModes = true;   ///< a deck has to say how many; otherwise none where it does not
+      false;  ///< it has coordinates that depend on others through the inverse of the coupled mass
+  bool selectable = false;  ///< its modes have a fixed interface and may be removed one by one
+  bool needsModes = true;   ///< the deck must give their number; otherwise the default is none
 };
 
 /// Data of a part before its reduction.
@@ -84,7 +84,7 @@ struct PartOutline {
 };
 
 /// A family of bases (Craig-Bampton, ...). Stateless: build() may be called for many parts, on
-/// several ranks. The PartView computes the data of a part once for all stages of a method.
+/// several ranks. PartView computes the data of a part once for all stages of a method.
 class ReductionMethod {
  public:
   virtual ~ReductionMethod() = default;
@@ -93,17 +93,16 @@ class ReductionMethod {
   /// ConvergenceError.
   virtual Basis build(const PartView& part, const ModeRequest& request) const = 0;
 
-  /// Second hook, for families that need the assembled interface: augment the bases of all parts
-  /// given the coupled reduced model, `positions[p][i]` being the coupled dof of reduced coordinate
-  /// i of part p. True when a basis was changed, and parts are then projected and coupled again.
+  /// Second hook, for families that need the assembled interface: augments the bases of all parts,
+  /// given the coupled reduced model; `positions[p][i]` is the coupled dof of reduced coordinate i
+  /// of part p. Returns true when a basis was changed; parts are then projected and coupled again.
   /// The default changes nothing.
   virtual bool augment(const model::SecondOrderModel& coupled,
                        const std::vector<std::vector<int>>& positions,
                        const std::vector<PartView>& parts, std::vector<Basis>& bases) const;
 
   /// Third hook, after the last augmentation: dependent coordinates, which are not unknowns of the
-  /// coupled model. maps[p] are the coordinates of part p in coupled dofs. The default has
-  /// none.
+  /// coupled model. maps[p] gives the coordinates of part p in coupled dofs. The default has none.
   virtual DependentCoordinates dependentCoordinates(const model::SecondOrderModel& coupled,
                                                     const std::vector<Sparse>& maps,
                                                     const std::vector<PartView>& parts,
@@ -111,20 +110,20 @@ class ReductionMethod {
 
   virtual MethodTraits traits() const { return {}; }
 
-  /// Checks its input, such as files, before anything is computed. Throws DeckError.
-  /// The default reads nothing.
+  /// Checks the input of the method, such as files, before any computation. Throws DeckError. The
+  /// default reads nothing.
   virtual void checkInput(const std::vector<PartOutline>& parts) const;
 
-  /// True when build() depends on the name of the part: then identical parts are reduced
+  /// True when build() depends on the name of the part; identical parts are then reduced
   /// separately.
   virtual bool namesParts() const { return false; }
 };
 
 using MethodRegistry = deck::Registry<ReductionMethod, const Teuchos::ParameterList&>;
 
-/// Registers a method under its name in the deck. `doc`: one sentence and the source it follows.
-/// Method is made from the list of its own parameters, defaults filled in, or from nothing where it
-/// has none. `const bool registered = addMethod<Method>("Name", "...", parameters());`
+/// Registers a method under its name in the deck. `doc`: one sentence and the source of the method.
+/// The constructor takes the list of its own parameters, defaults filled in, or nothing if it has
+/// none. `const bool registered = addMethod<Method>("Name", "...", parameters());`
 template <class Method>
 bool addMethod(const std::string& name, const std::string& doc, deck::ListSpec parameters = {}) {
   return MethodRegistry::instance().add(

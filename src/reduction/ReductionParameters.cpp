@@ -76,7 +76,7 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
     options.interface = InterfaceRegistry::instance().make(
         name, list.isSublist(name) ? list.sublist(name) : Teuchos::ParameterList(name));
   }
-  const auto method = makeBasis(options.basis, list);  // finds what is wrong with its own list now
+  const auto method = makeBasis(options.basis, list);  // reports the faults of its own list now
   options.modes = readModeSelection(list, parts, method->traits().needsModes);
   if (list.isSublist("Anasazi")) {
     auto eigen = std::make_shared<linalg::EigenOptions>();

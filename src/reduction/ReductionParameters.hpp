@@ -7,8 +7,7 @@
 
 namespace tooljoint::reduction {
 
-/// Description of the list "Reduction", with a sublist for every registered basis that has
-/// parameters.
+/// Description of the list "Reduction", with a sublist for every registered basis with parameters.
 deck::ListSpec parameters();
 
 }  // namespace tooljoint::reduction

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a harmonic response does along a string: distances to the wall and bending moments.
+/// Harmonic response along a string: distances to the wall and bending moments.
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@
 
 namespace tooljoint::response {
 
-/// One place of a response: a node, or an element.
+/// An extreme value of a response, at a node or an element.
 struct Extreme {
-  std::size_t place = 0;  ///< position among those of AlongString
-  double value = 0.0;     ///< distance left [m], or amplitude of the bending moment [N m]
+  std::size_t place = 0;  ///< index among the nodes or elements of AlongString
+  double value = 0.0;     ///< remaining distance [m], or amplitude of the bending moment [N m]
   std::array<std::complex<double>, 2> axes;  ///< Re(axes exp(i omega t)) [m] or [N m]
   double estimate = 0.0;                     ///< of the error of `value`
 
@@ -33,9 +33,10 @@ struct Extreme {
 
 /// Distances and moments of one response.
 struct StringResponse {
-  Vector margins;  ///< left to the wall by the nodes that are open at rest [m]
-  Vector moments;  ///< amplitudes of the bending moments of the elements beside those at rest [N m]
-  std::optional<Extreme> margin, moment;  ///< the least and the largest; none where there are none
+  Vector margins;  ///< remaining distance to the wall of nodes that are open at rest [m]
+  Vector moments;  ///< amplitudes of the bending moments of the elements, relative to rest [N m]
+  std::optional<Extreme> margin, moment;  ///< the smallest and the largest value; none without
+                                          ///< nodes or elements
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -46,7 +47,7 @@ struct StringResponse {
 /// The ellipses Re((x, y) exp(i omega t)) of pairs of sums in one model.
 class Ellipses {
  public:
-  /// Terms of nodes that the model does not have are zero.
+  /// Terms of nodes that are not in the model are zero.
   Ellipses(const model::SecondOrderModel& model, const std::vector<cases::NodeSums>& sums);
 
   /// x and y, places x 2.
@@ -60,12 +61,12 @@ class Ellipses {
   std::array<Sparse, 2> rows_;  ///< places x dofs
 };
 
-/// The places of a case, and what they do in its models.
+/// The nodes and elements of a case, and their evaluation in its models.
 class AlongString {
  public:
   struct Node {
     std::int64_t number = 0;
-    double depth = 0.0;  ///< [m]; 0 where the nodes have none
+    double depth = 0.0;  ///< [m]; 0 if the nodes have none
     double gap = 0.0;    ///< at rest [m]
   };
 
@@ -75,16 +76,17 @@ class AlongString {
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<cases::BendingPlace>& elements() const { return elements_; }
 
-  /// Of a response of the model that is solved.
+  /// Evaluates a response of the solved model.
   StringResponse of(const Eigen::VectorXcd& q) const;
-  /// Both extremes of `reduced` at their places in a response of the full model, with the profiles.
+  /// Evaluates a response of the full model: both extremes at the positions of `reduced`, and the
+  /// profiles.
   StringResponse ofFull(const Eigen::VectorXcd& q, const StringResponse& reduced) const;
 
-  /// Coefficients of the two axes of the extremes in any model of the case, dofs x 2 for each of
-  /// margin and moment that is there.
+  /// Coefficients of the two axes of the extremes in any model of the case, dofs x 2 for each
+  /// existing margin and moment.
   Eigen::MatrixXcd outputs(const model::SecondOrderModel& model,
                            const StringResponse& response) const;
-  /// Takes the errors of these outputs into the estimates of the extremes.
+  /// Writes the errors of these outputs into the estimates of the extremes.
   static void takeEstimates(const Eigen::VectorXd& errors, StringResponse& response);
 
  private:

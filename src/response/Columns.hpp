@@ -13,19 +13,19 @@ namespace tooljoint::response {
 
 struct Columns {
   struct Column {
-    std::string name, unit, longName;  ///< unit "1" for a pure number
-    std::vector<double> values;        ///< of one length in all columns
+    std::string name, unit, longName;  ///< unit "1" for a dimensionless number
+    std::vector<double> values;        ///< of the same length in all columns
   };
   std::vector<Column> columns;
 
   /// Stages NAME.csv and writes the group /NAME, a dataset for each column; nothing for a table
   /// without rows. Error(Internal) for a number that is not finite.
   void write(const std::string& name, io::OutputFolder& folder, io::ResultsFile& file) const;
-  /// The group alone.
+  /// Writes only the group.
   void writeGroup(const std::string& name, io::ResultsFile& file) const;
 };
 
-/// value(row) of all rows.
+/// Values value(row) of all rows.
 template <class Rows, class Value>
 std::vector<double> collect(const Rows& rows, const Value& value) {
   std::vector<double> values;

@@ -14,7 +14,7 @@ namespace tooljoint::response {
 
 namespace {
 
-/// Places in a period at which the laws are evaluated.
+/// Number of instants in a period at which the laws are evaluated.
 constexpr int phases = 16;
 
 /// A point law, and its tangents at rest.
@@ -30,7 +30,7 @@ class Linearised {
     law_.evaluateWithTangent(t, all_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
   }
 
-  /// Force less that of the tangents, at a change of the position and a velocity.
+  /// Force minus that of the tangents, for a change of position and a velocity.
   Vector beside(const Vector& moved, const Vector& velocity) {
     const Vector d = d_ + moved;
     now_.setZero();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How far a harmonic response leaves the range in which point laws are their tangents.
+/// Deviation of point laws from their tangents in a harmonic response.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace tooljoint::response {
 
-/// The point set whose forces leave their tangents farthest.
+/// The point set with the largest deviation of its forces from the tangents.
 struct Departure {
-  double part = 0.0;  ///< of the largest load
+  double part = 0.0;  ///< fraction of the largest load
   std::string set;    ///< its name; empty without point sets
 
   template <class Archive>
@@ -22,8 +22,8 @@ struct Departure {
 };
 
 /// max |R'(f(d, v) - f_0 - df/dd (d - d_0) - df/dv v)| over a period of the motion Re(y e^{i omega
-/// t}) about the state at rest, over max |load|, dofs of the model. Laws with states are left out:
-/// these follow the motion. \param t of the laws [s]
+/// t}) about the state at rest, divided by max |load|, dofs of the model. Laws with states are
+/// omitted, since their states depend on the motion. \param t  of the laws [s]
 Departure departure(const model::SecondOrderModel& model, double t, double omega,
                     const ComplexVector& y, const ComplexVector& load);
 

@@ -17,18 +17,19 @@ namespace tooljoint::response {
 
 namespace {
 
-/// Of |s|: a mode with less damping has no finite peak.
+/// A mode with less damping, as a fraction of |s|, has no finite peak.
 constexpr double noDamping = 1e-9;
-/// Of the place: how near to such a resonance amplitudes are computed.
+/// Relative distance from such a resonance at which amplitudes are computed.
 constexpr double nearUndamped = 1e-6;
-/// Modes computed beyond the undamped ones up to the highest frequency, and at most.
+/// Modes computed beyond the undamped ones up to the highest frequency, and largest total number.
 constexpr int moreModes = 8, mostModes = 256;
-/// Speeds of a sweep whose modes are computed.
+/// Number of speeds of a sweep for which modes are computed.
 constexpr int lookedSpeeds = 5;
-/// Iterations to a place of the sweep, and its relative accuracy.
+/// Largest number of iterations to a resonance of the sweep, and its relative accuracy.
 constexpr int mostIterations = 30;
 constexpr double close = 1e-9;
-/// Of the place: resonances of two speeds that are nearer are one, or half their width apart.
+/// Resonances from two speeds are the same if closer than this relative distance or half their
+/// width.
 constexpr double samePlace = 1e-4;
 
 class Search {
@@ -82,7 +83,7 @@ class Search {
         if (grows(moving) && (!out_.growing || moving.real() > out_.growing->s.real()))
           out_.growing = Growing{speed, moving};
       }
-      if (!vibrates(s) || !(perUnit_ > 0.0)) continue;  // one frequency at all speeds
+      if (!vibrates(s) || !(perUnit_ > 0.0)) continue;  // the same frequency at all speeds
       if (!settings_.bySpeed())
         add(placeOf(s), s);
       else if (!isKnown(s))
@@ -92,7 +93,7 @@ class Search {
 
   double placeOf(Complex s) const { return (s.imag() - offset_) / perUnit_; }
 
-  /// A mode of another speed has led to where this one would.
+  /// True if a mode of another speed has led to this resonance.
   bool isKnown(Complex s) const {
     const double where = placeOf(s);
     return std::any_of(out_.found.begin(), out_.found.end(), [where](const Resonance& one) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Where a harmonic excitation meets the modes of a case, between the points of a sweep too.
+/// Resonances of a harmonic excitation with the modes of a case, also between the points of a
+/// sweep.
 #pragma once
 
 #include <complex>
@@ -12,12 +13,12 @@
 
 namespace tooljoint::response {
 
-/// A place of the sweep, a rotary speed [rad/s] or a frequency [Hz], where the frequency of the
-/// excitation is that of a damped mode, s = -delta + i omega.
+/// A position in the sweep, a rotary speed [rad/s] or a frequency [Hz], at which the excitation
+/// frequency equals that of a damped mode, s = -delta + i omega.
 struct Resonance {
   double where = 0.0;
   double width = 0.0;  ///< delta, in the unit of the sweep: half the width of the resonance
-  bool damped = true;  ///< otherwise `width` is a millionth of `where`, and there is no bound
+  bool damped = true;  ///< false: `width` is a millionth of `where`, and the peak is unbounded
 };
 
 struct Resonances {
@@ -25,8 +26,8 @@ struct Resonances {
   std::optional<Growing> growing;
 };
 
-/// Of a sweep by frequency from the modes at its rotary speed. Of a sweep by speed from the modes
-/// at some of its speeds, each followed to where Im s(Omega) = order Omega + offset.
+/// For a sweep by frequency from the modes at its rotary speed. For a sweep by speed from the modes
+/// at some of its speeds, each followed to the speed with Im s(Omega) = order Omega + offset.
 /// ConvergenceError of the eigensolver. Every rank computes the same.
 Resonances resonances(const RotatingCase& rotating, const ResponseSettings& settings);
 

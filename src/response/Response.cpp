@@ -25,24 +25,25 @@ namespace tooljoint::response {
 namespace {
 
 constexpr Complex imaginary{0.0, 1.0};
-/// Points of a golden section between two neighbours of a largest amplitude: the place of a peak is
-/// known to 0.4 % of their distance, which is no more than half a width of its resonance, and the
-/// amplitude to 1e-5.
+/// Golden-section steps between the two neighbours of a largest amplitude. They locate a peak to
+/// 0.4 % of the distance of the neighbours, which is at most half a width of its resonance, and
+/// give its amplitude to 1e-5.
 constexpr int goldenSteps = 13;
-/// Of the distance of points: resonances of a larger half width are seen by them.
+/// The points resolve resonances whose half width exceeds this multiple of their distance.
 constexpr double seenWidth = 1.0;
-/// Half widths from a narrower resonance at which the amplitudes are computed beside the points.
+/// Additional amplitudes at a narrower resonance, at these multiples of its half width.
 constexpr double beside[] = {-2.0, -1.0, 0.0, 1.0, 2.0};
-/// Of the largest amplitude there: an output that changes by less does not see the resonance.
+/// An output that changes by less than this fraction of its largest amplitude there does not
+/// respond to the resonance.
 constexpr double unseen = 1e-6;
 
-/// Of the work of a load: as much of it by rounding of the stiffness, as of one that does not hold
-/// a model at rest, and the response has no digits.
+/// If rounding of the stiffness contributes more than this fraction of the work of a load, the
+/// response has no correct digits; the model is probably not supported.
 constexpr double noDigits = 0.01;
 
-constexpr int storeFormat = 4;  ///< raised when the meaning of a kept point changes
+constexpr int storeFormat = 4;  ///< raised when the meaning of a stored point changes
 
-/// Rows of the recovery that the deck names.
+/// Rows of the recovery named in the deck.
 struct Rows {
   std::vector<cases::NodeRow> loads, outputs;
   std::vector<std::array<cases::NodeRow, 2>> unbalances;
@@ -76,8 +77,9 @@ class Loads {
   }
 
  private:
-  /// m e Omega^2 (cos, sin)(Omega t + phase) = Re(m e Omega^2 exp(i phase) (1, -i) exp(i Omega t)),
-  /// below a motor Omega + that of the motor. Masses of the scene turn with the string.
+  /// m e Omega^2 (cos, sin)(Omega t + phase) = Re(m e Omega^2 exp(i phase) (1, -i) exp(i Omega t));
+  /// below a motor with Omega plus the speed of the motor. Masses of the scene turn with the
+  /// string.
   ComplexMatrix unbalance(const model::SecondOrderModel& model, double rotary) const {
     const double speed = rotary + settings_.motorSpeed;
     ComplexMatrix f = model::turningLoad(model, rotary);
@@ -131,7 +133,7 @@ class Sweep {
   }
 
  private:
-  /// What decides a point beside its place in the sweep.
+  /// Data that determine a point in addition to its position in the sweep.
   std::string whose() const {
     auto own = store_.owner.list().sublist("Response");
     for (const char* name : {"Lowest Speed", "Highest Speed", "Lowest Frequency",
@@ -141,7 +143,7 @@ class Sweep {
                        cases::canonicalText(own), settings_.bySpeed());
   }
 
-  /// Points of these keys, computed or kept.
+  /// Points with these keys, computed or stored.
   template <class Compute>
   std::vector<ResponsePoint> resumed(const cases::RowKeys& keys, const Compute& compute) const {
     Progress progress("response, " + keys.plural, static_cast<double>(keys.rows.size()));
@@ -206,7 +208,7 @@ class Sweep {
 
   /// \param where  rotary speed [rad/s] or frequency [Hz]
   /// \param whole  with estimate and margin
-  /// \param given  a place of the sweep, and none beside a resonance, where digits may be few
+  /// \param given  true for points of the sweep; false close to resonances, which may lose digits
   ResponsePoint at(double where, bool whole = true, bool given = false) const {
     ResponsePoint point;
     point.speed = settings_.bySpeed() ? where : settings_.rotarySpeed;
@@ -281,7 +283,8 @@ class Sweep {
     return point;
   }
 
-  /// At points spread over the sweep, and at the largest amplitude of every output.
+  /// Solves the full model at points spread over the sweep, and at the highest peak of every
+  /// output.
   void addChecks(HarmonicResponse& out) const {
     for (const auto i : spread(out.points.size(), settings_.spotChecks))
       out.checks.push_back({out.points[i], fullAt(out.points[i])});
@@ -301,11 +304,11 @@ class Sweep {
     return settings_.bySpeed() ? point.speed : point.frequency;
   }
 
-  /// A local maximum of the amplitude: between the neighbours of a place.
+  /// A local maximum of the amplitude and its neighbours.
   struct Bracket {
     int load = 0, output = 0;
     double from = 0.0, middle = 0.0, to = 0.0;
-    double size = 0.0;  ///< in the middle
+    double size = 0.0;  ///< at `middle`
   };
 
   /// Amplitudes at a place of the sweep, outputs x load cases.
@@ -317,13 +320,13 @@ class Sweep {
   const std::vector<double>& sweepOf() const {
     return settings_.bySpeed() ? settings_.speeds : settings_.frequencies;
   }
-  /// Of the points of the sweep.
+  /// Distance of the points of the sweep.
   double distance() const {
     const auto& sweep = sweepOf();
     return (sweep.back() - sweep.front()) / static_cast<double>(sweep.size() - 1);
   }
 
-  /// About each resonance that is too narrow for the points.
+  /// Samples around each resonance that is too narrow for the points.
   std::vector<std::vector<Sample>> besideNarrow(const std::vector<Resonance>& resonances) const {
     const auto& sweep = sweepOf();
     std::vector<std::vector<Sample>> found;
@@ -332,7 +335,7 @@ class Sweep {
       auto& samples = found.emplace_back();
       for (const double widths : beside) {
         const double where = one.where + widths * one.width;
-        if (!one.damped && widths == 0.0) continue;  // no inverse
+        if (!one.damped && widths == 0.0) continue;  // the dynamic stiffness is singular
         if (where > sweep.front() && where < sweep.back())
           samples.push_back({where, at(where, false).x.cwiseAbs()});
       }
@@ -340,7 +343,8 @@ class Sweep {
     return found;
   }
 
-  /// Of one output under one load: the points, and what lies beside the resonances it sees.
+  /// Amplitudes of one output under one load: at the points, and at the narrow resonances to which
+  /// it responds.
   std::vector<std::pair<double, double>> amplitudes(const std::vector<ResponsePoint>& points,
                                                     const std::vector<std::vector<Sample>>& narrow,
                                                     int load, int output) const {
@@ -391,7 +395,7 @@ class Sweep {
       out.peaks.push_back({all[i].load, all[i].output, peaks[i]});
   }
 
-  /// By golden section of the larger side of the largest point, which so is never lost.
+  /// Golden section in the larger side of the largest point, which is thus never lost.
   ResponsePoint peak(const Bracket& bracket) const {
     const double section = 0.5 * (3.0 - std::sqrt(5.0));
     double a = bracket.from, best = bracket.middle, b = bracket.to, most = bracket.size;

@@ -24,7 +24,7 @@ enum class Excitation {
   Transfer,   ///< a unit load at each dof of the list in turn
 };
 
-/// A harmonic load or an unbalance as the deck gives it.
+/// A harmonic load or an unbalance as given in the deck.
 struct ResponseLoad {
   std::string name;
   cases::NodeDof dof;
@@ -43,7 +43,8 @@ struct ResponseSettings {
   Excitation excitation = Excitation::Unbalance;
   std::vector<double> speeds;       ///< of a sweep by speed [rad/s]
   double order = 1.0;               ///< excitation frequency over rotary speed in such a sweep
-  double motorSpeed = 0.0;          ///< of what is below a motor, over that of the string [rad/s]
+  double motorSpeed = 0.0;          ///< speed of the part below a motor relative to the string
+                                    ///< [rad/s]
   double motorOrder = 1.0;          ///< excitation frequency over the motor's speed
   std::vector<double> frequencies;  ///< of a sweep by frequency [Hz]
   double rotarySpeed = 0.0;         ///< in such a sweep [rad/s]
@@ -83,7 +84,7 @@ struct ResponsePoint {
   }
 };
 
-/// A point solved with the full model too.
+/// A point that is also solved with the full model.
 struct ResponseCheck {
   ResponsePoint reduced, full;
 };
@@ -94,7 +95,7 @@ struct ResponsePeak {
   ResponsePoint at;
 };
 
-/// A mode that grows: the state is left, and no response about it is reached.
+/// A growing mode: the state is unstable, so that the response about it is never reached.
 struct Growing {
   double speed = 0.0;  ///< [rad/s]
   std::complex<double> s;
@@ -103,25 +104,24 @@ struct Growing {
 struct HarmonicResponse {
   std::vector<std::string> loads;  ///< names of the load cases
   std::vector<ResponsePoint> points;
-  std::vector<ResponsePeak> peaks;       ///< of every local maximum, found between the points too
+  std::vector<ResponsePeak> peaks;       ///< all local maxima, also between the points
   std::vector<ResponseCheck> checks;     ///< spread points, and the highest peak of every output
   std::vector<AlongString::Node> nodes;  ///< of the margins along the string
   std::vector<cases::BendingPlace> elements;  ///< of the moments
-  std::optional<Growing> growing;             ///< the fastest of the modes computed
-  std::vector<double> undamped;  ///< where modes without damping are met, see Resonance::where
+  std::optional<Growing> growing;             ///< the fastest of the computed modes
+  std::vector<double> undamped;  ///< resonances of modes without damping, see Resonance::where
 };
 
-/// DeckError: a node or component that is not there or held, nothing that loads the model.
-/// ModelError: no response, since the dynamic stiffness is singular. Points and peaks are dealt to
-/// the ranks, and those that the folder holds for the same deck and program are not computed again.
-/// Collective.
+/// DeckError: an unknown or held node or component, no effective load. ModelError: the dynamic
+/// stiffness is singular. Points and peaks are distributed to the ranks; those stored in the folder
+/// for the same deck and program are not computed again. Collective.
 HarmonicResponse respond(const RotatingCase& rotating, const ResponseSettings& settings,
                          const cases::RowFolder& store);
 
-/// `tooljoint response`: state at rest, responses, response.csv, peaks.csv, spot_checks.csv, of a
-/// string bending.csv, margins.csv and spot_checks_string.csv, response.h5 and summary.json in
+/// `tooljoint response`: state at rest, responses, response.csv, peaks.csv, spot_checks.csv, for a
+/// string also bending.csv, margins.csv and spot_checks_string.csv, response.h5 and summary.json in
 /// `folder` ("": see cases::analysisFolder). DeckError without the list Response. Collective.
-/// \param fresh  forget what an earlier command has left there
+/// \param fresh  discards results of an earlier command
 void runResponse(const cases::Case& one, const std::string& folder, bool fresh);
 
 }  // namespace tooljoint::response

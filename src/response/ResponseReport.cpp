@@ -26,7 +26,7 @@ namespace {
 
 using constants::rpmPerRadianPerSecond;
 
-/// Responses in the words of the settings.
+/// Formats responses according to the settings.
 class Report {
  public:
   Report(const RotatingCase& rotating, const ResponseSettings& settings,
@@ -118,7 +118,7 @@ class Report {
   }
 
  private:
-  /// Of outputs that are largest at an end of the sweep.
+  /// Outputs whose largest amplitude is at an end of the sweep.
   void printEnds() const {
     const auto size = [](const ResponsePoint& point, int load, int output) {
       return std::abs(point.x(output, load));
@@ -136,8 +136,8 @@ class Report {
       }
   }
 
-  /// An amplitude that is large at one place, as of a body that floats near 0 Hz, hides errors that
-  /// are as large as what moves everywhere else.
+  /// Warns of inaccurate points. A very large amplitude at one point, as of a free body near 0 Hz,
+  /// would hide errors as large as the amplitudes everywhere else.
   void warnOfPoorPoints() const {
     if (!rotating_.estimated()) return;
     int most = 0;
@@ -178,7 +178,7 @@ class Report {
                     : std::string("it is left without vibration"),
         s.real()));
   }
-  /// Of peaks that are as large as the search has come near to them.
+  /// Warns of peaks of undamped modes, whose amplitude depends on the closest computed point.
   void warnOfMissingDamping() const {
     const auto isAtOne = [this](const ResponsePeak& peak) {
       const double where = settings_.bySpeed() ? peak.at.speed : peak.at.frequency;
@@ -205,17 +205,18 @@ class Report {
         worst->frequency, worst->departure.set, worst->departure.part));
   }
 
-  /// Of the amplitude of a point: an estimate that makes it useless; and of the points: more of
-  /// them are worth a warning.
+  /// An estimate above the first fraction of its amplitude makes a point useless; a warning is
+  /// given if the fraction of such points exceeds the second.
   static constexpr double poorPoint = 0.2, poorShare = 0.25;
-  /// Of its place: a peak nearer to a mode without damping is that of the mode.
+  /// A peak closer than this relative distance to a mode without damping belongs to that mode.
   static constexpr double sameResonance = 1e-5;
-  /// Of the largest load: forces of point laws farther from their tangents are worth a warning.
+  /// A larger deviation of point laws from their tangents, relative to the largest load, causes a
+  /// warning.
   static constexpr double farFromLinear = 0.1;
-  /// Of the largest amplitude: a larger estimate, or error, is worth a warning.
+  /// A larger estimate or error, relative to the largest amplitude, causes a warning.
   static constexpr double tooCoarse = 0.05;
-  /// Of the largest amplitude of its unit: an output below moves by coupling of other directions,
-  /// or by rounding.
+  /// An output below this fraction of the largest amplitude of its unit moves only by coupling of
+  /// other directions, or by rounding.
   static constexpr double unmoved = 1e-6;
   static constexpr double degrees = 180.0 / constants::pi;
   static double rpm(double speed) { return speed * rpmPerRadianPerSecond; }
@@ -223,7 +224,7 @@ class Report {
   int loads() const { return sizeOf(response_.loads); }
   int outputs() const { return sizeOf(settings_.outputs); }
 
-  /// "bit", or of transfer functions "bit:table", output and load.
+  /// "bit", or for transfer functions "bit:table", output and load.
   std::string nameOf(int load, int output) const {
     const auto& name = settings_.outputs[at(output)].name;
     return settings_.excitation == Excitation::Transfer ? name + ":" + response_.loads[at(load)]
@@ -309,8 +310,8 @@ class Report {
     return table;
   }
 
-  /// What errors are related to: the largest amplitude of the output in the sweep; of one that the
-  /// load does not move, beside others of its unit, that of these.
+  /// Reference of errors: the largest amplitude of the output in the sweep. If the load does not
+  /// move the output, the largest amplitude of outputs with the same unit.
   double scale(int load, int output) const {
     const double own = largest_(output, load);
     double ofUnit = own;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A case at rest as linear equations at any rotary speed: what Campbell diagrams and responses are
-/// computed of.
+/// A case at rest as linear equations at any rotary speed: the basis of Campbell diagrams and
+/// responses.
 #pragma once
 
 #include <complex>
@@ -17,42 +17,44 @@
 
 namespace tooljoint::response {
 
-/// M x'' + C(Omega) x' + K(Omega) x = f about the state at rest: closed contacts with their
-/// tangent, open ones free. Laws that follow the rotary speed (model::SpeedLaw) have their value at
-/// Omega, other laws of time that of the end of the motion. The reduced model where the deck has
-/// the list Reduction, with its error estimate where the basis is a Ritz one; else the full model.
+/// M x'' + C(Omega) x' + K(Omega) x = f about the state at rest, with the tangents of closed
+/// contacts and without open contacts. Laws of the rotary speed (model::SpeedLaw) have their value
+/// at Omega, other laws of time that at the end of the motion. The reduced model if the deck has
+/// the list Reduction, with its error estimate if the basis is a Ritz basis; otherwise the full
+/// model.
 class RotatingCase {
  public:
-  /// Finds the state at rest and reduces the parts. \param friction false: contacts without
-  /// friction. \param announce logs the state and the coupling, and judges the state. Throws what
-  /// these stages throw. Collective. The case must outlive the object.
+  /// Computes the state at rest and reduces the parts.
+  /// \param friction  false: contacts without friction
+  /// \param announce  logs state and coupling, and judges the state. Throws the errors of these
+  /// stages.
+  ///                  Collective. The case must outlive the object.
   RotatingCase(const cases::Case& one, bool friction, bool announce = true);
 
   const cases::Case& deckCase() const { return case_; }
   const cases::RestingCase& rest() const { return *rest_; }
   bool reduced() const { return reduced_.has_value(); }
   bool estimated() const { return error_ != nullptr; }
-  /// The model that is solved, and the parts it was reduced from (none for a full model).
+  /// The solved model, and the parts it was reduced from (none for a full model).
   const model::SecondOrderModel& model() const;
   const std::vector<model::Substructure>& parts() const;
   /// The full model, made at its first use. Collective.
   const model::SecondOrderModel& full() const;
 
-  /// The model that is solved at a rotary speed [rad/s], with the point laws that are linearised.
+  /// The solved model at a rotary speed [rad/s], with the point laws to be linearised.
   model::SecondOrderModel turned(double speed) const { return turning(model(), speed); }
-  double time() const { return time_; }  ///< of laws that do not follow the speed [s]
+  double time() const { return time_; }  ///< of laws that do not depend on the speed [s]
 
-  /// Matrices of the model that is solved, of the full model and of the parts, at a rotary speed
-  /// [rad/s]. With `omega`, in motions e^{i omega t} that the states of point laws follow; else
-  /// these stay as they are.
+  /// Matrices of the solved model, of the full model and of the parts, at a rotary speed [rad/s].
+  /// With `omega` the states of point laws take part in motions e^{i omega t}; otherwise they are
+  /// constant.
   estimate::Linearised at(double speed, std::optional<double> omega = {}) const;
   estimate::Linearised fullAt(double speed, std::optional<double> omega = {}) const;
   std::vector<estimate::Linearised> partsAt(double speed, std::optional<double> omega = {}) const;
 
-  /// The `count` damped modes of smallest |s| of the model that is solved, fewer where there are
-  /// fewer.
+  /// The `count` damped modes of smallest |s| of the solved model, or all if it has fewer.
   linalg::QuadraticModes modes(const estimate::Linearised& m, int count) const;
-  /// Those of a target (linalg::dampedModesNear).
+  /// The modes nearest to a target (linalg::dampedModesNear).
   linalg::QuadraticModes modes(const estimate::Linearised& m,
                                const linalg::DampedTarget& target) const;
   /// Damped modes of the full and of the reduced model side by side (estimate::compareDampedModes).
@@ -60,22 +62,21 @@ class RotatingCase {
   std::vector<estimate::ModeComparison> compare(double speed, int count) const;
   std::vector<estimate::ModeComparison> compare(double speed,
                                                 const linalg::DampedTarget& target) const;
-  /// What rounding of the stiffness may leave of y'K y (linalg::roundingOf) of the model that is
-  /// solved.
+  /// Possible rounding error of y'K y (linalg::roundingOf) of the solved model.
   double rounding(const estimate::Linearised& m, const Eigen::VectorXcd& y) const;
   /// Needs estimated().
   const estimate::DynamicError& error() const { return *error_; }
 
-  /// Logs which laws follow the speed, and warns where no matrix does, or one is not given for all
+  /// Logs which laws depend on the speed; warns if no matrix does, or if one is not defined for all
   /// of these speeds [rad/s].
   void announceLaws(const std::vector<double>& speeds) const;
-  /// Warns of point laws with states that modes leave as they are.
+  /// Warns of point laws with states that are constant in the modes.
   void announceHeldStates() const;
-  /// Warns of the point laws whose states do not follow a harmonic motion.
+  /// Warns of point laws whose states do not take part in a harmonic motion.
   void announceUnknownStates() const;
 
  private:
-  /// compareDampedModes at a speed of `which`: a count or a target.
+  /// compareDampedModes at a speed for `which`: a count or a target.
   template <class Which>
   std::vector<estimate::ModeComparison> compareAt(double speed, const Which& which) const;
   template <class Models>
@@ -85,7 +86,7 @@ class RotatingCase {
 
   const cases::Case& case_;
   bool friction_;
-  double time_;  ///< of laws that do not follow the speed [s]
+  double time_;  ///< of laws that do not depend on the speed [s]
   std::shared_ptr<const cases::RestingCase> rest_;
   std::optional<cases::ReducedCase> reduced_;
   mutable std::optional<coupling::Coupling> full_;

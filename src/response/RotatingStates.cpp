@@ -16,7 +16,7 @@ namespace {
 
 using linalg::times;
 
-/// States that are kept: a step over which shapes turn comes back to its end.
+/// Number of stored states: a step that is halved returns to its end.
 constexpr std::size_t kept = 4;
 
 std::unique_ptr<cases::Case> turningAt(const cases::Case& one, double speed) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The states at rest that a Campbell diagram is about: one for all speeds, or that of each speed.
+/// The states at rest of a Campbell diagram: one for all speeds, or one for each speed.
 #pragma once
 
 #include <list>
@@ -12,35 +12,35 @@
 
 namespace tooljoint::response {
 
-/// Equations about states at rest, and shapes that the equations of all states have in common.
+/// Equations about states at rest, and common shapes for the equations of all states.
 ///
-/// Of one state, common shapes are those of its model. With the state of each speed, models may
-/// differ in their bases: common shapes are then rows of the recovery, with the mass R M R' of the
+/// With one state, common shapes are those of its model. With a state for each speed, models may
+/// have different bases; common shapes are then rows of the recovery, with the mass R M R' of the
 /// full model.
 class RotatingStates {
  public:
-  /// The state of the start; of each speed: that of the lowest one, which announces itself.
-  /// DeckError: the state of this case is the same at all speeds. Else as RotatingCase.
+  /// The state at the start time. For a state of each speed that of the lowest speed; it is logged.
+  /// DeckError: the state of this case is the same at all speeds. Otherwise as RotatingCase.
   /// \param one  must outlive the object
   RotatingStates(const cases::Case& one, bool friction, bool ofEachSpeed, double lowest);
 
   bool ofEachSpeed() const { return ofEachSpeed_; }
   /// The equations at this speed [rad/s]. ConvergenceError names the speed. Collective.
   std::shared_ptr<const RotatingCase> about(double speed) const;
-  /// The state that announced itself.
+  /// The logged state.
   const RotatingCase& first() const { return *first_; }
 
   /// Mass of the common shapes.
   Sparse mass() const;
-  /// Common shapes of those of a model.
+  /// Converts shapes of a model to common shapes.
   Eigen::MatrixXcd common(const RotatingCase& rotating, const Eigen::MatrixXcd& shapes) const;
-  /// The shape of a model that is nearest to a common one in the norm of the mass.
+  /// The shape of a model closest to a common shape in the norm of the mass.
   Eigen::VectorXcd own(const RotatingCase& rotating, const Eigen::VectorXcd& shape) const;
   /// Rows of the recovery of a common shape.
   Eigen::VectorXcd recovered(const Eigen::VectorXcd& shape) const;
 
  private:
-  /// A case at a speed, and its equations, which refer to it.
+  /// A case at a speed, and its equations, which refer to the case.
   struct State {
     double speed = 0.0;
     std::unique_ptr<cases::Case> turning;
@@ -52,7 +52,7 @@ class RotatingStates {
   bool friction_, ofEachSpeed_;
   std::shared_ptr<const RotatingCase> first_;
   Sparse recovery_;  ///< of the first model
-  Sparse mass_;      ///< of the rows of the recovery; only with the state of each speed
+  Sparse mass_;      ///< of the rows of the recovery; only with a state for each speed
   mutable std::list<std::pair<double, std::shared_ptr<const RotatingCase>>> latest_;
 };
 

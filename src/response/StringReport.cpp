@@ -20,14 +20,15 @@ namespace {
 
 using constants::rpmPerRadianPerSecond;
 
-/// Distance of two responses of one place in the complex plane: at least that of their values.
+/// Distance of two responses at one node or element in the complex plane, at least that of their
+/// values.
 double apart(const Extreme& a, const Extreme& b) {
   return std::hypot(std::abs(a.axes[0] - b.axes[0]), std::abs(a.axes[1] - b.axes[1]));
 }
 
 using Points = std::vector<const ResponsePoint*>;
 
-/// The points of the sweep and the largest amplitudes between them, in the order of the sweep.
+/// The points of the sweep and the peaks between them, in the order of the sweep.
 Points everyPoint(const HarmonicResponse& response) {
   Points all;
   for (const auto& point : response.points) all.push_back(&point);
@@ -38,7 +39,7 @@ Points everyPoint(const HarmonicResponse& response) {
   return all;
 }
 
-/// Of a place of a profile: the point at which `profile` is least or largest there.
+/// The point at which `profile` has its smallest or largest value at a node or element.
 const ResponsePoint& pointAt(const Points& points, Eigen::Index place,
                              Vector StringResponse::*profile, bool largest) {
   const ResponsePoint* best = points.front();

@@ -11,17 +11,17 @@
 
 namespace tooljoint::response {
 
-/// All calls do nothing where the response knows no nodes or elements of a string.
+/// All calls do nothing if the response has no nodes or elements of a string.
 class StringReport {
  public:
-  /// \param response outlives the object
+  /// \param response  outlives the object
   StringReport(const HarmonicResponse& response, bool bySpeed, bool estimated)
       : response_(response), bySpeed_(bySpeed), estimated_(estimated) {}
 
-  /// The largest moment, how far the spot checks agree, and a warning where a node would reach the
-  /// wall.
+  /// Prints the largest moment and the deviation of the spot checks; warns if a node would reach
+  /// the wall.
   void print() const;
-  /// contact_* and bending_* of response.csv.
+  /// Adds contact_* and bending_* of response.csv.
   void addColumns(Columns& table) const;
   /// bending.csv, margins.csv, spot_checks_string.csv and their groups.
   void write(io::OutputFolder& folder, io::ResultsFile& file) const;
@@ -30,7 +30,7 @@ class StringReport {
 
  private:
   const ResponsePoint* firstTouch() const;
-  /// The point of the largest moment; null without elements, or where nothing bends.
+  /// The point with the largest moment; null without elements, or without bending.
   const ResponsePoint* mostBent() const;
   Columns bendingTable() const;
   Columns marginTable() const;

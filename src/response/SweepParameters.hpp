@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Parameters that the lists Campbell and Response share.
+/// Parameters shared by the lists Campbell and Response.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -14,7 +14,7 @@ namespace tooljoint::response {
 /// Declares `Friction`, `Spot Checks` and `Axis`.
 void declareCommon(deck::ListSpec& list);
 bool wantsFriction(const Teuchos::ParameterList& list);
-/// So many values as the list's `Points`, from one parameter to another. DeckError when they do not
+/// As many values as the list's `Points`, from one parameter to another. DeckError when they do not
 /// increase.
 std::vector<double> evenly(const Teuchos::ParameterList& list, const std::string& from,
                            const std::string& to, const std::string& unit);

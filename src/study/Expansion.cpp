@@ -14,7 +14,7 @@ void takeOut(const ReductionLists& lists, PlannedRun& run) {
   for (const auto& list : lists) run.overrides.push_back({"!" + list, run.source});
 }
 
-/// "Step 0.001", "Least squares": numbers need the name of what they are.
+/// "Step 0.001", "Least squares": a number needs the name of its parameter.
 std::string describe(const std::string& parameter, const std::string& value) {
   const bool numeric = !value.empty() && (std::isdigit(static_cast<unsigned char>(value[0])) != 0 ||
                                           value[0] == '.' || value[0] == '-');

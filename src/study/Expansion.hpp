@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// From methods and their sweeps to single runs, each a list of overrides of the deck.
+/// Expands methods and their sweeps into single runs, each a list of overrides of the deck.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace tooljoint::study {
 
-/// One override and the parameter of the Study list it stands in.
+/// One override and the parameter of the Study list that contains it.
 struct SourcedOverride {
   std::string text;    ///< "PATH=VALUE" or "!PATH"
   std::string source;  ///< "Study/Methods/explicit/Set"
 };
 
-/// What a run is in a study.
+/// The role of a run in a study.
 enum class RunKind { Reference, Check, Sensitivity, Method };
 std::string kindName(RunKind kind);
 
@@ -25,23 +25,23 @@ struct PlannedRun {
   RunKind kind = RunKind::Method;
   std::string source;  ///< the list it comes from, "Study/Methods/explicit"
   std::string method;  ///< label of its method
-  std::string line;    ///< label of the line of the plots it belongs to: the method and all but the
-                       ///< last dimension
-  std::string label;   ///< its own: the method and all dimensions
+  std::string line;    ///< label of its line in the plots: the method and all but the last
+                       ///< dimension
+  std::string label;   ///< label of the run: the method and all dimensions
   bool reduced = false;
   std::vector<SourcedOverride> overrides;
   std::vector<std::pair<std::string, std::string>> sweep;  ///< parameter and value
 };
 
-/// Lists that a full model does without.
+/// Lists that a full model does not use.
 using ReductionLists = std::vector<std::string>;
 
-/// The runs of all methods, in the order of the deck, the last dimension of a sweep varying first.
+/// The runs of all methods, in the order of the deck; the last dimension of a sweep varies first.
 std::vector<PlannedRun> expand(const StudySettings& settings,
                                const ReductionLists& reduction = {"Substructures", "Reduction"});
 
-/// The product of the values of `dimensions`, the last one varying first. Labels are that of `base`
-/// and the values. \param place path of the list that holds the dimensions
+/// The product of the values of `dimensions`; the last one varies first. Labels are that of `base`
+/// and the values. \param place  path of the list that holds the dimensions
 std::vector<PlannedRun> product(const std::vector<Dimension>& dimensions, const PlannedRun& base,
                                 const std::string& place);
 

@@ -15,7 +15,7 @@ namespace tooljoint::study {
 
 namespace {
 
-/// Distance, as a part of the extent of a scene, by which its nodes may differ between two runs:
+/// Largest distance of corresponding nodes in two runs, as a fraction of the extent of the scene:
 /// the path of a string depends on its loads.
 constexpr double samePlace = 1e-2;
 
@@ -35,8 +35,8 @@ struct Motion {
       for (std::size_t row = 0; row < all; ++row) nodes.push_back(row);
   }
 
-  /// Largest distance of the nodes from those of another file, by the extent of both; 0 where
-  /// either does not say where they are.
+  /// Largest distance of the nodes from those of another file, relative to the extent of both; 0 if
+  /// one of them has no positions.
   double apartFrom(const Motion& other) const {
     constexpr const char* places = "/model/position";
     if (!reader.has(places) || !other.reader.has(places)) return 0.0;
@@ -50,7 +50,7 @@ struct Motion {
     return extent > 0.0 ? apart / extent : 0.0;
   }
 
-  /// Leaves the motion of these nodes alone, which are recorded.
+  /// Keeps only the motion of these recorded nodes.
   void keep(const std::vector<std::size_t>& wanted) {
     if (wanted == nodes) return;
     displacement = ofNodes(displacement, nodes, wanted);
@@ -58,7 +58,7 @@ struct Motion {
     shape[1] = wanted.size();
   }
 
-  /// Displacements at rest of the nodes that are left.
+  /// Displacements at rest of the remaining nodes.
   std::vector<double> rest() const {
     const auto all = measured("/static/displacement");
     std::vector<std::size_t> rows(all.size() / width());
@@ -77,7 +77,8 @@ struct Motion {
 
   std::size_t width() const { return components.empty() ? shape.back() : components.size(); }
 
-  /// Of values of the nodes `from`, sample by sample, those of the nodes `wanted`; both increasing.
+  /// Selects the values of the nodes `wanted` from those of the nodes `from`, sample by sample;
+  /// both increase.
   std::vector<double> ofNodes(const std::vector<double>& values,
                               const std::vector<std::size_t>& from,
                               const std::vector<std::size_t>& wanted) const {
@@ -102,7 +103,7 @@ struct Motion {
   io::ResultsReader reader;
   std::vector<std::size_t> shape;
   std::vector<int> components;     ///< empty: a string
-  std::vector<std::size_t> nodes;  ///< that are recorded, rows of the arrays of /model
+  std::vector<std::size_t> nodes;  ///< recorded nodes, rows of the arrays of /model
   std::vector<double> time, displacement;
 };
 
@@ -125,8 +126,8 @@ std::string describeTimes(const std::string& folder, const Motion& motion,
                              formatNumber(times.back()) + " s";
 }
 
-/// Times that both motions were sampled at inside the window. UsageError when there are none, or
-/// others in one of them.
+/// Common sampling times of both motions inside the window. UsageError if there are none, or if one
+/// motion has additional times.
 std::vector<double> commonTimes(const ComparedFolders& folders, const Motion& motion,
                                 const Motion& reference, const Window& window) {
   const auto mine = timesInside(motion, window), theirs = timesInside(reference, window);
@@ -140,7 +141,7 @@ std::vector<double> commonTimes(const ComparedFolders& folders, const Motion& mo
   return mine;
 }
 
-/// All errors inside the window. UsageError when the motions cannot be measured against each other.
+/// All errors inside the window. UsageError when the motions cannot be compared.
 MotionErrors errorsOf(const Motion& motion, const Motion& reference, const Window& window,
                       std::vector<double> times) {
   try {
@@ -149,7 +150,8 @@ MotionErrors errorsOf(const Motion& motion, const Motion& reference, const Windo
             vibrationError(motion.view(), reference.view(), reference.rest(), window)};
   } catch (const FileError&) {
     throw;
-  } catch (const Error& refusal) {  // of the metrics: what the user's files hold cannot be measured
+  } catch (const Error& refusal) {  // thrown by the metrics: the files of the user cannot be
+                                    // compared
     throw UsageError(refusal.what());
   }
 }

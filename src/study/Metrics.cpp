@@ -30,7 +30,7 @@ Span span(const HistoryView& history, const Window& window) {
           static_cast<std::size_t>(last - history.time)};
 }
 
-/// The samples of both histories inside the window, proved to be of the same nodes and times.
+/// The samples of both histories inside the window, checked for equal nodes and times.
 struct Pair {
   const HistoryView& history;
   const HistoryView& reference;
@@ -72,7 +72,7 @@ struct Sums {
   double reference = 0.0;
 };
 
-/// Adds the mean of the judged components to a profile; nothing when none can be judged.
+/// Adds the mean of the judged components to a profile; nothing if none can be judged.
 void addMean(ErrorProfile& profile, double at, const std::vector<Sums>& sums) {
   double total = 0.0;
   int judged = 0;

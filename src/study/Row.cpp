@@ -75,7 +75,7 @@ double least(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::min_element(values.begin(), values.end());
 }
 
-/// The numbers of a row with their keys, once for writing and once for reading.
+/// Visits the numbers of a row with their keys, for both writing and reading.
 template <class Row, class Visit>
 void eachNumber(Row& row, const Visit& visit) {
   visit("modes", row.modes);

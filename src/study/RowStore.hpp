@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a study has done so far, kept in its folder so that a later one goes on where it stopped.
+/// Stored results of a study in its folder, so that a later one continues after an interruption.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace tooljoint::study {
 
-/// Host name and processor: times of another machine are not ours.
+/// Host name and processor; times of another machine are not comparable.
 std::string machineName();
 
 /// A motion of the nodes over time.
@@ -21,15 +21,15 @@ struct RecordedHistory {
   std::vector<double> time;          ///< [s]
   std::vector<double> displacement;  ///< samples x nodes x components [m]
   std::vector<double> bitSpeed;      ///< [rad/s]; empty without a bit
-  std::size_t components = 3;        ///< all of them are judged
-  std::size_t vibrating = 2;         ///< how many of them, from the first on, are the vibration
+  std::size_t components = 3;        ///< number of components, all judged
+  std::size_t vibrating = 2;         ///< number of leading components that are the vibration
   HistoryView view() const {
     return {time.data(), displacement.data(), time.size(), nodes,
             components,  components,          vibrating};
   }
 };
 
-/// Rows of a study or a map, and beside them files FOLDER/cache/reference_KEY.h5.
+/// Rows of a study or a map, and files FOLDER/cache/reference_KEY.h5.
 class RowStore : public cases::KeptRows {
  public:
   using KeptRows::KeptRows;

@@ -147,7 +147,8 @@ std::string table(const std::vector<StudyRow>& rows, const std::vector<Ratios>& 
 }
 
 std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ratios>& ratios) {
-  constexpr std::size_t widest = 30;  // of labels: lines of 100 columns; longer ones stand alone
+  constexpr std::size_t widest = 30;  // of labels: lines of 100 columns; longer labels get their
+                                      // own line
   std::size_t width = 20;
   for (const auto& row : rows)
     if (row.plan.label.size() <= widest) width = std::max(width, row.plan.label.size());

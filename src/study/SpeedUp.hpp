@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the best of several methods costs at a given error.
+/// Cost of the best of several methods at a given error.
 #pragma once
 
 #include <optional>
@@ -16,9 +16,9 @@ struct CostPoint {
   double cost = 0.0;
 };
 
-/// The lowest cost at which any of the lines reaches `error`: that of a run at most as wrong, or,
-/// where two neighbours of one line have errors on both sides, the straight line between them in
-/// log(error), log(cost). Nothing when no run is as good as `error`.
+/// The lowest cost at which any of the lines reaches `error`: that of a run with at most this
+/// error, or, between two neighbours of one line with errors on both sides, by linear interpolation
+/// in log(error), log(cost). None if no run reaches `error`.
 std::optional<double> bestCostAt(double error, const std::vector<CostPoint>& points);
 
 }  // namespace tooljoint::study

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double dynamicRange = 1e-6;  ///< 60 dB
 
-/// Mean density in bands a third of an octave wide, from the second line of the spectrum on.
+/// Mean density in third-octave bands, from the second line of the spectrum on.
 std::vector<double> thirdOctaves(const std::vector<double>& frequency,
                                  const std::vector<double>& spectrum) {
   std::vector<double> bands;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Statistics of a motion instead of its samples: for times at which two correct
-/// integrators no longer agree pointwise.
+/// Statistics of a motion in place of its samples: for times at which two correct integrators no
+/// longer agree pointwise.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace tooljoint::study {
 
-/// Fractions of the time below which the bit speed stays.
+/// Probabilities of the quantiles of the bit speed.
 constexpr std::array<double, 5> quantileLevels{0.05, 0.25, 0.5, 0.75, 0.95};
 
 struct MotionStatistics {
@@ -26,26 +26,26 @@ struct MotionStatistics {
 };
 
 /// Statistics of the samples inside the window. `bitSpeed` has one value per sample of the history,
-/// or none, `clearance` one per node (infinite where nothing can be touched). Spectra after P. D.
-/// Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70-73: halves of neighbouring segments
-/// overlap, Hann windows, segment means removed. Error(Internal) for other sizes or a window
-/// without samples.
+/// or none; `clearance` has one per node (infinite if it cannot touch anything). Spectra after P.
+/// D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70-73: neighbouring segments overlap by
+/// half, Hann windows, segment means removed. Error(Internal) for other sizes or a window without
+/// samples.
 MotionStatistics statisticsOf(const HistoryView& history, const std::vector<double>& bitSpeed,
                               const std::vector<double>& clearance, const Window& window);
 
-/// How far the statistics of one motion are from those of another.
+/// Differences between the statistics of two motions.
 struct StatisticsDifference {
   double bitSpeed = 0.0;    ///< largest difference of a quantile [rad/s]
   double dutyMax = 0.0;     ///< largest difference of the contact duty of a node
   double dutyMean = 0.0;    ///< mean over the nodes
   double lateralRms = 0.0;  ///< |rms - rms_ref| / |rms_ref| over the nodes
   double spectrum = 0.0;    ///< root mean square over third-octave bands of 10 lg(S/S_ref) [dB];
-                            ///< bands 60 dB below the highest left out
+                            ///< bands 60 dB below the highest omitted
 };
 
 StatisticsDifference difference(const MotionStatistics& motion, const MotionStatistics& reference);
 
-/// Value below which a fraction of the numbers lies, linear between neighbours.
+/// Value below which this fraction of the numbers lies, linear between neighbours.
 double quantile(std::vector<double> values, double fraction);
 
 }  // namespace tooljoint::study

@@ -9,16 +9,16 @@
 namespace tooljoint::study {
 namespace {
 
-/// A reduced run has the error of the full one while it is at most so much larger.
+/// A reduced run has the error of the full run if its error is at most this multiple of it.
 constexpr double sameError = 1.25;
-/// Errors are alike while the largest is at most so much larger than the smallest.
+/// Errors are alike if the largest is at most this multiple of the smallest.
 constexpr double alike = 1.1;
-/// An error says something of a run where it is larger than so many times that of the reference.
+/// An error is meaningful only if it exceeds this multiple of that of the reference.
 constexpr double aboveReference = 3.0;
 
-/// Runs that differ in their model alone.
+/// Runs that differ only in their model.
 struct Group {
-  const StudyRow* full = nullptr;  ///< that of the smallest error
+  const StudyRow* full = nullptr;  ///< with the smallest error
   std::vector<const StudyRow*> reduced;
 };
 
@@ -32,7 +32,7 @@ std::string errorsOf(double least, double largest) {
   return "a vibration error of " + (low + " %" == high ? high : low + " to " + high);
 }
 
-/// "" where the basis, or nothing known, limits the runs.
+/// The sentence for a group; "" if the basis limits the runs, or if the cause is unknown.
 std::string limitOf(const Group& group, double reference) {
   const auto& reduced = group.reduced;
   if (reduced.size() < 2) return "";

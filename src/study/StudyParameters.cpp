@@ -15,7 +15,7 @@ using deck::ListSpec;
 using deck::Range;
 using Texts = std::vector<std::string>;
 
-/// Runs of one method: the product of the values of its sweep.
+/// Largest number of runs of one method, the product of the values of its sweep.
 constexpr double mostRuns = 1e4;
 
 const char* const overrideDoc =
@@ -82,7 +82,7 @@ std::string labelOf(const Teuchos::ParameterList& list, const std::string& name)
   return list.isParameter("Label") ? list.get<std::string>("Label") : name;
 }
 
-/// First name of a path, "/" in front or not.
+/// First name of a path, with or without a leading "/".
 std::string firstList(const std::string& path) {
   return split(!path.empty() && path[0] == '/' ? path.substr(1) : path, '/')[0];
 }
@@ -120,7 +120,7 @@ class Reader {
     faults_.push_back(path + " " + sentence);
   }
 
-  /// Overrides must be ones, and leave alone what belongs to the whole study.
+  /// Checks that overrides are valid and do not change settings of the whole study.
   void checkOverrides(const Texts& overrides, const std::string& path) {
     for (const auto& text : overrides) {
       const bool removes = !text.empty() && text[0] == '!';

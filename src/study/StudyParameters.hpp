@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list `Study`: which runs to compare with which reference, and over which window.
+/// The deck list `Study`: runs to compare, their reference, and the window of comparison.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -12,14 +12,14 @@
 
 namespace tooljoint::study {
 
-/// One dimension of a method: a parameter of the deck and the values it takes.
+/// One dimension of a method: a parameter of the deck and its values.
 struct Dimension {
   std::string name;  ///< of its list
   std::string parameter;
   std::vector<std::string> values;
 };
 
-/// One line of the plots: overrides of the deck, and dimensions whose product makes its runs.
+/// One line of the plots: overrides of the deck, and dimensions whose product gives its runs.
 struct Method {
   std::string name;   ///< of its list
   std::string label;  ///< in tables and plots
@@ -28,7 +28,7 @@ struct Method {
   std::vector<Dimension> sweep;  ///< the last one varies first
 };
 
-/// Points somebody published, with the time of the machine they had.
+/// Published points, with the time of their machine.
 struct Published {
   std::string label;
   std::vector<double> cpu;    ///< CPU time per simulated second [s]
@@ -43,7 +43,8 @@ struct StudySettings {
   int repeats = 3;
   bool statistics = true;
   bool pictures = true;
-  int frequencies = 0;                 ///< how many coupled ones are compared with the full model's
+  int frequencies = 0;                 ///< number of coupled frequencies that are compared with the
+                                       ///< full model
   std::string baseline;                ///< label of a run; empty: none
   double perturbation = 1e-10;         ///< [m]; 0: no sensitivity
   std::optional<double> timeLimit;     ///< CPU seconds of one run
@@ -53,14 +54,14 @@ struct StudySettings {
   std::vector<Published> published;
 };
 
-/// Length of the window when the deck gives none [s].
+/// Length of the window if the deck gives none [s].
 constexpr double defaultWindow = 3.0;
 
 /// Description of the list `Study`.
 deck::ListSpec parameters();
 
-/// The list as plain values. DeckError with one line per fault: no method, an empty sweep, two
-/// labels alike, a reference without its check, overrides that are none.
+/// Typed values of the list. DeckError with one line per fault: no method, an empty sweep, two
+/// equal labels, a reference without its check, invalid overrides.
 StudySettings readStudy(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::study

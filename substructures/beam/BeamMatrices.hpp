@@ -23,9 +23,9 @@ Matrix12 stiffness(const Section& section, double length);
 /// dofs [kg, kg m, kg m2].
 Matrix12 mass(const Section& section, double length);
 
-/// C_ac of the kinetic energy Omega D' C_ac D' with density rho I_p theta_y dtheta_x/dt [kg m2]. On
-/// the left-hand side of the equation of motion stand Omega (C_ac' - C_ac) dD/dt and dOmega/dt
-/// C_ac' D.
+/// C_ac of the kinetic energy Omega D' C_ac D' with density rho I_p theta_y dtheta_x/dt [kg m2].
+/// The left-hand side of the equation of motion has Omega (C_ac' - C_ac) dD/dt and dOmega/dt C_ac'
+/// D.
 Matrix12 gyroscopic(const Section& section, double length);
 
 /// F_thetaz: rho I_p l/2 at theta_z of either end [kg m2]; the load is -dOmega/dt F_thetaz.
@@ -55,10 +55,10 @@ Vector12 distributedLoad(const Vector3& q, double length);
 /// frame E (columns are axes), so that K_nodal = R' K_element R.
 Matrix12 rotation12(const Matrix3& element, const Matrix3& node1, const Matrix3& node2);
 
-/// The same for what depends on slopes alone (geometric stiffness, loads along the element). The
-/// change of the axis a of a cross section is theta x a, to which the spin about a gives nothing:
-/// rotation12(...) of theta - (theta.a) a. Turned by rotation12 itself, the spin of a node tilts
-/// the chord of a curved element by theta_z kappa l/2. \param axis1, axis2 a of both ends in their
+/// The same for terms that depend on slopes only (geometric stiffness, loads along the element).
+/// The axis a of a cross section changes by theta x a, and the spin about a does not contribute:
+/// rotation12(...) of theta - (theta.a) a. With rotation12 itself, the spin of a node would tilt
+/// the chord of a curved element by theta_z kappa l/2. \param axis1, axis2  a of both ends in their
 /// nodal frames
 Matrix12 slopeRotation(const Matrix12& rotation, const Vector3& axis1, const Vector3& axis2);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Geometrically exact kinematics around a small-strain element: the frame on the chord takes the
-/// rigid motion, the rest is small. After Crisfield (1990) and Le, Battini, Hjiaj, Comput. Methods
-/// Appl. Mech. Engrg. 201-204 (2012).
+/// rigid motion, the remaining deformation is small. After Crisfield (1990) and Le, Battini, Hjiaj,
+/// Comput. Methods Appl. Mech. Engrg. 201-204 (2012).
 #pragma once
 
 #include "common/Types.hpp"
@@ -10,8 +10,8 @@
 
 namespace tooljoint::beam {
 
-/// Where the two nodes of an element are: positions, and rotation matrices whose columns are the
-/// nodal axes. An unstrained straight element has both triads equal to its own, z on the chord.
+/// Positions of the two nodes of an element and rotation matrices whose columns are the nodal axes.
+/// An unstrained straight element has both triads equal to its own, z on the chord.
 struct ElementPose {
   Vector3 position1;
   Vector3 position2;
@@ -19,7 +19,7 @@ struct ElementPose {
   Matrix3 triad2;
 };
 
-/// What the element answers in a pose.
+/// Forces and tangent of the element in a pose.
 struct CorotationalResponse {
   Matrix3 frame =
       Matrix3::Identity();  ///< E: z on the chord, x and y from the mean of the nodal y axes
@@ -56,7 +56,7 @@ class CorotationalElement {
   double torsionalStiffness_;               ///< G J/l0 of a beam
   Eigen::Matrix<double, 6, 6> rotational_;  ///< local moments against local rotations of both ends
   Matrix3 attach1_ =
-      Matrix3::Identity();  ///< turns the nodal triad into what was the element triad at rest
+      Matrix3::Identity();  ///< turns the nodal triad into the element triad of the state at rest
   Matrix3 attach2_ = Matrix3::Identity();
 };
 

@@ -27,10 +27,10 @@ std::vector<DofMap> nodalDofs(const std::vector<std::shared_ptr<const Element>>&
 
 namespace {
 
-/// Entries below this part of the largest one of their kind are rounding.
+/// Entries smaller than this fraction of the largest entry of their kind are rounding.
 constexpr double rounding = 1e-9;
 
-/// Scales rows and columns to one unit: lengths in those of the element.
+/// Scales rows and columns to one unit: lengths in multiples of the element length.
 Matrix12 scaled(const Matrix12& A, double length) {
   Vector12 unit;
   for (int i = 0; i < 12; ++i) unit[i] = i % 6 < 3 ? 1.0 : 1.0 / length;

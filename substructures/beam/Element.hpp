@@ -19,12 +19,12 @@
 
 namespace tooljoint::beam {
 
-/// Which of u, v, w, theta_x, theta_y, theta_z of its nodes an element has.
+/// Dofs u, v, w, theta_x, theta_y, theta_z that an element has at its nodes.
 using DofMap = std::array<bool, 6>;
 
 /// Two-node element between neighbouring nodes of the string. All matrices are 12 x 12 in the frame
-/// of the element (BeamMatrices.hpp), with zero rows and columns at dofs that dofs() leaves out.
-/// They are computed while equations are assembled, never in the step loop.
+/// of the element (BeamMatrices.hpp); rows and columns of dofs missing in dofs() are zero. Matrices
+/// are computed during assembly, never in the step loop.
 class Element {
  public:
   Element(const Section& section, double length) : section_(section), length_(length) {}
@@ -33,17 +33,17 @@ class Element {
   const Section& section() const { return section_; }
   double length() const { return length_; }  ///< l0, unstrained [m]
 
-  /// Dofs the element has; all unless overridden. The string holds a dof that no element at its
-  /// node has.
+  /// Dofs of the element; all unless overridden. The string holds the dofs that no element has at a
+  /// node.
   virtual DofMap dofs() const { return {true, true, true, true, true, true}; }
 
-  /// K_a: symmetric, no force in a rigid motion [N/m, N, N m]. Its entries of w and theta_z give
+  /// K_a: symmetric, no force in a rigid motion [N/m, N, N m]. Its entries for w and theta_z give
   /// the axial force and the torque of the static state.
   virtual Matrix12 stiffness() const = 0;
   /// M_a: symmetric [kg, kg m, kg m2].
   virtual Matrix12 mass() const = 0;
-  /// C_a: damping of its own, beside the Rayleigh damping of the deck; zero unless overridden
-  /// [N s/m, N s, N m s].
+  /// C_a: damping of the element, in addition to the Rayleigh damping of the deck; zero unless
+  /// overridden [N s/m, N s, N m s].
   virtual Matrix12 damping() const { return Matrix12::Zero(); }
   /// C_ac of the kinetic energy Omega D' C_ac D', as beam::gyroscopic [kg m2].
   virtual Matrix12 gyroscopic() const = 0;
@@ -65,16 +65,16 @@ class Element {
   double length_;
 };
 
-/// Which dofs each node of a chain of elements has: those of the one or two elements it joins.
+/// Dofs of each node of a chain of elements: those of the one or two elements that share the node.
 std::vector<DofMap> nodalDofs(const std::vector<std::shared_ptr<const Element>>& chain);
 
-/// Made from the parameters of its own, its section and its length [m].
+/// An element is made from its own parameters, its section and its length [m].
 using ElementRegistry =
     deck::Registry<Element, const Teuchos::ParameterList&, const Section&, double>;
 
-/// Registers an element under its name in the deck. `doc`: one sentence and the source it follows.
-/// Type is made from (section, length), or from (list of its own parameters, section, length).
-/// `const bool registered = addElement<Type>("Name", "...", parameters());`
+/// Registers an element under its name in the deck. `doc`: one sentence and the source of the
+/// element. The constructor of Type takes (section, length), or (list of its own parameters,
+/// section, length). `const bool registered = addElement<Type>("Name", "...", parameters());`
 template <class Type>
 bool addElement(const std::string& name, const std::string& doc, deck::ListSpec parameters = {}) {
   return ElementRegistry::instance().add(
@@ -87,20 +87,21 @@ bool addElement(const std::string& name, const std::string& doc, deck::ListSpec 
              }});
 }
 
-/// What a deck chooses: an element by name, with the parameters of its own.
+/// The element chosen in a deck: its name and its own parameters.
 struct ElementChoice {
   std::string name = "Timoshenko";
   Teuchos::ParameterList own;
 
-  /// DeckError for a name that is not registered, and what the element refuses. ModelError where
-  /// its mass or stiffness is not symmetric, or a rigid motion along or about the axis has forces.
+  /// DeckError for an unregistered name, and for parameters that the element rejects. ModelError if
+  /// mass or stiffness is not symmetric, or if a rigid motion along or about the axis causes
+  /// forces.
   std::shared_ptr<const Element> make(const Section& section, double length) const;
 };
 
-/// Declares the choice `Element` and the lists of elements with parameters of their own.
+/// Declares the choice `Element` and the lists of elements that have their own parameters.
 void declareElement(deck::ListSpec& list, deck::Default chosen, const std::string& doc);
-/// The choice of a validated list; `standard` where the list gives none. DeckError when the list of
-/// an element with required parameters is missing.
+/// The choice of a validated list; `standard` if the list has none. DeckError when the list of an
+/// element with required parameters is missing.
 ElementChoice readElement(const Teuchos::ParameterList& list, const ElementChoice& standard);
 
 }  // namespace tooljoint::beam

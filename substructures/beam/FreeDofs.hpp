@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The unknowns of a string: the dofs of its nodes that nothing holds, numbered node by node.
+/// The unknowns of a string: its free (not held) nodal dofs, numbered node by node.
 #pragma once
 
 #include <vector>
@@ -16,21 +16,20 @@ class FreeDofs {
   FreeDofs(int perNode, const std::vector<char>& held);
 
   int size() const { return sizeOf(dof_); }
-  /// Of a dof its unknown, -1 where it is held; of an unknown its dof, its node and its place in
-  /// the node.
+  /// unknown(): unknown of a dof, -1 if the dof is held. The others take an unknown: its dof, its
+  /// node and its component in the node.
   int unknown(int dof) const { return unknown_[at(dof)]; }
   int dof(int unknown) const { return dof_[at(unknown)]; }
   int node(int unknown) const { return dof(unknown) / perNode_; }
   int component(int unknown) const { return dof(unknown) % perNode_; }
-  /// Unknowns of all dofs of the nodes `first` and `first + 1`, -1 where held.
+  /// Unknowns of all dofs of the nodes `first` and `first + 1`, -1 for held dofs.
   std::vector<int> ofElement(int first) const;
 
-  /// The free entries of a vector of all dofs, and a vector of all dofs that has them at its free
-  /// ones.
+  /// restrict(): the free entries of a vector of all dofs. put(): writes them into such a vector.
   Vector restrict(const Vector& full) const;
   void put(const Vector& x, Vector& full) const;
 
-  /// Of model::ChainProblem.
+  /// As in model::ChainProblem.
   std::vector<int> firstOfNodes() const;
   /// Nodes begin ... end - 1.
   struct Nodes {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Sparse matrix of a mesh: the pattern is found once, entries are then added in place without
+/// Sparse matrix of a mesh: the pattern is computed once, then entries are added in place without
 /// searching.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace tooljoint::beam {
 
-/// Assembles element matrices into one fixed pattern. Unknown -1 marks a held dof, whose rows and
-/// columns are left out.
+/// Assembles element matrices into one fixed pattern. Unknown -1 marks a held dof; its row and
+/// column are omitted.
 class SparseAssembler {
  public:
   SparseAssembler() = default;
@@ -25,7 +25,7 @@ class SparseAssembler {
     return unknowns_[static_cast<std::size_t>(element)];
   }
 
-  /// Gives `matrix` the pattern (unless it has it already) and sets all entries to zero.
+  /// Gives `matrix` the pattern (if it does not have it yet) and sets all entries to zero.
   void clear(Sparse& matrix) const;
 
   /// matrix += element matrix (local dofs x local dofs); `matrix` must have been cleared by this

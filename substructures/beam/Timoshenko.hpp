@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The beam element of the string: Timoshenko, or Euler-Bernoulli where its section does not deform
-/// in shear.
+/// The beam element of the string: Timoshenko, or Euler-Bernoulli for a section without shear
+/// deformation.
 #pragma once
 
 #include "substructures/beam/Element.hpp"
 
 namespace tooljoint::beam {
 
-/// The closed forms of BeamMatrices.hpp. An element that differs in a few matrices derives from it.
+/// The closed forms of BeamMatrices.hpp. An element that differs in a few matrices derives from
+/// this one.
 class Timoshenko : public Element {
  public:
   using Element::Element;

@@ -5,12 +5,12 @@
 /// 2020, eqs. (6)-(9).
 ///
 ///     r = sqrt(u^2 + v^2 + e^2),  n = (u, v)/r,  t = (-v, u)/r,  G = r - j0,  G' = n.(u', v')
-///     force  -F_n n - mu(v_g) F_n t,  torque  -mu(v_g) F_n R_c,  v_g = t.(u', v') + (Omega +
-///     theta_z') R_c
+///     force  -F_n n - mu(v_g) F_n t,  torque  -mu(v_g) F_n R_c
+///     v_g = t.(u', v') + (Omega + theta_z') R_c
 ///
 /// with F_n(G, G') of the contact law. e = 1e-9 m keeps forces and tangents finite on the axis,
 /// where n has no direction. With axial friction the same coefficient acts against the whole
-/// sliding velocity, of a string that the frame of its displacements carries along at the speed U:
+/// sliding velocity. U is the speed of the frame in which displacements are measured:
 ///
 ///     v_a = U + w',  v = sqrt(v_g^2 + v_a^2),  force  -F_n n - mu(v) F_n (v_g/v t + v_a/v e_w)
 #pragma once
@@ -25,8 +25,8 @@
 
 namespace tooljoint::contact {
 
-/// A law whose tail (the force on a node far from the wall) is below this [N] lets nodes be
-/// skipped.
+/// Nodes are skipped in the contact loop if the force of the law on a distant node is below this
+/// [N].
 inline constexpr double negligibleForce = 1e-3;
 
 /// Components of a node (0-based, of u, v, w, theta_x, theta_y, theta_z) that a contact law of this
@@ -41,19 +41,20 @@ using RotarySpeed = std::function<double(double)>;
 
 /// How the string slides along the hole.
 struct AxialSliding {
-  double feed = 0.0;      ///< U of the frame in which w counts, down positive [m/s]
-  bool friction = false;  ///< of the laws of the normal force; point laws have their own
+  double feed = 0.0;      ///< U of the frame in which w is measured, down positive [m/s]
+  bool friction = false;  ///< of the laws of the normal force; point laws have their own friction
 };
 
-/// width() = 3: u [m], v [m], theta_z [rad]; forces F_u [N], F_v [N], T_z [N m]; with axial
-/// friction 4, w and F_w between them.
+/// width() = 3: u [m], v [m], theta_z [rad]; forces F_u [N], F_v [N], T_z [N m]. With axial
+/// friction width() = 4: w and F_w come between them.
 ///
-/// Channels: normal_force [N] (F_n, positive pushes the string away from the wall), gap [m] (j0 -
-/// r, negative in contact), and with friction tangential_force [N] (component along t) and
-/// friction_torque [N m], with axial friction axial_friction [N]. Power: stored energy relative to
-/// G = 0, losses F_n G' beyond the elastic part and mu F_n v, drive mu F_n (v_g/v Omega R_c + v_a/v
-/// U), so that d(stored)/dt + damping + friction - drive = -(force . velocity). A batch without
-/// friction has neither the friction channels nor any friction arithmetic.
+/// Channels: normal_force [N] (F_n, positive pushes the string away from the wall) and gap [m] (j0
+/// - r, negative in contact); with friction tangential_force [N] (component along t) and
+/// friction_torque [N m]; with axial friction axial_friction [N]. Power: stored energy relative to
+/// G = 0; losses are F_n G' without the elastic part, and mu F_n v; drive
+/// mu F_n (v_g/v Omega R_c + v_a/v U), so that
+/// d(stored)/dt + damping + friction - drive = -(force . velocity). A batch without friction has
+/// neither friction channels nor friction arithmetic.
 class BoreholeContact : public model::PointLaw {
  public:
   explicit BoreholeContact(ContactPoints points) : points_(std::move(points)) {}

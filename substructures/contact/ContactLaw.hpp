@@ -18,8 +18,7 @@ class ParameterList;
 
 namespace tooljoint::contact {
 
-/// A law of the normal force, from which the batches for the motion and for the static problem are
-/// made.
+/// A law of the normal force. It makes the batches for the motion and for the static problem.
 class ContactLaw {
  public:
   virtual ~ContactLaw() = default;
@@ -31,7 +30,7 @@ class ContactLaw {
   }
   /// Contact and full sliding at rest.
   virtual std::shared_ptr<const StaticContact> atRest(ContactPoints points) const = 0;
-  /// False where the friction of the law begins with the motion: atRest() has none.
+  /// False if the friction of the law acts in motion only: atRest() has none.
   virtual bool hasFrictionAtRest() const { return true; }
 
  private:
@@ -43,8 +42,8 @@ class ContactLaw {
 /// Laws by name; each gets its own sublist (empty when the law has no parameters of its own).
 using LawRegistry = deck::Registry<ContactLaw, const Teuchos::ParameterList&>;
 
-/// A law without a deck, with the default values of its own parameters. Throws DeckError for an
-/// unknown name.
+/// A law without a deck, with the default values of its parameters. Throws DeckError for an unknown
+/// name.
 std::shared_ptr<const ContactLaw> makeLaw(const std::string& name);
 
 }  // namespace tooljoint::contact

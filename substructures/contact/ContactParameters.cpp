@@ -21,7 +21,7 @@ void take(const Teuchos::ParameterList& list, const char* name, double& value) {
   if (list.isParameter(name)) value = list.get<double>(name);
 }
 
-/// Overrides `values` by what the list (the base list or an interval) gives.
+/// Overrides `values` by the values of the list (the base list or an interval).
 void takeValues(const Teuchos::ParameterList& list, ContactPoint& values) {
   take(list, "Stiffness", values.stiffness);
   take(list, "Damping", values.damping);

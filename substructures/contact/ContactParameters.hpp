@@ -22,14 +22,14 @@ struct ContactInterval {
   ContactPoint values;
 };
 
-/// What the list `Contact` says.
+/// The values of the list `Contact`.
 struct ContactSettings {
   std::string lawName = "Clamped";
   std::shared_ptr<const ContactLaw> law;
   ContactPoint values;                     ///< outside the intervals
   std::vector<ContactInterval> intervals;  ///< by depth, not overlapping
   bool friction = false;                   ///< any friction anywhere
-  bool axialFriction = false;              ///< it acts against sliding along the hole too
+  bool axialFriction = false;              ///< friction acts against sliding along the hole too
 
   /// Parameters at the depth s [m] for a node (1-based) with this clearance and contact radius [m].
   ContactPoint pointAt(double s, int node, double clearance, double contactRadius) const;
@@ -38,7 +38,7 @@ struct ContactSettings {
 /// Description of the list `Contact`.
 deck::ListSpec parameters();
 
-/// Settings of a validated list `Contact`. Throws DeckError for what no single parameter shows:
+/// Settings of a validated list `Contact`. Throws DeckError for conflicts between parameters:
 /// dynamic friction above static friction, overlapping intervals.
 ContactSettings readContact(const Teuchos::ParameterList& list);
 

@@ -35,19 +35,19 @@ struct ContactPoints {
   std::vector<double> regularisationVelocity;
 
   int size() const { return static_cast<int>(node.size()); }
-  /// Append a point. Throws DeckError when a parameter makes no sense (muDynamic above muStatic, a
-  /// negative stiffness ...).
+  /// Appends a point. Throws DeckError for invalid parameters (muDynamic above muStatic, a negative
+  /// stiffness ...).
   void add(const ContactPoint& point);
   ContactPoint at(int i) const;
   /// The points at these 0-based positions.
   ContactPoints subset(const std::vector<int>& positions) const;
-  /// No point has friction.
+  /// True if no point has friction.
   bool frictionless() const;
-  /// The same points with mu_s replaced by mu(v), v = hypot(Omega R_c, v_a), of eq. (9): what a
-  /// section that turns at Omega [rad/s] and moves along the hole at v_a [m/s], but not sideways,
-  /// slides with. For StaticContact, which knows mu_s alone.
+  /// The same points with mu_s replaced by mu(v) of eq. (9), v = hypot(Omega R_c, v_a): the sliding
+  /// speed of a section that turns at Omega [rad/s] and moves along the hole at v_a [m/s], but not
+  /// sideways. For StaticContact, which uses mu_s only.
   ContactPoints slidingAt(double omega, double axialSpeed = 0.0) const;
-  /// The same points with mu_s replaced by mu_d: what slides fast.
+  /// The same points with mu_s replaced by mu_d: the coefficient of fast sliding.
   ContactPoints slidingFast() const;
 };
 

@@ -36,7 +36,7 @@ class EccentricAtRest final : public StaticContact {
   Eigen::Vector2d offset(int point) const override { return offsets_[at(point)]; }
 
  private:
-  /// Row of T_z += o_u row of F_v - o_v row of F_u; each has so many columns.
+  /// Row of T_z += o_u row of F_v - o_v row of F_u; each row has `columns` entries.
   static void addTorque(const Eigen::Vector2d& o, int columns, double* rows) {
     for (int c = 0; c < columns; ++c)
       rows[3 * columns + c] += o.x() * rows[columns + c] - o.y() * rows[c];
@@ -133,8 +133,8 @@ class EccentricInMotion final : public model::PointLaw,
     return shifted.data();
   }
 
-  /// The last row of `rows` (F_u, F_v, perhaps F_w, T_z, each with so many columns) += o_u row 1 -
-  /// o_v row 0.
+  /// The last row of `rows` (F_u, F_v, perhaps F_w, T_z, each with `columns` entries) += o_u row 1
+  /// - o_v row 0.
   void addTorque(int point, double* rows, int columns) const {
     const Eigen::Vector2d& o = offsets_[at(point)];
     for (int c = 0; c < columns; ++c)

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Turns a kernel of the normal force into a contact law. Included by the laws' own files only.
+/// Turns a kernel of the normal force into a contact law. Included only by the files of the laws.
 ///
 /// A kernel is a class with
-///   void prepare(const ContactPoints&)                               constants per point, once
-///   double forceOnly(size_t i, double G, double rate) const          F_n
-///   NormalForce force(size_t i, double G, double rate) const         F_n and its derivatives
-///   double elastic(size_t i, double G, double lambda, double& dG) const   F_n at rest and its
-///   derivative; lambda 0 = the
-///                                                                    point's own regularisation
-///   double pull(size_t i, double lambda) const                       what an open point is pulled
-///   with at most double energy(size_t i, double G) const                          int_0^G of the
-///   elastic part double skin(size_t i) const                                      gap beyond which
-///   the force is negligible [m];
-///                                                                    infinite when it never is
+///
+///     void prepare(const ContactPoints&)
+///         constants per point, once
+///     double forceOnly(size_t i, double G, double rate) const
+///         F_n
+///     NormalForce force(size_t i, double G, double rate) const
+///         F_n and its derivatives
+///     double elastic(size_t i, double G, double lambda, double& dG) const
+///         F_n at rest and its derivative; lambda 0 = the point's own regularisation
+///     double pull(size_t i, double lambda) const
+///         largest force that pulls an open point to the wall
+///     double energy(size_t i, double G) const
+///         int_0^G of the elastic part
+///     double skin(size_t i) const
+///         gap beyond which the force is negligible [m]; infinite when it never is
 #pragma once
 
 #include <algorithm>
@@ -35,8 +39,8 @@ namespace tooljoint::contact {
 
 using constants::pi;
 
-/// atan2(1, -x) = pi/2 + atan(x) without cancellation for large negative x; by its asymptote for
-/// |x| > 32, where the first term left out is below 1e-19.
+/// atan2(1, -x) = pi/2 + atan(x) without cancellation for large negative x. For |x| > 32 by its
+/// asymptote; the first omitted term is below 1e-19.
 inline double risingAngle(double x) {
   const double size = std::abs(x);
   if (size < 32.0) return std::atan2(1.0, -x);
@@ -64,7 +68,7 @@ using model::FrictionCurve;
 using model::NormalForce;
 using model::SlidingVelocity;
 
-/// \tparam Axial  friction against sliding along the hole too; without it nothing of it is
+/// \tparam Axial  friction against sliding along the hole too; without it no axial term is
 /// evaluated
 template <class Kernel, bool Axial>
 class BoreholeContactOf final : public BoreholeContact,
@@ -74,7 +78,7 @@ class BoreholeContactOf final : public BoreholeContact,
   static constexpr int W = Axial ? 4 : 3;  ///< coordinates: u, v, (w,) theta_z
   static constexpr int Z = W - 1;
 
-  /// `feed` [m/s]: of the frame, for axial friction.
+  /// `feed`: speed of the frame, for axial friction [m/s].
   BoreholeContactOf(ContactPoints points, Kernel kernel, RotarySpeed speed, double feed)
       : BoreholeContact(std::move(points)),
         original_(kernel),
@@ -225,7 +229,7 @@ class BoreholeContactOf final : public BoreholeContact,
       return {around, 0.0};
   }
 
-  /// Friction over the normal force, against the components of the sliding velocity.
+  /// Friction divided by normal force, against the components of the sliding velocity.
   struct Coefficient {
     double around, along;
   };
@@ -266,8 +270,8 @@ class BoreholeContactOf final : public BoreholeContact,
     return slides ? 1 : 0;
   }
 
-  /// Forces and tangents; `N` is the normal force, `T` = mu N the traction against t, `along` N
-  /// that along the hole. Returns 1 when friction was evaluated.
+  /// Forces and tangents. `N` is the normal force, `T` = mu N the traction against t, `along` N the
+  /// traction along the hole. Returns 1 when friction was evaluated.
   int tangent(std::size_t i, double omega, const double* d, const double* v, double* f,
               double* dfdd, double* dfdv) const {
     const WallKinematics at = where(i, d, v);
@@ -297,14 +301,14 @@ class BoreholeContactOf final : public BoreholeContact,
     duDot[1] = -NvDot * nu;
     dvDot[0] = -NuDot * nv;
     dvDot[1] = -NvDot * nv;
-    // outside the skin of a clamped law nothing acts and nothing changes
+    // outside the skin of a clamped law force and tangents are zero
     if (frictionless_ || friction_[i].h == 0.0 ||
         (N == 0.0 && normal.dG == 0.0 && normal.dRate == 0.0))
       return 0;
 
     const double radius = points_.contactRadius[i];
     const SlidingVelocity sliding = slidingAt(i, at, omega, v);
-    double mu = 0.0, slope = 0.0;  // of the traction around, and by v_c
+    double mu = 0.0, slope = 0.0;  // of the traction around; slope by v_c
     double along = 0.0, cross = 0.0, alongSlope = 0.0;
     if constexpr (Axial) {
       const model::SlidingFriction both(friction_[i], sliding);
@@ -392,7 +396,7 @@ class StaticContactOf final : public StaticContact {
   }
 
  private:
-  /// F_n and its derivative, lifted by the part of the pull that is left out.
+  /// F_n and its derivative; the force is raised by the fraction 1 - pull of the attraction.
   double elastic(const Options& options, std::size_t i, double G, double& dG) const {
     const double force = kernel_.elastic(i, G, options.lambda, dG) +
                          (1.0 - options.pull) * kernel_.pull(i, options.lambda);

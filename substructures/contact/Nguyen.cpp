@@ -64,8 +64,7 @@ class NguyenKernel {
 
   double skin(std::size_t i) const {
     const Constants& at = constants_[i];
-    // tails: k/(pi b) and, at 1 m/s and a gap g, c/(pi b g), both in the k/pi, c/pi of the
-    // constants
+    // tails: k/(pi b) and, at 1 m/s and a gap g, c/(pi b g); Constants holds k/pi and c/pi
     if (at.k / at.bk > negligibleForce) return std::numeric_limits<double>::infinity();
     return at.c / (at.bc * negligibleForce);
   }

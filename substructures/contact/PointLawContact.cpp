@@ -16,8 +16,8 @@
 namespace tooljoint::contact {
 namespace {
 
-constexpr int most = 3;  ///< coordinates of a law here
-constexpr int W = 4;     ///< of a node: u, v, w, theta_z
+constexpr int most = 3;  ///< largest number of coordinates of a contact law
+constexpr int W = 4;     ///< coordinates of a node: u, v, w, theta_z
 using Map = Eigen::Matrix<double, Eigen::Dynamic, W, Eigen::RowMajor, most, W>;
 using RowsOut = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
@@ -112,7 +112,8 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
     Power sum = with_ != nullptr ? with_->powers(t, points, y_.data(), yDot_.data(), x, xDot)
                                  : law_->power(t, points, y_.data(), yDot_.data());
     if (n_ == 1) return sum;
-    // rotary drive and block move y_1 and y_2 without the node: their forces do work on the law
+    // rotary drive and block change y_1 and y_2 without motion of the node: their forces do work on
+    // the law
     lawForces(t, points, d, v, x, rates_.data());
     const double omega = speed_(t);
     for (int p : points) {
@@ -219,13 +220,13 @@ class PointLawInBore final : public model::StatefulPointLaw, public model::Turni
   double feed_;
   int n_;
   std::vector<int> all_;
-  // of the law in one evaluation
+  // values of the law in one evaluation
   mutable std::vector<double> y_, yDot_, force_, rates_;
   mutable model::StateTangentArrays tangents_;
 };
 
-/// At rest in the initial state. What slides around has no velocity there: the friction of such a
-/// law begins with the motion.
+/// The law at rest in its initial state. The sliding velocity around the hole is zero there: the
+/// friction of such a law begins with the motion.
 class PointLawAtRest final : public StaticContact {
  public:
   PointLawAtRest(ContactPoints points, std::shared_ptr<const model::PointLaw> law)
@@ -244,7 +245,8 @@ class PointLawAtRest final : public StaticContact {
           -WallKinematics(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[at(p)]).penetration;
     law_->evaluateWithTangent(0.0, all_, y.data(), still.data(), f.data(), fd.data(), fv.data());
     if (slope != nullptr && model::stateful(*law_) != nullptr) {
-      // the state is that of each place, so the slope is not that of a state that is held
+      // the initial state depends on the position, so this slope differs from that at constant
+      // state
       const auto ahead = forcesAt(y, slopeStep), behind = forcesAt(y, -slopeStep);
       for (int p = 0; p < size(); ++p)
         fd[at(n * n * p)] = (ahead[at(n * p)] - behind[at(n * p)]) / (2 * slopeStep);
@@ -265,7 +267,7 @@ class PointLawAtRest final : public StaticContact {
     return f;
   }
 
-  static constexpr double slopeStep = 1e-8;  ///< of central differences [m]
+  static constexpr double slopeStep = 1e-8;  ///< step of central differences [m]
   std::shared_ptr<const model::PointLaw> law_;
   std::vector<int> all_;
 };

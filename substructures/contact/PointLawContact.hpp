@@ -6,8 +6,8 @@
 ///     y_1, with y_1' = t.(u', v') + (Omega + theta_z') R_c   sliding around; has no displacement
 ///     y_2 = w + U t                                     sliding along, U the speed of the block
 ///
-/// as many as it takes, and its forces f on them are forces J'f at the node, J = dy'/d(u', v', w',
-/// theta_z').
+/// A law takes the first one, two or three of them. Its forces f act as J'f at the node,
+/// J = dy'/d(u', v', w', theta_z').
 #pragma once
 
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Contact and fully developed sliding friction of a string at rest that turns in its hole or moves
-/// along it. Nguyen et al. 2020, eqs. (21), (22), with the friction against the direction of
-/// sliding.
+/// Contact and fully developed sliding friction in the static state of a string that turns in its
+/// hole or moves along it. Nguyen et al. 2020, eqs. (21), (22), with the friction against the
+/// direction of sliding.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 
 namespace tooljoint::contact {
 
-/// How a string at rest slides on the wall: what friction acts against.
+/// Sliding velocity of the string on the wall in the static state; friction acts against it.
 struct Sliding {
   double axialSpeed = 0.0;   ///< v_a, down positive [m/s]
   double rotarySpeed = 0.0;  ///< Omega [rad/s]
 
   bool any() const { return axialSpeed != 0.0 || rotarySpeed != 0.0; }
   /// (v_a, v_c)/v with v_c = Omega R_c, v = sqrt(v_a^2 + v_c^2), of a surface with this radius [m];
-  /// zero where nothing slides. A string that only turns has (0, +-1) at any radius.
+  /// zero without sliding. A string that only turns has (0, +-1) at any radius.
   std::pair<double, double> direction(double radius) const;
 };
 
@@ -29,18 +29,18 @@ struct Sliding {
 ///
 ///     force  -F_n n - mu_s F_n (v_c/v t + v_a/v e_w),   torque  -mu_s F_n R_c v_c/v,
 ///
-/// F_n the elastic part of the contact law.
+/// where F_n is the elastic part of the contact law.
 class StaticContact {
  public:
   struct Options {
     double lambda =
-        0.0;  ///< stiffness regularisation used for every point [1/m]; 0 = the points' own
-    double frictionScale = 1.0;   ///< factor on mu_s: 0 without friction, 1 in full
-    double stiffnessScale = 1.0;  ///< softens the wall on the way to the solution
+        0.0;  ///< stiffness regularisation of all points [1/m]; 0 = each point's own value
+    double frictionScale = 1.0;   ///< factor on mu_s: 0 without friction, 1 with full friction
+    double stiffnessScale = 1.0;  ///< factor on the wall stiffness in intermediate stages
     double pull =
-        1.0;  ///< share of what the law pulls open points with: 0 = a wall that only pushes
+        1.0;  ///< fraction of the attraction of open points by the law: 0 = a wall that only pushes
     Sliding sliding{0.0, 1.0};
-    /// Points that are wanted, first ... last - 1: what is given for others is of no use.
+    /// Points to evaluate, first ... last - 1; results of other points are not used.
     int first = 0, last = std::numeric_limits<int>::max();
 
     int end(int points) const { return std::min(last, points); }
@@ -64,10 +64,10 @@ class StaticContact {
   virtual void normalForce(const Options& options, const double* uv, double* force,
                            double* slope = nullptr) const = 0;
 
-  /// What the law pulls an open point with at most [N]; 0 where it never does.
+  /// Largest force that pulls an open point to the wall [N]; 0 for laws without attraction.
   virtual double largestPull() const = 0;
 
-  /// Centre of contact of a point from the axis of the string [m].
+  /// Centre of contact of a point relative to the axis of the string [m].
   virtual Eigen::Vector2d offset(int /*point*/) const { return Eigen::Vector2d::Zero(); }
 
  protected:

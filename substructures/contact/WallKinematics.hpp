@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Where a point of a section is against the round wall of the hole, and what contact there is
-/// recorded as.
+/// Position of a point of a section relative to the round wall of the hole, and the channels that
+/// record contact.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace tooljoint::contact {
 /// e of the regularised radius [m].
 inline constexpr double axisRadius = 1e-9;
 
-/// Where a point is: directions, penetration and its rate, tangential velocity.
+/// Position and motion of a point: directions, penetration and its rate, tangential velocity.
 struct WallKinematics {
   double nu, nv, inverse, penetration, rate, slip;
   WallKinematics(double u, double v, double uDot, double vDot, double clearance) {
@@ -28,8 +28,8 @@ struct WallKinematics {
   }
 };
 
-/// normal_force and gap; with friction tangential_force and friction_torque, with friction along
-/// the hole axial_friction too.
+/// normal_force and gap; tangential_force and friction_torque with friction; axial_friction with
+/// friction along the hole.
 inline std::vector<model::Channel> contactChannels(bool friction, bool axial = false) {
   std::vector<model::Channel> list = {
       {"normal_force", "N", "Normal contact force; positive pushes the string away from the wall"},

@@ -17,14 +17,14 @@ using deck::Optional;
 using deck::Range;
 using deck::Required;
 
-/// Lines of stiffness k between a block and the string. With the block ahead of its frame by x and
-/// the sum e of what the weight lacks,
+/// Lines of stiffness k between a block and the string. The block is ahead of its frame by x, and e
+/// is the integral of the missing weight:
 ///
-///     f = F_0 - k (w - x),   W = W_0 + f - F_0   (a line that gives way puts weight on the bit)
+///     f = F_0 - k (w - x),   W = W_0 + f - F_0   (a slack line puts weight on the bit)
 ///     u = k_p (W_set - W) + k_i e,   x' = u within -feed ... fastest - feed
 ///     e' = W_set - W + (x' - u)/k_p
 ///
-/// with anti-windup by back-calculation as in the law Speed Control. A block never goes up.
+/// with anti-windup by back-calculation as in the law Speed Control. The block never goes up.
 struct Lines : model::Formula<1, 2> {
   static constexpr bool walls = false;
   double k, kp, ki, F0, lack;  ///< lack: W_set - W_0 [N]

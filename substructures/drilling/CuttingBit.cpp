@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drag bits whose depth of cut depends on the passage of the blade before.
+// Drag bits. The depth of cut depends on the passage of the previous blade.
 #include <Teuchos_ParameterList.hpp>
 #include <memory>
 

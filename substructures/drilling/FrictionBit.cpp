@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bits that resist by friction under the weight of the deck.
+// Bits that resist by friction under the weight given in the deck.
 #include <Teuchos_ParameterList.hpp>
 #include <memory>
 

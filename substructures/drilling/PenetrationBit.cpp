@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bit whose weight and torque follow its rate of penetration.
+// A bit whose weight and torque depend on its rate of penetration.
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
@@ -22,11 +22,11 @@ namespace source {
 constexpr double a1 = 3.429e-3, a2 = 5.672e-8, a3 = 1.374e-4, a4 = 9.537e6, a5 = 1.475e3;
 }
 
-/// In the advance v and the speed w of the bit, Z = w/sqrt(w^2 + e^2):
+/// With the advance v and the speed w of the bit, Z = w/sqrt(w^2 + e^2):
 ///
 ///     W = v/(a_2 Z^2) - a_3 w/(a_2 Z) + a_1/a_2,   T = v a_4 Z^2/w + a_5 Z
 ///
-/// with w/Z = sqrt(w^2 + e^2) and Z^2/w = w/(w^2 + e^2), which hold at w = 0 too. Z^2 of the
+/// with w/Z = sqrt(w^2 + e^2) and Z^2/w = w/(w^2 + e^2), which are finite at w = 0 too. Z^2 in the
 /// denominator is at least `floor`.
 struct Penetration : model::Formula<2> {
   static constexpr bool walls = false;
@@ -41,7 +41,7 @@ struct Penetration : model::Formula<2> {
     f[0] = -(v / (a2 * Z2) - a3 * root / a2 + a1 / a2);
     f[1] = -(v * a4 * w / square + a5 * Z);
   }
-  /// Everything the rock takes is lost.
+  /// All power given to the rock is lost.
   Power power(const model::PointAt<double>& at, const double*) const {
     return model::lostPower(*this, at);
   }
@@ -80,7 +80,7 @@ class TuckerWang final : public BitLaw {
 
  private:
   Penetration law_;
-  bool ofSource_;  ///< rock and bit are those of the source, fitted to these weights
+  bool ofSource_;  ///< rock and bit of the source, fitted to these weights
 };
 
 const bool penetrationBitRegistered = addBitLaw<TuckerWang>(

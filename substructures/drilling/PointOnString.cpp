@@ -101,7 +101,7 @@ class LawInFrame final : public model::StatefulPointLaw {
   std::shared_ptr<const model::PointLaw> law_;
   const model::StatefulPointLaw* with_;
   std::vector<RateChannel> recorded_;
-  // of one evaluation
+  // values of one evaluation
   mutable std::vector<double> y_, yDot_, force_, rates_;
 };
 

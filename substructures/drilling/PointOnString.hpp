@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A point law on dofs of one node of the string, whose displacements are measured in a frame that
-/// moves: it turns with the set speed of the drive and advances with the block.
+/// A point law on dofs of one node of the string. Displacements of the string are measured in a
+/// moving frame: it turns with the set speed of the drive and advances with the block.
 #pragma once
 
 #include <functional>
@@ -24,19 +24,19 @@ using FrameMotion = std::function<FramePosition(double t)>;
 struct StringCoordinate {
   int component = 0;       ///< 0-based, of the node
   FrameMotion frame = {};  ///< none: the law acts on the displacement itself
-  model::Channel channel;  ///< what of it is recorded: `sign` times the force
+  model::Channel channel;  ///< recorded quantity: `sign` times the force
   double sign = 1.0;
-  double offset = 0.0;  ///< added to it
+  double offset = 0.0;  ///< added to the recorded value
 };
 
-/// A rate of a state of the law that is recorded, with what is added to it.
+/// A recorded rate of a state of the law, with a constant added.
 struct RateChannel {
   int state = 0;  ///< 0-based, of the rated ones
   model::Channel channel;
   double offset = 0.0;
 };
 
-/// A law at a node; what StringModel adds to the equations of motion.
+/// A law at a node. StringModel adds it to the equations of motion.
 struct PointOnString {
   std::string name;  ///< of the point set
   int node = 0;      ///< 0-based
@@ -44,9 +44,8 @@ struct PointOnString {
   std::shared_ptr<const model::PointLaw> law;
 };
 
-/// The channels of the coordinates come first, then those of the rates. The law in total
-/// coordinates y = d + s(t), y' = v + s'(t). The power of the frame, -f s', is counted as that of
-/// the drive.
+/// The law in total coordinates y = d + s(t), y' = v + s'(t). The channels of the coordinates come
+/// first, then those of the rates. The power of the frame, -f s', is counted as power of the drive.
 PointOnString onString(const std::string& name, int node,
                        const std::vector<StringCoordinate>& coordinates,
                        std::shared_ptr<const model::PointLaw> law,

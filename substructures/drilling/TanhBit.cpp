@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bit that resists by a smooth curve of its speed, without a velocity of regularisation.
+// A bit that resists by a smooth function of its speed, without a regularisation velocity.
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
 #include <memory>

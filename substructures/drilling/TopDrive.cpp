@@ -24,7 +24,7 @@ using deck::Range;
 struct Control {
   DriveControl control;
   const char* name;
-  std::vector<std::string> needs, takes;  ///< parameters beside those every control takes
+  std::vector<std::string> needs, takes;  ///< in addition to the parameters of every control
 };
 
 const std::vector<Control>& controls() {
@@ -202,7 +202,7 @@ PointOnString driveOnString(const TopDrive& drive, double staticTorque) {
                      formatNumber(std::round(staticTorque)) +
                      " N m from the top drive, more than its Top Drive/Torque Limit of " +
                      formatNumber(drive.torqueLimit) + " N m. Raise it, or reduce the torque.");
-  // the frame turns with the set speed: in it the controller holds still
+  // the frame turns with the set speed, so the set speed in the frame is zero
   Teuchos::ParameterList own("Speed Control");
   own.set("Speed", 0.0)
       .set("Proportional Gain", drive.proportionalGain)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which nodes of a string can touch the wall.
+/// Nodes of a string that can touch the wall.
 #pragma once
 
 #include <string>

@@ -25,8 +25,8 @@ void removeZeroTerms(std::vector<ElementTerm>& terms) {
   terms.erase(std::remove_if(terms.begin(), terms.end(), isZero), terms.end());
 }
 
-/// What one element contributes is formed in its own frame and turned to the nodal frames by R' X
-/// R.
+/// Element contributions are formed in the frame of the element and turned to the nodal frames by
+/// R' X R.
 class Builder {
  public:
   explicit Builder(const EquationInput& input)
@@ -43,7 +43,7 @@ class Builder {
     for (int e = 0; e < in_.string.elementCount(); ++e) addElement(e);
     for (const auto i : distributed_) out_.load += model_.loads[i].vector;
     addNodalLoads();
-    // formed first of all damping terms, element by element
+    // the first damping term, formed element by element
     if (in_.damping.present() && !isZero(model_.damping.front())) out_.rayleigh = 0;
     removeZeroTerms(model_.damping);
     removeZeroTerms(model_.stiffness);

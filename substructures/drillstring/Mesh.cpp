@@ -17,27 +17,27 @@
 namespace tooljoint::drillstring {
 namespace {
 
-/// Two places along the string are the same within this [m].
+/// Positions along the string closer than this are the same [m].
 constexpr double samePlace = 1e-6;
 
-/// Clearance below which a body or gauge does not fit [m]; above it, and below zero, it is rounding
-/// and taken as zero.
+/// A body or gauge with less clearance than this does not fit [m]. A negative clearance above it is
+/// rounding and counts as zero.
 constexpr double tightFit = -1e-9;
 
-/// What is left of an element cut at the surface is an element of its own from this share of its
-/// length; less of it would be far stiffer than its neighbours.
+/// Shortest remainder of an element cut at the surface, as a fraction of its length. A shorter one
+/// would be much stiffer than its neighbours and is merged with the next element.
 constexpr double shortestRest = 0.1;
 
-/// More elements than this are taken for a slip in a repeat count.
+/// A string with more elements than this is rejected; the repeat count is probably wrong.
 constexpr int mostElements = 200000;
 
-/// Faults printed at most: every stand of a string has those of its components.
+/// Largest number of printed faults: the faults of a component recur in every stand of the string.
 constexpr std::size_t mostFaults = 10;
 
-/// Components that a message names at most.
+/// Largest number of components named in a message.
 constexpr std::size_t mostNames = 12;
 
-/// "diameter" or "radius", whichever the deck gives.
+/// "diameter" or "radius", whichever the deck uses.
 std::string across(const deck::Given& given) {
   return given.name.find("Diameter") == std::string::npos ? "radius" : "diameter";
 }
@@ -81,8 +81,8 @@ class Mesher {
     if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
   }
 
-  /// Appends every occurrence of an entry; the first fault ends it, since the others would only
-  /// repeat it.
+  /// Appends every occurrence of an entry; ends at the first fault, since the other occurrences
+  /// would only repeat it.
   bool placeAll(const AssemblyEntry& entry, const std::string& parent,
                 std::map<std::string, int>& occurrences, const std::string& where) {
     for (int i = 0; i < entry.count; ++i)
@@ -90,8 +90,8 @@ class Mesher {
     return true;
   }
 
-  /// Appends one occurrence of a component; `parent` is the path it stands in, `where` the array
-  /// that names it. False when there was a fault.
+  /// Appends one occurrence of a component. `parent` is the path that contains it, `where` the
+  /// array that names it. False after a fault.
   bool place(const std::string& name, const std::string& parent,
              std::map<std::string, int>& occurrences, const std::string& where) {
     const auto found = library_.find(name);
@@ -142,7 +142,7 @@ class Mesher {
     return good;
   }
 
-  /// Names of the library that hold a word of three letters or more of this one.
+  /// Names of the library that share a word of three letters or more with this one.
   static std::vector<std::string> alike(const std::string& name,
                                         const std::vector<std::string>& names) {
     std::vector<std::string> found;
@@ -174,7 +174,7 @@ class Mesher {
            quotedList(listed) + (more > 0 ? " and " + std::to_string(more) + " more." : ".");
   }
 
-  /// The elements of a segment are equal: one formulation for all.
+  /// All elements of a segment are equal and share one formulation.
   void append(const Segment& segment, const std::string& where) {
     std::shared_ptr<const beam::Element> formulation;
     try {
@@ -194,7 +194,7 @@ class Mesher {
     }
   }
 
-  /// Leaves out what stands above the surface, `above` [m] of the string.
+  /// Removes the upper `above` [m] of the string, the part above the surface.
   void cutAtSurface(double above) {
     if (above < samePlace) return;
     int first = 0;
@@ -205,7 +205,8 @@ class Mesher {
     const Segment& cut = *segments_[at(first)];
     out_.elements[at(first)].formulation = cut.element.make(cut.section, left(first));
 
-    // A rest too short for an element is part of the next one; the node between them goes.
+    // A remainder too short for an element is merged with the next one; the node between them is
+    // removed.
     const double joined = std::max(0.0, out_.nodes[at(first)].s - above);
     out_.elements.erase(out_.elements.begin(), out_.elements.begin() + first);
     out_.nodes.erase(out_.nodes.begin(), out_.nodes.begin() + first);
@@ -217,7 +218,7 @@ class Mesher {
     for (auto* places : {&gauges_, &bends_, &pads_}) cutPlaces(*places, above, first, joined);
   }
 
-  /// Places down to `joined` [m] have lost their node.
+  /// Removes places down to `joined` [m], whose node no longer exists.
   static void cutPlaces(std::vector<Place>& places, double above, int removed, double joined) {
     for (Place& place : places) {
       place.s -= above;
@@ -229,7 +230,7 @@ class Mesher {
                  places.end());
   }
 
-  /// The number of instances that stood above.
+  /// Returns the number of removed instances, those above the surface.
   static int cutInstances(std::vector<Instance>& instances, int removed) {
     const auto below = std::find_if(instances.begin(), instances.end(), [&](const Instance& one) {
       return one.lastElement >= removed;
@@ -245,7 +246,7 @@ class Mesher {
     return gone;
   }
 
-  /// A component with segments: this one, or the first that it is made of.
+  /// A component with segments: this one, or the first one inside it.
   const Component& solid(const std::string& name) const {
     const Component& component = library_.at(name);
     return component.parts.empty() ? component : solid(component.parts.front().name);
@@ -258,7 +259,7 @@ class Mesher {
                         length.text(well_.length()) + ". Shorten the string or lengthen the well.");
   }
 
-  /// Smaller of the clearances on both sides of a node; the bore is looked up a hair inside the
+  /// The smaller clearance of both sides of a node; the bore is evaluated slightly inside the
   /// element.
   void setClearances() {
     for (int i = 0; i < out_.nodeCount(); ++i) {

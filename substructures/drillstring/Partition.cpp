@@ -139,8 +139,8 @@ std::vector<PartRange> cutParts(const DrillString& string, const PartitionRules&
       parts.push_back({instance.path, instance.firstElement, instance.lastElement});
     return parts;
   }
-  // By length: join neighbouring components until a part is long enough; a short rest joins the
-  // last part.
+  // By length: join neighbouring components until a part is long enough; a short remainder joins
+  // the last part.
   PartRange open;
   bool isOpen = false;
   double length = 0.0;
@@ -201,7 +201,7 @@ std::vector<int> wholeNodes(const DrillString& string, const PartitionRules& rul
   return nodes;
 }
 
-/// Inner nodes of runs of fewer than rules.minimumReducedRun nodes between kept ones.
+/// Inner nodes of runs of fewer than rules.minimumReducedRun nodes between retained nodes.
 std::vector<int> nodesOfShortRuns(const DrillString& string, const PartitionRules& rules,
                                   const std::set<int>& keptDofs, const std::vector<int>& chosen) {
   std::vector<char> kept(static_cast<std::size_t>(string.nodeCount()), 0);

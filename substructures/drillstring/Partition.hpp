@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Where the string is cut into parts and which dofs stay physical. Deck list `Substructures`.
+/// Division of the string into parts and choice of retained dofs. Deck list `Substructures`.
 #pragma once
 
 #include <limits>
@@ -17,17 +17,17 @@ class ParameterList;
 
 namespace tooljoint::drillstring {
 
-/// A run of elements that becomes one substructure.
+/// A run of elements that forms one substructure.
 struct PartRange {
   std::string name;
   int firstElement = 0;  ///< 0-based
   int lastElement = 0;   ///< 0-based, inclusive
 };
 
-/// Which components of a retained node stay physical.
+/// Components that are retained at a retained node.
 enum class Retain { Nodes, Contact, Translations };
 
-/// The choices of the list `Substructures`.
+/// Settings of the list `Substructures`.
 struct PartitionRules {
   std::string where = "Substructures";  ///< path of the list, for messages
   std::string rule = "By component";
@@ -36,7 +36,7 @@ struct PartitionRules {
   Retain retain = Retain::Nodes;
   std::string retainedNodes = "Gap";
   double retainedGap = 0.008;  ///< [m]
-  int minimumReducedRun = 1;   ///< inner nodes; shorter runs between kept nodes stay physical
+  int minimumReducedRun = 1;   ///< inner nodes; shorter runs between retained nodes stay physical
   double keepFullBelow = std::numeric_limits<double>::infinity();  ///< depth [m]; all nodes from
                                                                    ///< there on stay physical
   std::vector<int> nodeList;                                       ///< "List": 1-based
@@ -44,10 +44,10 @@ struct PartitionRules {
   bool axialContact = false;  ///< contact acts on w too
 };
 
-/// What the rules need to know of the static state.
+/// Data of the static state for the rules.
 struct NodeState {
-  std::vector<double> gap;  ///< radial clearance left at each node [m]; <= 0 in contact; +inf where
-                            ///< nothing can touch
+  std::vector<double> gap;  ///< radial clearance left at each node [m]; <= 0 in contact; +inf if
+                            ///< contact is impossible
   std::vector<char> candidate;  ///< laterally free nodes with a contact point
   std::vector<int> loadedDofs;  ///< 6 node + component of dofs that point loads, and the torque at
                                 ///< the ends, act on, increasing
@@ -56,18 +56,18 @@ struct NodeState {
 /// Description of the list `Substructures`.
 deck::ListSpec partitionParameters();
 
-/// Rules of a validated list; `explicitIntegrator` decides the default of `Retained Dofs` (whole
-/// nodes for implicit integrators, translations for explicit ones, whose stable step retained
-/// rotations would cut).
+/// Rules of a validated list. `explicitIntegrator` decides the default of `Retained Dofs`: whole
+/// nodes for implicit integrators, translations for explicit ones, since retained rotations would
+/// reduce their stable step.
 PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIntegrator);
 
-/// The parts from top to bottom; they cover every element once; with "By cost", whose parts are not
-/// known before the static state, the components. Throws DeckError for cut nodes that
-/// do not exist.
+/// The parts from top to bottom; each element belongs to one part. With "By cost" parts are unknown
+/// before the static state, and the components are returned. Throws DeckError for cut nodes that do
+/// not exist.
 std::vector<PartRange> cutParts(const DrillString& string, const PartitionRules& rules);
 
-/// Positions 6 node + component of the dofs that stay physical inside the parts, increasing
-/// (interface nodes, which stay whole anyway, may be among them).
+/// Positions 6 node + component of the retained dofs of the parts, increasing. Interface nodes,
+/// which are always kept whole, may be among them.
 std::vector<int> retainedDofs(const DrillString& string, const PartitionRules& rules,
                               const NodeState& state);
 

@@ -26,7 +26,7 @@ std::vector<beam::Vector12> kinks(const DrillString& string, const path::PathSta
   if (string.bends.empty()) return {};
   std::vector<beam::Vector12> turned(string.elements.size(), beam::Vector12::Zero());
   for (const auto& bend : string.bends) {
-    // theta x z = (theta_y, -theta_x) points to the side
+    // theta x z = (theta_y, -theta_x) points to that side
     const Eigen::Vector2d slope = bend.size * towardsSide(string, path, bend.direction);
     turned[at(bend.node)](nodal::thetaX) -= slope.y();
     turned[at(bend.node)](nodal::thetaY) += slope.x();

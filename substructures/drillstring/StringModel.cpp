@@ -29,8 +29,8 @@ struct FreeDofs {
   int of(int dof) const { return index[static_cast<std::size_t>(dof - kNodeDofs * firstNode)]; }
 };
 
-/// Sum of element matrices over the free dofs; the pattern is that of the chain, entries that are
-/// exactly zero included only where another term of the element is not zero.
+/// Sum of element matrices over the free dofs. The pattern is that of the chain; an entry that is
+/// exactly zero is included only if another term of the element is not zero there.
 Sparse assembleMatrices(const std::vector<beam::Matrix12>& matrices, const FreeDofs& dofs,
                         int firstElement, int lastElement) {
   Triplets triplets;
@@ -50,7 +50,7 @@ Sparse assembleMatrices(const std::vector<beam::Matrix12>& matrices, const FreeD
   return sum;
 }
 
-/// Contact points of the nodes for which `take` holds; an empty row where a coordinate is held.
+/// Contact points of the nodes for which `take` is true; an empty row for a held coordinate.
 void addContact(const StringModel& string, const FreeDofs& dofs,
                 const std::function<bool(int)>& take, model::SecondOrderModel& model) {
   std::vector<int> points;
@@ -81,7 +81,7 @@ void addContact(const StringModel& string, const FreeDofs& dofs,
   model.points.push_back(std::move(set));
 }
 
-/// Laws of bit and top drive at the nodes that `owns` names; an empty row where a dof is held.
+/// Laws of bit and top drive at the nodes selected by `owns`; an empty row for a held dof.
 void addDrilling(const StringModel& string, const FreeDofs& dofs,
                  const std::function<bool(int)>& owns, model::SecondOrderModel& model) {
   for (const auto& one : string.drilling) {
@@ -99,7 +99,7 @@ void addDrilling(const StringModel& string, const FreeDofs& dofs,
 }
 
 /// Matrices, labels, initial state and recovery of a run of elements; loads and contact of the
-/// nodes that `owns` names.
+/// nodes selected by `owns`.
 model::SecondOrderModel assembleRun(const StringModel& string, int firstElement, int lastElement,
                                     const std::function<bool(int)>& owns,
                                     const std::function<bool(int)>& touches) {
@@ -141,11 +141,12 @@ model::SecondOrderModel assembleRun(const StringModel& string, int firstElement,
   return model;
 }
 
-/// Positions of some kilometres are rounded to u = 5e-13 m; over an element of length l this is a
-/// strain u / l and a tension E A u / l, which changes its bending stiffness 12 E I / l^3 by (A l^2
-/// / 10 I) u / l: 3e-10 for 10 m of pipe, less on a finer mesh. The softest motion of a chain of n
-/// elements changes with the tension by n^2 times the change of its entries, so that what is the
-/// same shrinks with n^2 as well: the lowest frequency is met to 1e-8.
+/// Relative tolerance below which two parts count as equal. Positions of some kilometres are
+/// rounded to u = 5e-13 m. On an element of length l this is a strain u / l and a tension E A u /
+/// l, which changes its bending stiffness 12 E I / l^3 by (A l^2 / 10 I) u / l: 3e-10 for 10 m of
+/// pipe, less on a finer mesh. The softest motion of a chain of n elements changes by n^2 times the
+/// change of its entries, so the tolerance shrinks with n^2 as well; the error of the lowest
+/// frequency is below 1e-8.
 double roundingOfPlaces(int dofs) {
   const double few = 90.0 / std::max(1, dofs);
   return std::min(1e-9, 5e-11 * std::max(1.0, few * few));

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The equations of motion of the string, element by element and split by origin, before anything
-/// is assembled:
+/// The equations of motion of the string before assembly, element by element and split by origin:
 ///
 ///     M D'' + C(t) D' + K(t) D = F(t) + F_c(D, D')        (Nguyen et al. 2020, equations 26-27)
 ///
-/// The whole string and any run of its elements are assembled from the same value, so the parts add
-/// up to the whole.
+/// The whole string and any run of its elements are assembled from the same value, so the sum of
+/// the parts equals the whole.
 #pragma once
 
 #include <memory>
@@ -57,7 +56,7 @@ struct StringModel {
   std::vector<ElementTerm> stiffness;
   std::vector<NodalLoad> loads;
   ContactBatch contact;
-  std::vector<drilling::PointOnString> drilling;  ///< bit and top drive, where they are laws
+  std::vector<drilling::PointOnString> drilling;  ///< laws of bit and top drive, if any
   Vector state;  ///< static displacement D_s, 6 nodes; the motion starts here at rest
 
   int elements() const { return static_cast<int>(mass.size()); }
@@ -71,10 +70,10 @@ const model::ComponentNames& componentNames();
 /// The whole string in total displacements of its free dofs, node by node.
 model::SecondOrderModel assemble(const StringModel& string);
 
-/// One part: its elements, the nodes it owns (all its nodes but the first, which the part above
-/// owns) for loads and contact, the nodes it shares with its neighbours as interface, and
-/// `retained` (positions 6 node + component in the whole string) as far as they are its own.
-/// `contactAt` restricts contact to some nodes (0-based, increasing) when not null.
+/// One part: its elements, with loads and contact at the nodes it owns (all its nodes except the
+/// first, which belongs to the part above). Nodes shared with its neighbours are the interface.
+/// `retained` (positions 6 node + component in the whole string) applies to the dofs of the part.
+/// If `contactAt` is not null, contact is restricted to these nodes (0-based, increasing).
 model::Substructure assemblePart(const StringModel& string, const PartRange& range,
                                  const std::vector<int>& retained,
                                  const std::vector<int>* contactAt);

@@ -14,7 +14,7 @@ namespace {
 const std::vector<std::string> dofNames = {"u", "v", "w", "theta_x", "theta_y", "theta_z"};
 const std::vector<std::string> familyNames = {"lateral", "axial", "torsional"};
 
-/// The words of a text, each looked up in `known`; returns one flag per known name.
+/// Looks up each word of a text in `known`; returns one flag per known name.
 std::vector<bool> flags(const std::string& text, const std::vector<std::string>& known,
                         const std::string& where, const std::string& what) {
   std::vector<bool> found(known.size(), false);

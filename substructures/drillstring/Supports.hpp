@@ -19,7 +19,7 @@ namespace tooljoint::drillstring {
 /// One flag per dof of a node: u, v, w, theta_x, theta_y, theta_z.
 using DofFlags = std::array<bool, 6>;
 
-/// A support at a node of its own.
+/// A support at a single node.
 struct NamedSupport {
   std::string name;
   int node = 0;  ///< 1-based
@@ -27,7 +27,7 @@ struct NamedSupport {
   std::string path = {};  ///< of its list in the deck, for messages
 };
 
-/// What the list `Supports` says; the defaults are those of a deck without the list.
+/// Settings of the list `Supports`; the defaults are those of a deck without the list.
 struct SupportSettings {
   DofFlags top = {true, true, true, false, false, true};
   DofFlags bit = {true, true, false, false, false, false};
@@ -37,22 +37,22 @@ struct SupportSettings {
   bool torsional = true;  ///< theta_z is modelled
 
   /// One flag per dof of the string, 6 per node: held by a support, or of a family that is not
-  /// modelled. Throws DeckError when a named support stands at a node the string does not have.
+  /// modelled. Throws DeckError when a named support is at a node that does not exist.
   std::vector<char> held(int nodes) const;
 };
 
-/// 6 flags per node: held by a support, or since no element at the node has the dof. DeckError as
+/// 6 flags per node: held by a support, or because no element at the node has the dof. DeckError as
 /// SupportSettings::held.
 std::vector<char> heldDofs(const SupportSettings& supports, const DrillString& string);
 
 /// Description of the list `Supports`.
 deck::ListSpec supportParameters();
 
-/// Settings of a validated list `Supports`. Throws DeckError for an unknown dof or family, with a
-/// did-you-mean.
+/// Settings of a validated list `Supports`. Throws DeckError for an unknown dof or family, with the
+/// most similar name.
 SupportSettings readSupports(const Teuchos::ParameterList& list);
 
-/// "u v theta_z" -> flags; "" and "none" hold nothing, "all" holds everything. `where` opens the
+/// "u v theta_z" -> flags; "" and "none" hold nothing, "all" holds everything. `where` begins the
 /// sentence of a DeckError.
 DofFlags parseDofs(const std::string& text, const std::string& where);
 

@@ -16,8 +16,8 @@
 namespace tooljoint::equilibrium {
 namespace {
 
-/// Tolerance of the intermediate stages: near enough for the next one to start from. Long strings
-/// that hang free hardly move any more below it, but take a hundred iterations to 1e-6.
+/// Tolerance of the intermediate stages; their result is the start of the next stage. Below it long
+/// hanging strings hardly move, but need a hundred iterations to reach 1e-6.
 constexpr double kStageTolerance = 1e-4;
 /// Contact regularisations of the stages before that of the deck [1/m].
 constexpr std::array<double, 3> kLambdaStages{1e3, 1e4, 1e6};
@@ -36,7 +36,7 @@ const Searches following{model::LineSearch::None, model::LineSearch::Work};
 const Searches inTheOpen{model::LineSearch::None, model::LineSearch::Residual};
 const Searches fullSteps{model::LineSearch::None};
 
-/// Runs the stages of a recipe on one problem and keeps the account.
+/// Runs the stages of a recipe on one problem and records them.
 class Stages {
  public:
   Stages(StaticProblem& problem, const StaticOptions& options, const model::NonlinearSolver& solve,
@@ -50,7 +50,7 @@ class Stages {
     throw ConvergenceError(complaint(std::max(options_.tolerance, tolerance)) + message_);
   }
 
-  /// The same; false, with x as it was, when it does not converge.
+  /// The same; returns false and restores x when the stage does not converge.
   bool tryRun(const std::string& name, const StaticSwitches& switches, double tolerance,
               const Searches& searches, Vector& x) {
     problem_.set(switches);
@@ -63,11 +63,11 @@ class Stages {
     return false;
   }
 
-  /// What a stage at a value is called and changes.
+  /// Name of the stage at a value; also sets the switches.
   using StageAt = std::function<std::string(double, StaticSwitches&)>;
 
-  /// Stages from where x is (`from`) to `to`; where one does not converge, by way of what lies
-  /// between: at equal ratios or, from 0, at equal distances.
+  /// Stages from the present value `from` to `to`. If a stage does not converge, intermediate
+  /// values are inserted: at equal ratios or, from 0, at equal distances.
   void march(double from, double to, double tolerance, const StageAt& stage,
              StaticSwitches switches, const Searches& searches, Vector& x) {
     march(from, to, tolerance, stage, switches, searches, x, halvings_);
@@ -130,9 +130,9 @@ class Stages {
   std::string message_;
 };
 
-/// The string fixed on the axis: tension and torque of the loads, no lateral motion. From D = 0 a
-/// long string has no tension yet to hold it, and the first Newton step would throw it far through
-/// the wall.
+/// The string fixed on the axis: tension and torque of the loads, no lateral motion. At D = 0 a
+/// long string has no stabilising tension, and the first Newton step would move it far through the
+/// wall.
 Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
   switches.geometricStiffness = switches.contact = false;
   problem.set(switches);
@@ -147,9 +147,9 @@ Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
       .solve(-negativeLoad);
 }
 
-/// Contacts from soft to stiff: the stages that are softer than the stiffest law of the model, then
-/// the law of each point. In a stage the wall stiffness is limited such that the largest load
-/// presses a point in by 1/lambda, the length over which its law is regularised.
+/// Contacts from soft to stiff: first the stages that are softer than the stiffest law of the
+/// model, then the law of each point. Each stage limits the wall stiffness such that the largest
+/// load presses a point in by 1/lambda, the length over which its law is regularised.
 void sharpen(const StaticInput& input, StaticProblem& problem, Stages& stages,
              const StaticSwitches& switches, double tolerance, Vector& x) {
   const contact::ContactPoints& points = input.contact->points();
@@ -191,8 +191,8 @@ void slide(const StaticOptions& options, Stages& stages, const StaticSwitches& s
                  following, x);
 }
 
-/// Adds the attraction of open points to the wall, which some laws have. ConvergenceError with the
-/// attraction in its text when the string has no equilibrium under it.
+/// Adds the attraction of open points to the wall, for laws that have it. If the string has no
+/// equilibrium under it, the text of the ConvergenceError names the attraction.
 void letPull(const StaticInput& input, Stages& stages, const StaticSwitches& switches, Vector& x) {
   const auto pull = [](double share, StaticSwitches& with) {
     with.pull = share;
@@ -221,9 +221,9 @@ void addFriction(const StaticInput& input, const StaticOptions& options, Stages&
   if (input.contact->largestPull() > 0.0) letPull(input, stages, switches, x);
 }
 
-/// Fixed on the axis; then contact without attraction, from soft to stiff, without friction; then
-/// friction in steps; then the attraction of the contact laws. The cap on lateral motion keeps the
-/// first steps inside the hole.
+/// The string fixed on the axis; then contact from soft to stiff, without attraction and friction;
+/// then friction in steps; then the attraction of the contact laws. The limit on lateral motion
+/// keeps the first steps inside the hole.
 void continuation(const StaticInput& input, const StaticOptions& options, StaticProblem& problem,
                   Stages& stages, StaticSwitches switches, Vector& x) {
   if (input.contact == nullptr || input.contact->size() == 0) {
@@ -302,8 +302,8 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
 /// A torque below that of the largest axial force at this lever [m] is within rounding.
 constexpr double leastLever = 1e-6;
 
-/// Torques about the axis of the string. A spin of all sections by the same angle meets no elastic
-/// force, so the torque at the top balances loads, friction and supports below.
+/// Torques about the axis of the string. Elastic forces do not resist an equal spin of all
+/// sections, so the torque at the top balances loads, friction and supports below.
 void describeTorque(const StaticInput& input, StaticState& state) {
   state.topTorque = state.torque(0);
   for (int n = 1; n < input.nodes; ++n) {

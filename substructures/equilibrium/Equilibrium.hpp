@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Static equilibrium by one of two recipes (Nguyen et al.
-/// 2020, section 3.2).
+/// Static equilibrium by one of two recipes (Nguyen et al. 2020, section 3.2).
 #pragma once
 
 #include <optional>
@@ -32,13 +31,13 @@ enum class FrictionRule {
   None,
 };
 
-/// Which string has its nodes where the mesh puts them: displacements count from there.
+/// The string whose nodes are at the positions of the mesh; displacements are measured from it.
 enum class Reference {
   Unloaded,
   Hanging,  ///< under its weight along the well, without friction
 };
 
-/// What is done with a static state that is unstable.
+/// Treatment of an unstable static state.
 enum class UnstableRule {
   Warn,
   Perturb,  ///< leave it along the unstable mode until a stable state is found
@@ -65,23 +64,23 @@ deck::ListSpec parameters();
 /// Reads a validated `Static` list.
 StaticOptions optionsFrom(const Teuchos::ParameterList& list);
 
-/// Times that a stage which does not converge is split into two, one within the other.
+/// A stage that does not converge is split into two, nested at most this often.
 constexpr int mostHalvings = 5;
 
-/// The static state. Throws ConvergenceError naming the stage that failed and what to change;
-/// ModelError for input that does not fit together.
+/// The static state. Throws ConvergenceError with the stage that failed and a remedy; ModelError
+/// for inconsistent input.
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
                         const model::NonlinearSolver& solve, int halvings = mostHalvings);
 
-/// The state of rest the string finds when it leaves the unstable state `from` along the mode: see
-/// settle(); then friction and pull as in solveStatic(). ConvergenceError: there is none within
-/// reach.
+/// The stable static state that the string reaches from the unstable state `from` along the mode:
+/// see settle(); then friction and attraction as in solveStatic(). ConvergenceError if none is
+/// found.
 StaticState leaveUnstable(const StaticInput& input, const StaticOptions& options,
                           const model::NonlinearSolver& solve, const StaticState& from,
                           const UnstableMode& mode);
 
-/// The state of rest that the string slides to from the displacement `start`: see slideToRest().
-/// None: it does not come to rest.
+/// The static state that the string reaches from the displacement `start` by sliding: see
+/// slideToRest(). None if it does not come to rest.
 std::optional<StaticState> slideStatic(const StaticInput& input, const StaticOptions& options,
                                        const SlideRequest& asked, const Vector& start);
 

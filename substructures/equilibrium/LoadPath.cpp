@@ -52,7 +52,7 @@ void LoadPath::parameterDerivative(const Vector&, double, Vector& drdp) const { 
 Sparse LoadPath::symmetricTangent(const Vector& x) const { return symmetricJacobian(tangent_, x); }
 
 std::optional<int> LoadPath::negativePivots(const Vector& x, double) const {
-  // None where K is almost singular, as at the bifurcations and turning points of a path.
+  // None if K is almost singular, as at the bifurcations and turning points of a path.
   return linalg::negativeEigenvalues(symmetricTangent(x));
 }
 

@@ -16,25 +16,25 @@
 namespace tooljoint::equilibrium {
 namespace {
 
-/// Displacement along the mode, as a part of the clearance it reaches first.
+/// Displacement along the mode, as a fraction of the first clearance it closes.
 constexpr double firstDisplacement = 0.1;
-/// alpha over growthRate^2 while the string moves: the tangent is at least three times as positive
-/// as it was negative.
+/// alpha over growthRate^2 during the motion: the tangent is at least three times as positive as it
+/// was negative.
 constexpr double convexity = 4.0;
-/// alpha over its first value at the end. It decides how fast the last steps converge, and keeps
-/// motions that nothing resists (a turn about the axis of a vertical bore) where they are.
+/// alpha at the end over its first value. It determines the convergence of the last steps, and
+/// prevents motions without resistance (a rotation about the axis of a vertical bore).
 constexpr double finalShare = 1e-6;
-/// Largest lateral step of a string that rests, as a part of the smallest clearance.
+/// Largest lateral step of a string at rest, as a fraction of the smallest clearance.
 constexpr double atRest = 1e-4;
 constexpr int mostSteps = 2000, mostFinalSteps = 50, mostIterations = 60;
-/// Accuracy of the steps that only lead to the next one.
+/// Tolerance of the intermediate steps.
 constexpr double stepTolerance = 1e-6;
 
-/// Largest lateral step of slideToRest, as a part of the clearance: alpha grows beyond it. It is
-/// halved, at most to the second number, when the string hardly moves and does not rest.
+/// Largest lateral step of slideToRest, as a fraction of the clearance: alpha grows beyond it. It
+/// is halved, down to the second number, when the string hardly moves and does not come to rest.
 constexpr double slidingReach = 0.25, leastReach = 0.06;
-/// alpha of a string that hardly moves [1/s2], far below the square of the rates, 1 to 5 1/s, with
-/// which drill pipe buckles, and the steps with it after which it begins anew.
+/// A string with this alpha [1/s2] hardly moves: it is far below the square of the growth rates of
+/// buckling drill pipe (1 to 5 1/s). The search restarts after `patience` steps with it.
 constexpr double hardlyMoving = 0.1;
 constexpr int patience = 15;
 
@@ -90,8 +90,8 @@ bool alternates(const std::vector<double>& residuals) {
   return false;
 }
 
-/// Largest lateral displacement of a contact point over its clearance; the clearance of points that
-/// are held on the axis does not count.
+/// Largest lateral displacement of a contact point over its clearance. Points held on the axis do
+/// not count.
 double reach(const StaticInput& input, const Vector& full) {
   double largest = 0.0;
   if (input.contact == nullptr) return largest;

@@ -6,7 +6,7 @@
 namespace tooljoint::equilibrium {
 namespace {
 
-/// What the second end has more of a component than the first, in the frame of the element.
+/// A component of the second end minus that of the first, in the frame of the element.
 beam::Vector12 difference(const beam::Matrix12& rotation, int component) {
   return (rotation.row(beam::nodal::perNode + component) - rotation.row(component)).transpose();
 }

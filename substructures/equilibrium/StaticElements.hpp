@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The elements of the static problem: forces and stiffness that a displacement makes.
+/// Elements of the static problem: forces and stiffness that depend on the displacement.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ namespace tooljoint::equilibrium {
 /// Forces of the pretension of all elements on their nodes, 6 per node [N].
 Vector pretensionForces(const StaticInput& input);
 
-/// Vectors D of the whole string have 6 dofs per node in nodal frames; those of an element are its
-/// 12.
+/// Vectors D of the whole string have 6 dofs per node in nodal frames; vectors of an element have
+/// its 12 dofs.
 class StaticElements {
  public:
   /// `input` must outlive the object.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the static equilibrium is found of: elements, loads, supports and contact of a string.
+/// Input of the static equilibrium: elements, loads, supports and contact of a string.
 #pragma once
 
 #include <memory>
@@ -14,13 +14,13 @@ namespace tooljoint::equilibrium {
 /// Element e joins nodes e and e + 1.
 struct StaticElement {
   std::shared_ptr<const beam::Element> formulation;
-  beam::Matrix12 stiffness;  ///< everything linear, K_pa of the element, in nodal frames
+  beam::Matrix12 stiffness;  ///< all linear terms, K_pa of the element, in nodal frames
   beam::Matrix12 rotation;   ///< nodal dofs to the element frame (beam::rotation12)
-  /// The same for K_gpo: beam::slopeRotation, so that a section that spins about its own axis meets
-  /// no geometric stiffness, or `rotation`, as the source has it.
+  /// The rotation for K_gpo: beam::slopeRotation, so that geometric stiffness does not resist the
+  /// spin of a section about its axis, or `rotation` as in the source.
   beam::Matrix12 slopes;
-  /// Axial force of the undeformed element [N]: 0 where the nodes stand as an unloaded string has
-  /// them.
+  /// Axial force of the undeformed element [N]: 0 if the nodes have the positions of an unloaded
+  /// string.
   double pretension = 0.0;
   double bendingMoment = 0.0;  ///< E I kappa of the well [N m], the scale of the torque balance
 };
@@ -30,14 +30,14 @@ struct StaticElement {
 struct StaticInput {
   int nodes = 0;
   std::vector<StaticElement> elements;
-  /// What elements have turned by against their nodes without stress (bends of the string), added
-  /// to D of each element [rad]; empty means none.
+  /// Stress-free rotations of elements relative to their nodes (bends of the string), added to D of
+  /// each element [rad]; empty means none.
   std::vector<beam::Vector12> kinks;
   Vector load;             ///< F_s: weight, mud, WOB, TOB [N, N m]
   Vector pathReaction;     ///< R_ipa; empty means zero
   std::vector<char> held;  ///< 1 where a support (or the choice of dof families) holds the dof
   std::shared_ptr<const contact::StaticContact> contact;  ///< null: no contact in this scene
-  contact::Sliding sliding{0.0, 1.0};  ///< of the string on the wall; none: no friction
+  contact::Sliding sliding{0.0, 1.0};  ///< of the string on the wall; zero: no friction
   bool geometricStiffness = true;      ///< K_gpo(D)
 };
 

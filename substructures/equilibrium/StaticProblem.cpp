@@ -14,11 +14,11 @@ namespace tooljoint::equilibrium {
 namespace {
 
 constexpr int kDofs = beam::nodal::perNode;
-/// The components that forces of StaticContact act on, in their order.
+/// Dofs of the force components of StaticContact, in its order.
 constexpr std::array<int, contact::StaticContact::kForces> kContactDofs{
     beam::nodal::u, beam::nodal::v, beam::nodal::w, beam::nodal::thetaZ};
 
-/// The input, if its parts have the same size.
+/// The input; throws unless its parts have matching sizes.
 const StaticInput& checked(const StaticInput& input) {
   const int dofs = kDofs * input.nodes;
   const bool fits = input.nodes == static_cast<int>(input.elements.size()) + 1 &&
@@ -70,8 +70,7 @@ StaticProblem::StaticProblem(const StaticInput& input)
   }
   assembler_ = beam::SparseAssembler(size(), std::move(lists));
 
-  // Forces are measured against the largest load, moments against that load on a mean element
-  // length.
+  // Forces are divided by the largest load, moments by that load times a mean element length.
   const double mean = length / static_cast<double>(input.elements.size());
   double largest = 0.0;
   for (int i = 0; i < input.load.size(); ++i) {
@@ -80,7 +79,7 @@ StaticProblem::StaticProblem(const StaticInput& input)
     if (input.pathReaction.size() > 0)
       largest = std::max(largest, arm * std::abs(input.pathReaction(i)));
   }
-  // a bend beta: the force E I beta/L^2 that holds a string of the whole length straight
+  // a bend beta gives the force E I beta/L^2, which holds a string of the whole length straight
   for (std::size_t e = 0; e < input.kinks.size(); ++e) {
     const auto& section = input.elements[e].formulation->section();
     largest = std::max(largest, section.youngModulus() * section.inertiaX() *

@@ -27,7 +27,7 @@ struct StaticSwitches {
   double pull = 1.0;              ///< fraction of the attraction of open points by contact laws
   double lateralStepLimit = 0.0;  ///< largest change of u or v in a step [m]; 0: none
   bool slideAlongWall =
-      false;  ///< steps take points that touch along the wall, not along its tangent
+      false;  ///< points in contact with the wall move along it, not along its tangent
 };
 
 /// r(D) = (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa on the free dofs.
@@ -42,22 +42,23 @@ class StaticProblem : public model::ChainProblem {
   int size() const override { return free_.size(); }
   void residual(const Vector& x, Vector& r) const override;
   void jacobian(const Vector& x, Sparse& jacobian) const override;
-  /// Both at once, for half the work.
+  /// Residual and Jacobian together, at half the cost.
   void linearise(const Vector& x, Vector& r, Sparse& jacobian) const;
   std::vector<int> firstOfNodes() const override { return free_.firstOfNodes(); }
   void residualRows(const Vector& x, RowRange rows, Vector& r) const override;
   void jacobianRows(const Vector& x, RowRange rows, Sparse& jacobian) const override;
   Vector residualScale() const override;
   double stepLimit(const Vector& x, const Vector& dx) const override;
-  /// With slideAlongWall a point that the step leaves outside its clearance keeps the distance from
-  /// the axis that the step has along the normal: moving on by t along a wall of radius r would
-  /// press it in by t^2/2r, far more than a stiff wall yields.
+  /// With slideAlongWall, a point that a step would move beyond its clearance keeps the distance
+  /// from the axis that the step has along the normal. A tangential motion t along a wall of radius
+  /// r would otherwise press the point in by t^2/2r, far more than a stiff wall yields.
   Vector moved(const Vector& x, const Vector& dx, double s) const override;
   std::string unknownName(int i) const override;
-  /// The unknowns that are u or v.
+  /// Unknowns of u and v.
   std::vector<int> lateralUnknowns() const;
 
-  /// All dofs from the free ones (held dofs are zero), and the free ones of a full vector.
+  /// expand(): all dofs from the free ones (held dofs are zero). restrict(): the free dofs of a
+  /// full vector.
   Vector expand(const Vector& x) const;
   Vector restrict(const Vector& full) const { return free_.restrict(full); }
 
@@ -66,10 +67,10 @@ class StaticProblem : public model::ChainProblem {
   Vector unbalanced(const Vector& full) const;
 
   const StaticElements& elements() const { return elements_; }
-  /// K_gpo of an element in nodal frames; zero where the switches leave it out.
+  /// K_gpo of an element in nodal frames; zero if the switches exclude it.
   beam::Matrix12 geometricStiffness(int element, const Vector& full) const;
 
-  /// The largest entry of the loads, moments over a mean element length [N].
+  /// The largest entry of the loads; moments are divided by a mean element length [N].
   double largestLoad() const { return forceScale_; }
 
   /// Contact forces of the batch at D: StaticContact::kForces per point, and the normal force per
@@ -79,18 +80,18 @@ class StaticProblem : public model::ChainProblem {
  private:
   using Nodes = beam::FreeDofs::Nodes;
   Nodes allNodes() const { return {0, input_.nodes}; }
-  /// Elements that join some nodes, and those to the next nodes.
+  /// Elements firstElement() ... endElement() - 1 have an end at one of the nodes.
   int firstElement(Nodes nodes) const { return std::max(0, nodes.begin - 1); }
   int endElement(Nodes nodes) const { return std::min(nodes.end, elements_.size()); }
-  /// What unbalanced() and jacobian() have at some nodes.
+  /// Contributions to unbalanced() and jacobian() at some nodes.
   Vector unbalancedAt(Nodes nodes, const Vector& full) const;
   void jacobianAt(Nodes nodes, const Vector& x, Sparse& jacobian) const;
-  /// A point's forces (at every dof) and tangent.
+  /// Forces (at every dof) and tangent of a point.
   void addForces(int point, const Vector& forces, Vector& r) const;
   void addTangent(int point, const Vector& tangents, Sparse& jacobian) const;
   /// -F_s - R_ipa and the pretension, at every dof.
   Vector constantForces() const;
-  /// With the points at some nodes.
+  /// Options that select the points at some nodes.
   contact::StaticContact::Options contactOptions(Nodes nodes) const;
   Vector lateral(const Vector& full) const;  ///< u, v of the contact points
   bool touches() const { return switches_.contact && input_.contact != nullptr; }
@@ -102,7 +103,8 @@ class StaticProblem : public model::ChainProblem {
   beam::FreeDofs free_;
   Vector pretension_;  ///< forces on the nodes
   StaticSwitches switches_;
-  std::vector<int> pointsBefore_;    ///< contact points at nodes before each; empty: not sorted
+  std::vector<int> pointsBefore_;    ///< number of contact points before each node; empty: points
+                                     ///< are not sorted
   beam::SparseAssembler assembler_;  ///< elements first, then contact points (u, v, w, theta_z)
   double forceScale_ = 1.0;
   double momentScale_ = 1.0;

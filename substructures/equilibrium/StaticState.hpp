@@ -13,7 +13,7 @@
 
 namespace tooljoint::equilibrium {
 
-/// One solve of the recipe that led to the state.
+/// One stage of the recipe.
 struct StageReport {
   std::string name;
   int iterations = 0;
@@ -48,8 +48,8 @@ struct StaticState {
   int contactNodes = 0;        ///< laterally free nodes with G > 0
   int compressedElements = 0;  ///< elements with F_apo < 0
   double topAxialForce = 0.0;  ///< F_apo of the first element, the tension in its middle [N]
-  double hookLoad = 0.0;  ///< what the support of the first node carries along the string; 0 where
-                          ///< no node moves along it [N]
+  double hookLoad = 0.0;  ///< axial force of the support of the first node on the string; 0 if no
+                          ///< node moves along it [N]
   double lastElementAxialForce = 0.0;
   double lastElementTorque = 0.0;
   double maxNormalForce = 0.0;

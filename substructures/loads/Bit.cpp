@@ -5,9 +5,9 @@
 namespace tooljoint::loads {
 namespace {
 
-/// Weight and torque on bit, at the last node. A positive weight pushes the string up the hole: the
-/// force along w is its negative. A positive torque resists a positive rotary speed: the torque
-/// about z is its negative.
+/// Weight and torque on bit, at the last node. A positive weight pushes the string up the hole, so
+/// the force along w is negative. A positive torque resists a positive rotary speed, so the torque
+/// about z is negative.
 class Bit final : public Load {
  public:
   explicit Bit(const Teuchos::ParameterList& list)

@@ -76,7 +76,7 @@ NodalForce readForce(const ParameterList& list, const std::string& name) {
   return f;
 }
 
-/// The law of a nodal force. Equal numbers give equal names, so that equal laws are one law.
+/// The law of a nodal force. Equal parameters give equal names, so that equal forces share one law.
 model::ScalarLaw lawOf(const NodalForce& force) {
   const bool windowed = force.startTime > 0.0 || std::isfinite(force.endTime);
   if (force.frequency == 0.0 && !windowed) return model::ScalarLaw::one();

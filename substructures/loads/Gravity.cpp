@@ -5,7 +5,7 @@
 namespace tooljoint::loads {
 namespace {
 
-/// rho S g along global +Z (down); the mud adds its buoyancy.
+/// rho S g along global +Z (down); the mud model adds buoyancy.
 class Gravity final : public Load {
  public:
   explicit Gravity(const Teuchos::ParameterList& list) : gravity_(list.get<double>("Gravity")) {}

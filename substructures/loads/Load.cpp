@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* listName = "Loads";
 
-/// A load as the lower part of a string sees it.
+/// A load on the lower part of a string; shifts depths by the top of that part.
 class OfLowerPart final : public Load {
  public:
   OfLowerPart(std::shared_ptr<const Load> load, double top) : load_(std::move(load)), top_(top) {}

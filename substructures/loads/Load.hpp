@@ -18,15 +18,15 @@
 
 namespace tooljoint::loads {
 
-/// A load on one dof, in the frame of its node: value times a scalar law of time. Under the law "1"
-/// it acts in the static state too.
+/// A load on one dof, in the frame of its node: value times a scalar law of time. A load with the
+/// law "1" acts in the static state too.
 struct PointLoad {
   std::string name;
   int node = 0;        ///< 1-based
   int component = 0;   ///< 0-based: u, v, w, theta_x, theta_y, theta_z
   double value = 0.0;  ///< [N] or [N m]
   model::ScalarLaw law = model::ScalarLaw::one();
-  /// The deck parameter that is refused where a support holds the dof; empty: the load then has no
+  /// The deck parameter that is rejected if a support holds the dof; empty: the load then has no
   /// effect.
   std::string parameter = {};
 };
@@ -38,7 +38,7 @@ struct LineLoad {
   model::ScalarLaw law = model::ScalarLaw::one();
 };
 
-/// An element as a load sees it.
+/// Data of an element that loads can use.
 struct LoadedElement {
   const beam::Section& section;
   const Matrix3& frame;  ///< columns: element axes in global ones, z along the string, Z down
@@ -53,8 +53,8 @@ struct LoadRemark {
   std::string text;  ///< its value, or why it does not act
 };
 
-/// Loads are evaluated while equations are assembled, never in the step loop; what changes in time
-/// is a scalar law.
+/// Loads are evaluated during assembly, never in the step loop; their time dependence is a scalar
+/// law.
 class Load {
  public:
   virtual ~Load() = default;
@@ -72,15 +72,16 @@ class Load {
     return {};
   }
   virtual std::vector<LoadRemark> describe(const RotarySpeed& rotary) const = 0;
-  /// The list of the deck that a warning of all its entries names; empty: the load by its remark.
+  /// The deck list for a warning about all its entries; empty: the warning uses the remark of the
+  /// load.
   virtual std::string list() const { return {}; }
 };
 
-/// name -> load. A load whose description is called "Loads" has its parameters in the list `Loads`
-/// itself, the others in a sublist with their name.
+/// name -> load. A load whose description is called "Loads" has its parameters directly in the list
+/// `Loads`, other loads in a sublist with their name.
 using LoadRegistry = deck::Registry<Load, const Teuchos::ParameterList&>;
 
-/// Registers a load, made from its list. `doc`: one sentence.
+/// Registers a load that is made from its list. `doc`: one sentence.
 /// `const bool registered = addLoad<Type>("Name", "...", parameters());`
 template <class Type>
 bool addLoad(const std::string& name, const std::string& doc, deck::ListSpec parameters) {
@@ -94,20 +95,19 @@ using Loads = std::vector<std::shared_ptr<const Load>>;
 
 /// The deck list `Loads`, with the parameters of every registered load.
 deck::ListSpec parameters();
-/// From the validated deck list `Loads`. DeckError as the loads give it.
+/// From the validated deck list `Loads`. DeckError as thrown by the loads.
 Loads readLoads(const Teuchos::ParameterList& list);
 
 /// Sum of the accelerations of all loads, global axes [m/s2].
 Vector3 acceleration(const Loads& loads);
-/// What they put on an element in the static state beside the weight of acceleration(), element
-/// axes [N/m].
+/// Distributed static loads on an element except the weight of acceleration(), element axes [N/m].
 Vector3 steadyBesideWeight(const Loads& loads, const LoadedElement& element,
                            const RotarySpeed& rotary);
-/// The same loads on the lower part of the string alone, whose first node is at this measured depth
-/// [m] and whose depths count from there.
+/// The same loads on the lower part of the string only. Its first node is at this measured depth
+/// [m], and its depths start there.
 Loads below(const Loads& loads, double top);
-/// All loads at nodes. DeckError as Load::atNodes; ModelError for a load that names a node or a
-/// component that is not there.
+/// All loads at nodes. DeckError as Load::atNodes; ModelError for a node or a component that does
+/// not exist.
 std::vector<PointLoad> pointLoads(const Loads& loads, const std::vector<double>& depths,
                                   const RotarySpeed& rotary);
 

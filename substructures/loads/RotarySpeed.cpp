@@ -41,9 +41,9 @@ RotarySpeed RotarySpeed::fromDeck(const Teuchos::ParameterList& deck) {
 double RotarySpeed::sense(double from) const {
   if (!law_) return 0.0;
   constexpr double rounding =
-      1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude, of either sign
+      1e-9;  // [rad/s]; a phase of 180 degrees leaves 1e-16 of an amplitude, of either sign
   constexpr double justAfter =
-      1e-6;  // share of a smooth stretch: the sign with which the stretch begins
+      1e-6;  // fraction of a smooth stretch; gives the sign with which the stretch begins
   std::vector<double> starts{from};
   for (double corner : law_->corners())
     if (corner > from) starts.push_back(corner);
@@ -58,7 +58,7 @@ double RotarySpeed::sense(double from) const {
 
 namespace {
 
-/// A law of time, and what it is at a constant speed.
+/// A law of time, and its value at a constant speed.
 struct Form {
   double (*inTime)(const RotarySpeed&, double);
   std::complex<double> (*steady)(double);

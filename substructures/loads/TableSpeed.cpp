@@ -14,11 +14,11 @@ namespace {
 
 using Teuchos::ParameterList;
 
-/// Piecewise cubic in Hermite form (linear: slopes are those of the chords), held constant before
-/// the first and after the last entry. Between t_i and t_i+1 = t_i + h, with x from 0 to 1:
+/// Piecewise cubic in Hermite form (linear: slopes are those of the chords), constant before the
+/// first and after the last entry. Between t_i and t_i+1 = t_i + h, with x from 0 to 1 and d =
+/// y_i+1 - y_i:
 ///
-///     Omega = y_i + h m_i x + (3 d - h (2 m_i + m_i+1)) x^2 + (h (m_i + m_i+1) - 2 d) x^3,  d =
-///     y_i+1 - y_i
+///     Omega = y_i + h m_i x + (3 d - h (2 m_i + m_i+1)) x^2 + (h (m_i + m_i+1) - 2 d) x^3
 class Table : public SpeedLaw {
  public:
   explicit Table(const ParameterList& list)
@@ -95,8 +95,8 @@ class Table : public SpeedLaw {
   }
 
   /// Slopes of Fritsch and Carlson (1980) in Brodlie's weighted harmonic form: no overshoot between
-  /// entries; zero at both ends, so that the hold before and after joins without a jump of
-  /// dOmega/dt.
+  /// entries. They are zero at both ends, so dOmega/dt has no jump at the constant stretches before
+  /// and after.
   std::vector<double> monotoneSlopes() const {
     std::vector<double> slope(time_.size(), 0.0);
     for (std::size_t i = 1; i + 1 < time_.size(); ++i) {

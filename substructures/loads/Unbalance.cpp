@@ -12,7 +12,7 @@ namespace {
 
 using Teuchos::ParameterList;
 
-/// A mass off the axis: m e at an angle from the local x axis that turns with the string.
+/// An eccentric mass: m e at an angle from the local x axis that turns with the string.
 struct OffAxisMass {
   std::string name;
   Place place;

@@ -17,8 +17,8 @@ namespace {
 
 using constants::pi;
 
-/// Above this chi the annulus is a film (gap below 5 % of the radius) and the added-mass theory is
-/// only an extrapolation.
+/// Above this chi the annulus is a film (gap below 5 % of the radius), and the added-mass theory is
+/// an extrapolation.
 constexpr double filmConfinement = 20.0;
 
 double square(double x) { return x * x; }
@@ -26,8 +26,8 @@ double square(double x) { return x * x; }
 std::string metres(double value) { return deck::printed(value, "m"); }
 
 /// Turns (u, v) into (v, -u) and (theta_x, theta_y) into (theta_y, -theta_x) at both ends. It
-/// commutes with the isotropic lateral integrals, so int N'N times it couples the two planes: its u
-/// row holds +int N'N v, its v row -int N'N u.
+/// commutes with the isotropic lateral integrals. Its product with int N'N couples the two planes:
+/// the u row holds +int N'N v, the v row -int N'N u.
 beam::Matrix12 quarterTurn() {
   beam::Matrix12 turn = beam::Matrix12::Zero();
   for (int first : {0, 3, 6, 9}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Mud that flows down the string and up the annulus: what it adds to the matrices and loads of one
-/// beam element.
+/// Mud that flows down the string and up the annulus: contributions to the matrices and loads of
+/// one beam element.
 ///
 /// The inner flow U_i = Q/A_i goes down the string, the annular flow U_o = Q/A_ch comes back up.
 /// With
@@ -15,17 +15,17 @@
 ///     damping    (c_ax + c_rot sqrt|Omega|) int N'N + (m_i U_i - m_a U_o) (int N'N_z - int N_z'N)
 ///     stiffness  -(m_i U_i^2 + m_a U_o^2) int N_z'N_z
 ///
-/// and the load (rho_f A_i - rho_f A_o) g (buoyancy in effective-tension form: no pressure term
-/// goes with it) and the axial drag of the returning flow. Sources: Ritto, Soize and Sampaio (2009)
-/// for the axial flow, Chen (1981) and Fritz (1970) for the confined added mass and viscous
-/// damping, as cited in section 2.3 of Nguyen et al. 2020.
+/// and the right-hand side the load (rho_f A_i - rho_f A_o) g (buoyancy in effective-tension form,
+/// without a pressure term) and the axial drag of the returning flow. Sources: Ritto, Soize and
+/// Sampaio (2009) for the axial flow, Chen (1981) and Fritz (1970) for the confined added mass and
+/// viscous damping, as cited in section 2.3 of Nguyen et al. 2020.
 #pragma once
 
 #include "substructures/mud/MudModel.hpp"
 
 namespace tooljoint::mud {
 
-/// Numbers per length of one section in one bore; see the file's head for the symbols.
+/// Values per length of one section in one bore; symbols as at the top of the file.
 struct SectionFlow {
   double innerMass = 0.0;         ///< m_i [kg/m]
   double annulusMass = 0.0;       ///< m_a [kg/m]
@@ -43,7 +43,7 @@ class AnnularFlow : public MudModel {
  public:
   explicit AnnularFlow(const MudProperties& properties);
 
-  /// Flow numbers for body radii R_i, R_e (never a gauge radius) in a bore of radius R_w [m]. R_w
+  /// Flow values for body radii R_i, R_e (never a gauge radius) in a bore of radius R_w [m]. R_w
   /// may be infinite. Throws ModelError when the body does not fit the bore, or when mud is pumped
   /// through a solid section.
   SectionFlow flow(double innerRadius, double outerRadius, double boreRadius) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The interface of a mud model: what the drilling mud adds to the matrices and loads of one
+/// The interface of a mud model: contributions of the drilling mud to the matrices and loads of one
 /// element. A model is one file that registers itself, in the tree or outside; a deck names it as
 /// `Mud/Model`.
 #pragma once
@@ -19,8 +19,8 @@
 
 namespace tooljoint::mud {
 
-/// What the deck list `Mud` says of the fluid and of the effects to keep, for all models. A deck
-/// without the list has no mud model at all.
+/// Values of the deck list `Mud` for all models: the fluid and the active effects. A deck without
+/// the list has no mud model.
 struct MudProperties {
   double density = 0.0;              ///< rho_f [kg/m3]
   double frictionCoefficient = 0.0;  ///< C_f of the axial flow along the string [-]
@@ -40,8 +40,8 @@ struct MatrixTerm {
   beam::Matrix12 matrix;  ///< element frame, on the left-hand side
 };
 
-/// What the mud adds to one element, in its element frame. Terms that are zero by the deck are not
-/// in the lists.
+/// Contributions of the mud to one element, in its element frame. Terms that the deck makes zero
+/// are omitted from the lists.
 struct ElementContribution {
   beam::Matrix12 mass = beam::Matrix12::Zero();
   std::vector<MatrixTerm> damping;
@@ -53,9 +53,9 @@ class MudModel {
  public:
   virtual ~MudModel() = default;
 
-  /// Contribution of an element of length l [m] in a bore of radius R_w [m]; `gravity` is the
+  /// Contribution to an element of length l [m] in a bore of radius R_w [m]; `gravity` is the
   /// acceleration vector in the element frame [m/s2] (zero for a deck without gravity). ModelError
-  /// for a section or a bore the model has no answer for.
+  /// for a section or a bore that the model does not cover.
   virtual ElementContribution element(const beam::Section& section, double boreRadius,
                                       double length, const Vector3& gravity) const = 0;
 };
@@ -63,9 +63,9 @@ class MudModel {
 /// name -> model, made from the list of its own parameters and the properties of the mud.
 using MudModels = deck::Registry<MudModel, const Teuchos::ParameterList&, const MudProperties&>;
 
-/// Registers a model, made from (list of its own parameters, properties) or from (properties).
-/// `doc`: one sentence and the source it follows.
-/// `const bool registered = addMudModel<Type>("Name", "...", parameters());`
+/// Registers a model that is made from (list of its own parameters, properties) or from
+/// (properties). `doc`: one sentence and the source of the model. `const bool registered =
+/// addMudModel<Type>("Name", "...", parameters());`
 template <class Type>
 bool addMudModel(const std::string& name, const std::string& doc, deck::ListSpec parameters = {}) {
   return MudModels::instance().add(
@@ -78,11 +78,11 @@ bool addMudModel(const std::string& name, const std::string& doc, deck::ListSpec
              }});
 }
 
-/// The deck list `Mud`, with one sublist per registered model that has parameters of its own.
+/// The deck list `Mud`, with one sublist for each registered model that has its own parameters.
 deck::ListSpec parameters();
 /// The properties of the validated deck list `Mud`.
 MudProperties readProperties(const Teuchos::ParameterList& list);
-/// The model that the validated deck list `Mud` names. DeckError as the model gives it.
+/// The model named in the validated deck list `Mud`. DeckError as thrown by the model.
 std::unique_ptr<MudModel> readMud(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::mud

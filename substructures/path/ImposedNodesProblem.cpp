@@ -59,7 +59,7 @@ void ImposedNodesProblem::constrain(Sparse& jacobian) const {
 }
 
 void ImposedNodesProblem::constrainScale(Vector& scale) const {
-  // position errors count in metres
+  // position errors are measured in metres
   for (const int node : imposed_)
     for (int c = 0; c < 2; ++c) scale(unknownOf(node, c)) = 1.0;
 }

@@ -13,7 +13,7 @@
 namespace tooljoint::path {
 namespace {
 
-/// A load step is halved at most this often before the path is given up.
+/// Largest number of halvings of a load step before the path computation fails.
 constexpr int kMaxHalvings = 6;
 
 std::vector<double> unstretchedDepths(const PathInput& input) {
@@ -50,7 +50,7 @@ double footOnAxis(const well::Trajectory& trajectory, const Vector3& x, double s
   return s;
 }
 
-/// Nodal positions, frames and distances from the axis of the state at x.
+/// Nodal positions, frames and distances from the axis at x.
 void placeNodes(const PathInput& input, const PathOptions& options, const PathProblem& problem,
                 const Vector& x, PathState& state) {
   const std::vector<NodePose> nodePoses = problem.poses(x);
@@ -74,7 +74,7 @@ void placeNodes(const PathInput& input, const PathOptions& options, const PathPr
   }
 }
 
-/// Turns the converged problem into the result: reactions, element forces and, if requested,
+/// Fills the result from the converged problem: reactions, element forces and, if requested,
 /// tangents in nodal frames.
 void describe(const PathInput& input, const PathOptions& options, const PathProblem& problem,
               const Vector& x, PathState& state) {
@@ -117,8 +117,7 @@ model::SolveRequest request(const PathOptions& options, const std::string& what)
   return out;
 }
 
-/// Solves one load step; a trial state so wild that an element has no frame counts as not
-/// converged.
+/// Solves one load step. A trial state in which an element has no frame counts as not converged.
 model::SolveOutcome attempt(const model::NonlinearSolver& solve, const PathProblem& problem,
                             Vector& x, const model::SolveRequest& asked) {
   try {
@@ -158,8 +157,8 @@ PathState alongCentreLine(const PathInput& input, const PathOptions& options,
   return state;
 }
 
-/// 0-based imposed nodes: the given list, or equally spaced in arc length; the first node is fixed
-/// anyway.
+/// 0-based imposed nodes: the given list, or equally spaced in arc length. The first node is always
+/// fixed.
 std::vector<int> imposedNodes(const PathInput& input, const PathOptions& options) {
   const std::vector<double> depths = unstretchedDepths(input);
   const int last = static_cast<int>(depths.size()) - 1;

@@ -19,7 +19,7 @@ class ParameterList;
 
 namespace tooljoint::path {
 
-/// The string as the path sees it: elements from the surface down.
+/// Input of the path computation: elements from the surface down.
 struct PathInput {
   std::vector<std::shared_ptr<const beam::Element>> elements;
   const well::Trajectory* trajectory = nullptr;  ///< must outlive the call
@@ -46,10 +46,9 @@ deck::ListSpec parameters();
 /// Reads a validated `Path` list.
 PathOptions optionsFrom(const Teuchos::ParameterList& path);
 
-/// The path state. Throws ConvergenceError when a load step fails even after it was halved
-/// repeatedly, and ModelError for an empty string, imposed nodes that do not exist, or elements
-/// that `Imposed nodes` cannot bend. Rotations that no element at a node has stay those of the
-/// well.
+/// The path state. Throws ConvergenceError when a load step fails even after repeated halving, and
+/// ModelError for an empty string, imposed nodes that do not exist, or elements that `Imposed
+/// nodes` cannot bend. Rotations that no element has at a node remain those of the well.
 PathState computePath(const PathInput& input, const PathOptions& options,
                       const model::NonlinearSolver& solve);
 PathState computePath(const PathInput& input, const Teuchos::ParameterList& path,

@@ -11,7 +11,7 @@
 namespace tooljoint::path {
 namespace {
 
-/// 1 for the dofs `held`, and for the rotations (along a curve depths too) that no element has.
+/// 1 for the dofs `held`, and for the rotations (along a curve also depths) that no element has.
 std::vector<char> heldDofs(const PathInput& input, int translations, const std::vector<int>& held) {
   const int perNode = translations + 3;
   const std::vector<beam::DofMap> present = beam::nodalDofs(input.elements);
@@ -47,8 +47,8 @@ PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
     lists.push_back(free_.ofElement(static_cast<int>(e)));
   }
   assembler_ = beam::SparseAssembler(size(), std::move(lists));
-  // Forces are measured against E I/l^2 and, since positions carry the rounding of the whole depth
-  // L, against a millionth of (E S/l) L; moments against E I/l.
+  // Force scale: E I/l^2 plus, since positions carry the rounding of the whole depth L, a millionth
+  // of (E S/l) L. Moment scale: E I/l.
   const double mean = length / static_cast<double>(elements_.size());
   forceScale_ = rigidity / (mean * mean) + 1e-6 * stretch * length;
   momentScale_ = rigidity / mean;

@@ -23,7 +23,7 @@ struct NodePose {
 
 /// Equilibrium of the unloaded string with prescribed translations. Unknowns of a node: its
 /// translations (one along a curve, or three in space), then the rotation vector theta in the axes
-/// of its reference triad, Q = Q_ref exp(theta^). Residual rows: the internal forces that work on
+/// of its reference triad, Q = Q_ref exp(theta^). Residual rows: the internal forces conjugate to
 /// the translations, and the internal moments in reference axes.
 class PathProblem : public model::ChainProblem {
  public:
@@ -37,7 +37,7 @@ class PathProblem : public model::ChainProblem {
   std::string unknownName(int i) const override;
 
   int nodes() const { return static_cast<int>(reference_.size()); }
-  /// Unknowns of the state the problem was built in (or last accepted).
+  /// Unknowns of the initial state, or of the state accepted last.
   Vector start() const { return free_.restrict(state_); }
   std::vector<NodePose> poses(const Vector& x) const;
   std::vector<beam::CorotationalResponse> responses(const Vector& x, bool withTangent) const;
@@ -46,14 +46,14 @@ class PathProblem : public model::ChainProblem {
 
  protected:
   /// `translations` per node: 1 or 3. `state` holds translations and rotation vector (zero) of all
-  /// nodes; dofs in `held` (positions in `state`) and rotations (along a curve depths too) that no
-  /// element has keep their values.
+  /// nodes. The dofs in `held` (positions in `state`) and the rotations (along a curve also depths)
+  /// that no element has keep their values.
   PathProblem(const PathInput& input, int translations, Vector state,
               std::vector<Matrix3> reference, const std::vector<int>& held);
 
   int dofsPerNode() const { return translations_ + 3; }
   int unknownOf(int node, int dof) const { return free_.unknown(node * dofsPerNode() + dof); }
-  /// All dofs of all nodes, the held ones too.
+  /// All dofs of all nodes, including the held ones.
   Vector expand(const Vector& x) const;
   /// Makes the state x the new reference: its triads become the reference triads, the rotation
   /// vectors zero.
@@ -62,8 +62,7 @@ class PathProblem : public model::ChainProblem {
   /// Position of a node and its derivative, 3 x translations, from the node's translations.
   virtual Vector3 position(const double* translations) const = 0;
   virtual Matrix positionDerivative(const double* translations) const = 0;
-  /// Second derivative along the only translation; zero where positions are themselves the
-  /// unknowns.
+  /// Second derivative by the only translation; zero if the positions themselves are the unknowns.
   virtual Vector3 positionCurvature(const double* translations) const;
   /// Changes the assembled equations for prescribed motions.
   virtual void constrain(const Vector& /*state*/, Vector& /*r*/) const {}
@@ -81,11 +80,11 @@ class PathProblem : public model::ChainProblem {
     int begin, end;
   };
   Elements allElements() const { return {0, static_cast<int>(elements_.size())}; }
-  /// All that act on the nodes of some rows.
+  /// All elements at the nodes of some rows.
   Elements elementsOf(RowRange rows) const;
   std::vector<beam::CorotationalResponse> evaluate(const Vector& state, bool withTangent,
                                                    Elements which) const;
-  /// What residual() and jacobian() have from some elements.
+  /// Contributions of some elements to residual() and jacobian().
   void residualOf(Elements which, const Vector& x, Vector& r) const;
   void jacobianOf(Elements which, const Vector& x, Sparse& jacobian) const;
 
@@ -99,9 +98,9 @@ class PathProblem : public model::ChainProblem {
   double momentScale_ = 1.0;
 };
 
-/// `Centre line`: every node stays on the axis of the well, free to slide along it and to rotate;
-/// fixed are the first node's depth and its rotation about the tangent. Starts from unstretched
-/// depths and the given nodal frames.
+/// `Centre line`: every node stays on the axis of the well, free to slide along it and to rotate.
+/// The depth of the first node and its rotation about the tangent are fixed. Starts from
+/// unstretched depths and the given nodal frames.
 class CentreLineProblem : public PathProblem {
  public:
   CentreLineProblem(const PathInput& input, const std::vector<double>& depths,
@@ -118,12 +117,12 @@ class CentreLineProblem : public PathProblem {
   const well::Trajectory* trajectory_;
 };
 
-/// `Imposed nodes`: X and Y of some nodes have prescribed values. Fixed are the translations of the
-/// first node and its rotation about its own axis. Starts straight down from the wellhead; each
+/// `Imposed nodes`: X and Y of some nodes have prescribed values. The translations of the first
+/// node and its rotation about its own axis are fixed. Starts straight down from the wellhead; each
 /// load step starts from the state accepted last.
 class ImposedNodesProblem : public PathProblem {
  public:
-  /// `imposed` are 0-based nodes without the first one.
+  /// `imposed`: 0-based nodes, without the first one.
   ImposedNodesProblem(const PathInput& input, std::vector<int> imposed);
 
   /// Prescribes X and Y (columns of 2 x imposed nodes) of the imposed nodes for the next solve [m].

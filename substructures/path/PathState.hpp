@@ -28,7 +28,7 @@ struct PathState {
   std::vector<Matrix3> frame;  ///< nodal frames Q, columns x, y, z; z is the well tangent (`Centre
                                ///< line`) or the axis of the node's cross section (`Imposed nodes`)
   std::vector<Vector3> sectionAxis;  ///< axis of the cross section of each node, global; differs
-                                     ///< from z where bending jumps, at the ends above all
+                                     ///< from z where bending jumps, mainly at the ends
   std::vector<Vector3>
       offset;  ///< position minus foot on the axis, in the nodal frame [m]; zero in `Centre line`
   std::vector<Matrix3> elementFrame;  ///< E: z on the chord, x and y from the mean nodal frames
@@ -38,9 +38,8 @@ struct PathState {
                                       ///< global axes [N, N m]
   Vector axialForce;                  ///< F_apa per element [N]
   Vector torque;                      ///< T_apa per element [N m]
-  /// Corotational tangent of each element at this state in nodal frames, moments included; empty
-  /// unless requested (pre-stress `Full tangent`), and then it takes the place of K_a + K_g(F_apa,
-  /// T_apa).
+  /// Corotational tangent of each element at this state in nodal frames, moments included. Empty
+  /// unless requested (pre-stress `Full tangent`); it then replaces K_a + K_g(F_apa, T_apa).
   std::vector<beam::Matrix12> tangent;
   PathReport report;
 

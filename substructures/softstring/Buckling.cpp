@@ -12,9 +12,10 @@ namespace {
 
 /// Wu and Juvkam-Wold 1992: F = factor (E I w^2)^(1/3) in a vertical hole.
 constexpr double verticalSinusoidal = 2.55, verticalHelical = 5.55;
-/// Growth of the trial load while a root is sought; two roots nearer than that count as none.
+/// Growth factor of the trial load in the root search; roots closer than this are not separated.
 constexpr double growth = 1.05;
-/// Loads are sought up to this multiple of those of a horizontal hole and of a bare bend.
+/// Upper end of the load search, as a multiple of the limits of a horizontal hole and of a bend
+/// without weight.
 constexpr double most = 1e3;
 
 /// Least F > 0 with F^2 = factor^2 (E I/r) N(F).
@@ -34,7 +35,7 @@ double leastRoot(const well::WellPoint& point, double weight, double ratio, doub
   return high;
 }
 
-/// The larger one of the limits in a vertical hole and in one that inclines or bends.
+/// The larger of the limits in a vertical hole and in an inclined or bent hole.
 double limit(const well::WellPoint& point, double weight, double stiffness, double clearance,
              double vertical, double factor) {
   if (!(clearance > 0.0)) return std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A string in its hole, cut where anything jumps.
+/// A string in its hole, divided at every discontinuity.
 #pragma once
 
 #include <string>
@@ -10,16 +10,17 @@
 
 namespace tooljoint::softstring {
 
-/// Points nearer to an end of a piece than this are taken from inside it [m].
+/// Points closer than this to an end of a piece are evaluated inside the piece [m].
 constexpr double inside = 1e-7;
 
-/// A piece of the way up in which nothing jumps.
+/// A piece of the hole without discontinuities.
 struct Piece {
   double top, bottom;  ///< measured depths [m]
   int stretch;
 };
 
-/// The string below the surface in pieces, from the bit up. ModelError when it is too short.
+/// Pieces of the string below the surface, from the bit up. ModelError when the string is too
+/// short.
 std::vector<Piece> pieces(const std::vector<Stretch>& string, const Hole& hole, double bit);
 
 }  // namespace tooljoint::softstring

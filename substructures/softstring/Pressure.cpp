@@ -12,7 +12,8 @@ namespace tooljoint::softstring {
 
 namespace {
 
-/// Of both flows per length [Pa/m]; nothing flows in a bar, or where the string fills the hole.
+/// Pressure loss of both flows per length [Pa/m]; no inner flow in a bar, no annular flow if the
+/// string fills the hole.
 double lossPerLength(const beam::Section& pipe, double hole, const Circulation& mud) {
   const double factor = mud.frictionCoefficient * mud.density / constants::pi;
   const double inner = pipe.innerRadius(), outer = pipe.outerRadius();
@@ -32,7 +33,8 @@ double lossPerLength(const beam::Section& pipe, double hole, const Circulation& 
 
 PressureDifference::PressureDifference(const std::vector<Stretch>& string, const Hole& hole,
                                        double bit, std::optional<double> pumpPressure) {
-  const double down = hole.mud.flowRate < 0.0 ? -1.0 : 1.0;  // what goes down inside, or outside
+  const double down = hole.mud.flowRate < 0.0 ? -1.0 : 1.0;  // sign of the flow: down inside the
+                                                             // string, or down the annulus
   auto found = pieces(string, hole, bit);
   std::reverse(found.begin(), found.end());
   depth_.push_back(0.0);

@@ -11,7 +11,7 @@
 namespace tooljoint::softstring {
 namespace {
 
-/// Halvings that find where within a step a helix begins or ends: to nanometres.
+/// Halvings to locate the start or end of a helix within a step: to nanometres.
 constexpr int halvings = 32;
 
 using State = Eigen::Vector2d;  // T, M
@@ -19,11 +19,11 @@ using State = Eigen::Vector2d;  // T, M
 /// A step up the hole.
 struct Step {
   State end;
-  double twist = 0.0;       ///< of the way, integral of M/(G J) [rad]
+  double twist = 0.0;       ///< over the step, integral of M/(G J) [rad]
   double stretching = 0.0;  ///< integral of T/(E A) [m]
 };
 
-/// The equations on one piece of the way, where nothing jumps but the helix.
+/// The equations on one piece; only the helix is discontinuous there.
 class PieceOfWay {
  public:
   PieceOfWay(const Piece& piece, const Stretch& own, const Hole& hole, const Operation& operation,
@@ -53,7 +53,7 @@ class PieceOfWay {
     return helical ? straight + helicalSideForce(-tension, stiffness_, clearance_) : straight;
   }
 
-  /// From s by h < 0; the helix begins and ends where it does within the step.
+  /// Step from s by h < 0; the start or end of the helix is located within the step.
   Step step(double s, const State& from, double h) const {
     const bool helical = isHelical(s, from[0]);
     const Step whole = smooth(s, from, h, helical);
@@ -86,7 +86,7 @@ class PieceOfWay {
                 k3 = rate(s + 0.5 * h, y + 0.5 * h * k2, helical),
                 k4 = rate(s + h, y + h * k3, helical);
     const State end = y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-    const State mean = y + h / 24.0 * (5.0 * k1 + 4.0 * k2 + 4.0 * k3 - k4);  // half a step on
+    const State mean = y + h / 24.0 * (5.0 * k1 + 4.0 * k2 + 4.0 * k3 - k4);  // in mid-step
     const State integral = -h / 6.0 * (y + 4.0 * mean + end);
     return {end, integral[1] / own_.section.torsionalRigidity(),
             integral[0] / own_.section.axialRigidity()};

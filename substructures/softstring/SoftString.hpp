@@ -36,7 +36,7 @@ struct Circulation {
   double density = 0.0;              ///< rho [kg/m3]
   double frictionCoefficient = 0.0;  ///< C_f, with the wall shear C_f rho U^2/(2 pi)
   double flowRate = 0.0;             ///< Q [m3/s]
-  bool axialDrag = false;            ///< it drags the string
+  bool axialDrag = false;            ///< the flow exerts axial drag on the string
 };
 
 /// The hole, by measured depth [m].
@@ -48,7 +48,7 @@ struct Hole {
   Circulation mud = {};
 };
 
-/// What is done with the string.
+/// An operation: motion of the string and loads at the bit.
 struct Operation {
   std::string name;
   double axialSpeed = 0.0;   ///< v_a [m/s], down positive
@@ -57,31 +57,32 @@ struct Operation {
   double torqueOnBit = 0.0;  ///< [N m]
 };
 
-/// Loads along the string, from the bit up to the surface or to where it locks up; vectors of equal
+/// Loads along the string, from the bit up to the surface or to the lock-up depth; vectors of equal
 /// length.
 struct Loads {
   std::vector<double> depth;      ///< measured depth [m], decreasing
   std::vector<double> tension;    ///< T, effective [N]
   std::vector<double> torque;     ///< M [N m]
   std::vector<double> sideForce;  ///< N [N/m], just above the point
-  std::vector<int> stretch;       ///< the one just above the point; the last point has that below
+  std::vector<int> stretch;       ///< index of the stretch just above the point; the last point has
+                                  ///< the stretch below
   double twist = 0.0;             ///< of the bit ahead of the surface, integral of M/(G J) [rad]
   double stretching = 0.0;        ///< integral of T/(E A) [m]
-  /// Depth above which the string buckles into a helix so tightly that no force from above reaches
-  /// the bit [m]; negative where it does not.
+  /// Depth above which the string is buckled into a helix so tightly that no force from above
+  /// reaches the bit [m]; negative if the string does not lock up.
   double lockUpDepth = -1.0;
 };
 
-/// Axial strain at which a string that is pushed counts as locked up: steel yields before.
+/// Axial strain at which a pushed string counts as locked up; steel yields earlier.
 inline constexpr double lockedStrain = 0.01;
 
-/// d, upwards [N/m]; zero where the body fills the hole.
+/// d, upwards [N/m]; zero if the body fills the hole.
 double mudDrag(const beam::Section& section, double holeRadius, const Circulation& mud);
 
-/// Loads of a string whose lower end is at the depth `bit`; what of it stands above the surface is
-/// left out. `string` from the surface down, at least as long as `bit`. Fourth-order Runge-Kutta in
-/// steps of at most `step` [m] that end where anything jumps. With `helix`, the side force of a
-/// string buckled into a helix, r T^2/(4 E I), is added where -T exceeds the helical limit
+/// Loads of a string whose lower end is at the depth `bit`; the part above the surface is ignored.
+/// `string` runs from the surface down and is at least as long as `bit`. Fourth-order Runge-Kutta
+/// in steps of at most `step` [m] that end at every discontinuity. With `helix`, the side force of
+/// a string buckled into a helix, r T^2/(4 E I), is added where -T exceeds the helical limit
 /// (Buckling.hpp). ModelError when the string is too short.
 Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,
             const Operation& operation, bool helix = true, double step = 3.0);

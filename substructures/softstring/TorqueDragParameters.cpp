@@ -9,7 +9,7 @@
 namespace tooljoint::softstring {
 namespace {
 
-/// What an operation is made of: the axial speed, down positive, is `direction` times one of the
+/// Definition of an operation: the axial speed, down positive, is `direction` times one of the
 /// settings. (Without rotation any speed gives the same loads.)
 struct Kind {
   const char* name;
@@ -28,7 +28,8 @@ constexpr std::array kinds{
     Kind{"Ream", &TorqueDragSettings::reamingSpeed, 1.0, true, false},
 };
 
-/// Bit depths of one analysis: with the profiles of six operations they take some 240 kB each.
+/// Largest number of bit depths of one analysis: the profiles of six operations take about 240 kB
+/// per depth.
 constexpr int mostDepths = 2000;
 
 }  // namespace

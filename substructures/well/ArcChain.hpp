@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A centre line made of circular arcs and straight pieces; the common ground of the arc, straight
-/// and survey trajectories.
+/// A centre line of circular arcs and straight pieces; the base of the arc, straight and survey
+/// trajectories.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace tooljoint::well {
 
-/// Unit tangent of a hole with this inclination from the vertical and azimuth from X towards Y
+/// Unit tangent of a hole with this inclination from the vertical and this azimuth from X towards Y
 /// [rad].
 Vector3 direction(double inclination, double azimuth);
 
@@ -19,9 +19,9 @@ Vector3 direction(double inclination, double azimuth);
 class ArcChain : public Trajectory {
  public:
   explicit ArcChain(const Vector3& firstTangent);
-  /// Append a straight piece [m]; nothing when the length is zero.
+  /// Appends a straight piece [m]; no effect for zero length.
   void addStraight(double length);
-  /// Append the arc of this length [m] that turns the tangent to `tangent` in the plane of both
+  /// Appends the arc of this length [m] that turns the tangent to `tangent` in the plane of both
   /// (minimum curvature). The angle between them must be below pi.
   void addArc(double length, const Vector3& tangent);
 
@@ -48,8 +48,8 @@ class ArcChain : public Trajectory {
   Vector3 endTangent_;
 };
 
-/// Stations from the numbers of a deck, three for each: measured depth, inclination and azimuth in
-/// these units. Throws DeckError with one line "path:station: sentence" per fault, as
+/// Stations from the numbers of a deck, three per station: measured depth, inclination and azimuth
+/// in these units. Throws DeckError with one line "path:station: sentence" per fault, as
 /// readSurveyTable.
 std::vector<Station> surveyStations(const std::vector<double>& numbers, const std::string& path,
                                     const std::string& depthUnit, const std::string& angleUnit);

@@ -10,8 +10,7 @@
 namespace tooljoint::well {
 namespace {
 
-/// The chord of points nearer to each other than this is rounding and has no direction: they have
-/// one frame [m].
+/// Points closer than this have the same frame [m]: their chord is rounding and has no direction.
 constexpr double samePlace = 1e-8;
 
 Vector3 reflected(const Vector3& a, const Vector3& normal, double squaredNorm) {
@@ -30,7 +29,7 @@ Vector3 doubleReflection(const WellPoint& from, const WellPoint& to, const Vecto
   return (carried - carried.dot(to.tangent) * to.tangent).normalized();
 }
 
-/// Carries x along a stretch without curvature jumps inside, starting at `point`, which is moved to
+/// Carries x along a stretch without curvature jumps inside. Starts at `point` and moves it to
 /// `to`.
 void transport(const Trajectory& trajectory, double from, double to, WellPoint& point, Vector3& x) {
   if (to - from < samePlace) {

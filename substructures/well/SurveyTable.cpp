@@ -18,7 +18,7 @@ constexpr std::uint64_t largestSurvey = 1U << 26U;  // bytes
 constexpr std::size_t mostFaults = 100;
 const std::string degreeSign = "\u00b0";
 
-/// What a column must hold.
+/// Kind of quantity in a column.
 struct ColumnKind {
   const char* name;
   const char* si;
@@ -28,12 +28,12 @@ const std::array<ColumnKind, 3> kinds = {
     {{"measured depth", "m", {"md", "measured depth", "meas depth", "depth"}},
      {"inclination", "rad", {"inc", "incl", "inclination"}},
      {"azimuth", "rad", {"azi", "az", "azim", "azimuth"}}}};
-/// Words of a heading that name no other column: the hole, and the north of an azimuth, which turns
-/// the well as a whole.
+/// Words of a heading that do not name another column: the hole, and the north of an azimuth, which
+/// rotates the well as a whole.
 const std::array<const char*, 2> ofTheHole = {"hole", "wellbore"};
 const std::array<const char*, 7> norths = {"true", "grid", "magnetic", "mag", "tn", "gn", "mn"};
 
-/// Factor to SI of a unit that measures what a column of this kind holds.
+/// Factor to SI of a unit for a column of this kind.
 std::optional<double> unitFactor(const ColumnKind& kind, const std::string& unit) {
   std::string plain = unit.rfind(degreeSign, 0) == 0 ? degreeSign : unit;  // "(deg TN)" too
   while (!plain.empty() && plain.back() == '.') plain.pop_back();
@@ -96,7 +96,7 @@ class SurveyReader {
     return std::move(table_);
   }
 
-  /// Of depth, inclination and azimuth of one station after the other.
+  /// From depth, inclination and azimuth of one station after the other.
   std::vector<Station> take(const std::vector<double>& numbers) {
     for (std::size_t i = 0; i + kinds.size() <= numbers.size(); i += kinds.size()) {
       ++line_;
@@ -117,7 +117,7 @@ class SurveyReader {
     }
   }
 
-  /// A table separated by blanks alone has tabs in their place.
+  /// Replaces the blanks of a table that is separated by blanks only by tabs.
   std::string withTabs(const std::string& text) {
     if (text.find_first_of(",;\t") != std::string::npos) return text;
     std::vector<std::string> lines = tooljoint::split(text, '\n');
@@ -132,8 +132,8 @@ class SurveyReader {
     return blanks_ ? join(lines, "\n") : text;
   }
 
-  /// Split at two blanks and more where that gives all columns, else at each; a unit in brackets
-  /// stays with its name.
+  /// Splits at two or more blanks if that gives all columns, otherwise at each blank; a unit in
+  /// brackets stays with its name.
   static std::vector<std::string> blankCells(const std::string& line) {
     std::vector<std::string> wide(1), narrow;
     std::size_t blanks = 0;
@@ -156,7 +156,7 @@ class SurveyReader {
     return wide.size() >= kinds.size() ? wide : narrow;
   }
 
-  /// Lines of text above a header that names all columns (well, company, datum) become comments.
+  /// Turns lines of text above a header with all columns (well, company, datum) into comments.
   std::string withoutPreamble(const std::string& text) {
     std::vector<std::string> lines = tooljoint::split(text, '\n');
     std::vector<std::size_t> above;
@@ -229,7 +229,7 @@ class SurveyReader {
       return;
     }
     while (cells.size() > columns_ && cells.back().empty())
-      cells.pop_back();  // separators at the end of a row
+      cells.pop_back();  // empty cells from separators at the end of a row
     if (cells.size() != columns_) {
       fault("found " + std::to_string(cells.size()) + " columns where " + std::to_string(columns_) +
             " are expected (measured depth, inclination, azimuth; separated by commas, semicolons "
@@ -250,13 +250,13 @@ class SurveyReader {
       const bool bare = endsInDegreeSign(cells[i]);
       const auto end = bare ? cells[i].size() - degreeSign.size() : cells[i].find_first_of("[(");
       const int which = columnOf(heading(cells[i]));
-      if (which < 0) {  // comments, true vertical depth
+      if (which < 0) {  // not used: comments, true vertical depth
         ignored_.push_back(cells[i]);
         continue;
       }
       const auto k = static_cast<std::size_t>(which);
       const bool toNorth = namesNorth(heading(cells[i]));
-      if (seen[k] && toNorth) {  // the azimuth from another north
+      if (seen[k] && toNorth) {  // a second azimuth, with another north
         ignored_.push_back(cells[i]);
         continue;
       }
@@ -290,7 +290,7 @@ class SurveyReader {
     return -1;
   }
 
-  /// The row below the header, when it holds units and no number.
+  /// The row below the header, if it holds units and no number.
   bool unitRow(const std::vector<std::string>& cells) {
     bool any = false;
     for (std::size_t k = 0; k < kinds.size(); ++k) {
@@ -319,7 +319,7 @@ class SurveyReader {
     given_[k] = true;
   }
 
-  /// The number of a cell; an angle may have a degree sign behind it where it is one in degrees.
+  /// The number of a cell. An angle may be followed by a degree sign if its unit is degrees.
   std::optional<double> number(std::size_t k, std::string cell) {
     if (k > 0 && endsInDegreeSign(cell) && factor_[k] != 1.0)
       cell = trim(cell.substr(0, cell.size() - degreeSign.size()));
@@ -347,7 +347,7 @@ class SurveyReader {
     return read->value * factor;
   }
 
-  /// Factor of the unit behind the number of a cell, "200 ft".
+  /// Factor of the unit after the number of a cell, "200 ft".
   static std::optional<double> unitBehind(std::size_t k, const std::string& cell) {
     if (deck::cellNumber(cell) || cell.empty() ||
         !std::isalpha(static_cast<unsigned char>(cell.back())))

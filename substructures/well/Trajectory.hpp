@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The centre line of a well as a curve in arc length. Global axes: X north, Y east, Z down; the
-/// curve starts at the surface, in the origin.
+/// curve starts at the origin, at the surface.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ struct WellPoint {
   Vector3 curvature;  ///< d tangent / ds [1/m], normal to the tangent
 };
 
-/// Centre line of a well. Outside [0, length()] it goes on straight, so that a depth off by
+/// Centre line of a well. It continues straight outside [0, length()], so that a depth off by
 /// rounding is no special case.
 class Trajectory {
  public:
@@ -36,8 +36,8 @@ class Trajectory {
   /// Increasing depths [m] where the curvature jumps (survey stations, the kick-off point); none
   /// for a smooth curve.
   virtual std::vector<double> breaks() const { return {}; }
-  /// What a person should know of the file it came from: what was read how, and what was not read.
-  /// One sentence each.
+  /// Remarks for the user on the file of the trajectory: its interpretation and unread parts. One
+  /// sentence each.
   const std::vector<std::string>& remarks() const { return remarks_; }
   void addRemark(const std::string& remark) { remarks_.push_back(remark); }
 
@@ -45,8 +45,7 @@ class Trajectory {
   std::vector<std::string> remarks_;
 };
 
-/// Trajectories by name. A variant gets its own sublist and the folder that file names are relative
-/// to.
+/// Trajectories by name. A variant gets its own sublist and the base folder of relative file names.
 using TrajectoryRegistry =
     deck::Registry<Trajectory, const Teuchos::ParameterList&, const std::string&>;
 
@@ -83,11 +82,11 @@ struct Station {
 /// depths increasing, no reversal of 180 degrees; throws DeckError otherwise.
 std::unique_ptr<Trajectory> minimumCurvature(const std::vector<Station>& stations);
 
-/// Stations of a file, and what was read how.
+/// Stations of a file, and remarks on its interpretation.
 struct SurveyTable {
   std::vector<Station> stations;
   std::vector<std::string>
-      remarks;  ///< columns, rows and comments that were not read; another separator than the comma
+      remarks;  ///< unread columns, rows and comments; a separator other than the comma
 };
 
 /// Stations from a table (see splitDelimited): measured depth, inclination, azimuth, by default in
@@ -97,14 +96,14 @@ struct SurveyTable {
 ///     MD [ft], Inc [deg], Azi [deg]          MD;Inclination;Azimuth
 ///                                            m;°;°
 ///
-/// Without a header the order is as above. Any unit of length or angle of deck/Units.hpp may stand
-/// there. Decimal commas are read where cells are separated by something else, but not beside
-/// decimal points. Lines starting with # are comments. Throws DeckError with one line "file:line:
-/// sentence" per fault.
+/// Without a header the order is as above. Units: any length or angle of deck/Units.hpp. Decimal
+/// commas are accepted if cells are separated by another character, but not mixed with decimal
+/// points. Lines starting with # are comments. Throws DeckError with one line "file:line: sentence"
+/// per fault.
 SurveyTable readSurveyTable(const std::string& file, const std::string& depthUnit = "m",
                             const std::string& angleUnit = "deg");
 
-/// The stations of readSurveyTable alone.
+/// Only the stations of readSurveyTable.
 std::vector<Station> readSurvey(const std::string& file, const std::string& depthUnit = "m",
                                 const std::string& angleUnit = "deg");
 

@@ -37,10 +37,10 @@ Well::Well(std::shared_ptr<const Trajectory> trajectory, double boreRadius,
 }
 
 double Well::boreRadius(double s) const {
-  // an interval is closed and 1e-9 m wider, so that a node on its end has both neighbours
+  // an interval is closed and extended by 1e-9 m, so that a node on its end has both neighbours
   const double slack = 1e-9;
   double inside = std::numeric_limits<double>::infinity();
-  bool covered = false;  // an interval reaches over s on both sides
+  bool covered = false;  // an interval extends beyond s on both sides
   double reach = -std::numeric_limits<double>::infinity();
   for (const BoreInterval& interval : intervals_) {
     if (interval.from - slack > s) break;
@@ -55,7 +55,7 @@ double Well::boreRadius(double s) const {
 
 namespace {
 
-/// A centre line from a depth on.
+/// The part of a centre line below a depth.
 class Below final : public Trajectory {
  public:
   Below(std::shared_ptr<const Trajectory> whole, double top)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The hole the string stands in: a centre line and a bore radius that may vary with depth. Deck
-/// list `Well`.
+/// The hole around the string: a centre line and a bore radius that may vary with depth. Deck list
+/// `Well`.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace tooljoint::well {
 
-/// A stretch of the hole with its own radius (a casing, an open-hole section, a wash-out).
+/// A section of the hole with its own radius (a casing, an open-hole section, a wash-out).
 struct BoreInterval {
   std::string name;
   double from;    ///< measured depth [m]
@@ -21,7 +21,7 @@ struct BoreInterval {
   double radius;  ///< [m]
 };
 
-/// Centre line and bore radius. A plain value.
+/// Centre line and bore radius.
 class Well {
  public:
   /// Throws DeckError when intervals are empty, overlap or have no positive radius.
@@ -31,14 +31,14 @@ class Well {
   const Trajectory& trajectory() const { return *trajectory_; }
   double length() const { return trajectory_->length(); }
   WellPoint at(double s) const { return trajectory_->at(s); }
-  /// Bore radius [m] at the depth s [m]; where two stretches meet the smaller one counts.
+  /// Bore radius [m] at the depth s [m]; the smaller one at the boundary of two sections.
   double boreRadius(double s) const;
   /// Angle between the tangent and the vertical at the depth s [rad].
   double inclination(double s) const;
   const std::vector<BoreInterval>& intervals() const { return intervals_; }
-  /// The bore below the depth `top` [m] about another centre line, which starts there.
+  /// The bore below the depth `top` [m] about another centre line that starts there.
   Well below(double top, std::shared_ptr<const Trajectory> centreLine) const;
-  /// The same about its own centre line.
+  /// The same about the original centre line.
   Well below(double top) const;
 
  private:

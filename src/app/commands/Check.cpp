@@ -13,7 +13,8 @@ struct CheckOptions : DeckOptions {
   bool cost = false;
 };
 
-/// The lists of analyses of a string, as their commands read them. DeckError: one makes no sense.
+/// Reads the lists of analyses of a string as their commands do. DeckError for an inconsistent
+/// list.
 void checkAnalyses(const drillstring::Scene& scene) {
   const auto& deck = scene.list();
   if (deck.isSublist("Torque and Drag"))

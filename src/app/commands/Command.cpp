@@ -40,7 +40,7 @@ const char* heading(Group group) {
   return "";
 }
 
-/// The validators of CLI print their bounds with 300 digits, and take "nan".
+/// The validators of CLI11 print their bounds with 300 digits, and accept "nan".
 CLI::Validator finiteNumber(const std::string& expected, bool (*good)(double)) {
   return CLI::Validator(
       [expected, good](std::string& text) {
@@ -53,7 +53,7 @@ CLI::Validator finiteNumber(const std::string& expected, bool (*good)(double)) {
       "");
 }
 
-/// "torque_drag" of the command torque-drag.
+/// "torque_drag" for the command torque-drag.
 std::string analysisName(const CLI::App& line) {
   std::string name = line.get_name();
   std::replace(name.begin(), name.end(), '-', '_');

@@ -15,14 +15,14 @@ namespace tooljoint::app {
 
 namespace {
 
-/// Two results folders, and the window of time to compare them in [s].
+/// Two results folders, and the window of time for the comparison [s].
 struct CompareOptions {
   std::string folder;
   std::string reference;
   double begin = 0.0;
   std::optional<double> end;        ///< by default 3 s after the beginning
-  std::optional<double> failAbove;  ///< largest vibration error that is accepted
-  bool json = false;                ///< print JSON in the place of the line for people
+  std::optional<double> failAbove;  ///< largest accepted vibration error
+  bool json = false;                ///< print JSON instead of the readable line
 };
 
 /// eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and the vibration error. UsageError: the

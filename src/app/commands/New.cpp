@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a file name and the name of a list may be without quotes of a shell or of XML.
+/// True for a name that needs no quotes in a shell or in XML, as file name and as list name.
 bool isPlain(const std::string& name) {
   return !name.empty() && name.front() != '-' && name.front() != '.' &&
          name.find_first_not_of(
@@ -45,11 +45,11 @@ void write(const fs::path& folder, const std::string& name) {
   io::writeText((folder / "README.md").string(), named(files.at("README.md"), "@NAME@", name));
 }
 
-/// A folder with a deck of its name, survey.csv and README.md. UsageError: no name of a deck;
-/// FileError: the folder holds something, or cannot be written. Collective.
+/// Makes a folder with a deck of its name, survey.csv and README.md. UsageError: the name is not
+/// valid for a deck; FileError: the folder is not empty, or cannot be written. Collective.
 void newFolder(const std::string& path) {
   fs::path folder = fs::path(path).lexically_normal();
-  if (!folder.has_filename()) folder = folder.parent_path();  // of a slash at the end
+  if (!folder.has_filename()) folder = folder.parent_path();  // removes a final slash
   const std::string name = folder.filename().string();
   if (!isPlain(name))
     throw UsageError("The name " + inQuotes(name) +

@@ -9,7 +9,7 @@ namespace tooljoint::app {
 
 namespace {
 
-/// As texts; empty: the default of the script.
+/// Values as texts; empty: the default of the script.
 struct ParaviewOptions {
   std::string folder;
   std::string output;

@@ -59,7 +59,7 @@ void reportAtEnd(const std::string& folder, bool wanted) {
   if (parallel::rank() != 0) return;
   std::error_code ignored;
   const auto page = std::filesystem::path(folder) / "report.html";
-  // that of an earlier run shows results that are no longer here
+  // the page of an earlier run shows results that no longer exist
   std::filesystem::remove(page, ignored);
   if (!wanted || switchedOff()) return;
   const PythonScript script(kScript);
@@ -67,7 +67,7 @@ void reportAtEnd(const std::string& folder, bool wanted) {
   if (log::quiet()) arguments.emplace_back("--quiet");
   const auto end = script.run(arguments);
   const auto said = without(".\n", end.errors);
-  // a report without the files that are damaged is one
+  // a report is valid without the damaged files
   if (!end.started || (end.code != 0 && !std::filesystem::exists(page, ignored)))
     log::warn("The report was not written: " + said + ". Write it later with: tooljoint report " +
               folder);

@@ -16,8 +16,8 @@ namespace tooljoint::app {
 
 namespace {
 
-/// All lists of a scene, with a string of pipes that hangs in a vertical hole: what nobody can
-/// guess from types and ranges.
+/// All lists of a scene, with a string of pipes that hangs in a vertical hole: values that do not
+/// follow from types and ranges.
 std::string everyList(bool experts) {
   const deck::Examples hanging{{"Well/Trajectory", "Vertical"},
                                {"Well/Bore Radius", "0.108"},
@@ -31,7 +31,7 @@ std::string everyList(bool experts) {
                            experts ? deck::Level::Expert : deck::Level::Basic);
 }
 
-/// The numbers of survey.csv, whose first line is a remark and whose second one its header.
+/// The numbers of survey.csv; its first line is a remark and its second one the header.
 std::string stations() {
   std::istringstream rows(texts::templateFiles().at("survey.csv"));
   std::string all, row;
@@ -40,7 +40,7 @@ std::string stations() {
   return all;
 }
 
-/// The deck of `tooljoint new` with its survey inside, so that it needs no file.
+/// The deck of `tooljoint new` with its survey inside, so that it needs no other file.
 std::string wellAlone() {
   const std::string file = R"(<Parameter name="File" type="string" value="survey.csv"/>)";
   std::string text = texts::templateFiles().at("well.xml");
@@ -57,8 +57,8 @@ std::string wellAlone() {
 const std::vector<std::string> templateKinds{"well",  "parts", "part",
                                              "study", "scene", "components"};
 
-/// A deck to start from; `all` with the parameters for experts. UsageError for another kind, and
-/// for `all` beside another than "scene".
+/// A deck to start from; `all` includes the parameters for experts. UsageError for an unknown kind,
+/// and for `all` with a kind other than "scene".
 std::string deckTemplate(const std::string& kind, bool all) {
   if (all && kind != "scene")
     throw UsageError("--all belongs to the template \"scene\"; \"" + kind +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Normal contact forces at points: mean, peak, share of time in contact.
+/// Normal contact forces at points: mean, peak, fraction of time in contact.
 #pragma once
 
 #include <vector>
@@ -15,10 +15,10 @@ class ContactFigures {
   explicit ContactFigures(Eigen::Index points)
       : sum_(Vector::Zero(points)), peak_(sum_), touching_(sum_) {}
 
-  /// One sample: the force at every point [N]; one with a positive force is in contact.
+  /// One sample: the force at every point [N]; a positive force means contact.
   void add(const Vector& forces);
 
-  Vector mean() const { return overSamples(sum_); }  ///< 0 where open [N]
+  Vector mean() const { return overSamples(sum_); }  ///< 0 if open [N]
   const Vector& peak() const { return peak_; }       ///< [N]
   Vector duty() const { return overSamples(touching_); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How the nodes of a rotor go round the axis of their hole: precession, forward and backward
+/// Motion of the nodes of a rotor around the axis of their hole: precession, forward and backward
 /// whirl, with and without contact.
 #pragma once
 
@@ -21,9 +21,8 @@ struct OrbitSample {
   double rotarySpeed = 0.0;            ///< [rad/s], positive turns u into v
 };
 
-/// A node whirls forward or backward where its angle about the axis turns with or against the
-/// rotation at more than `whirlFraction` of the rotary speed; slower nodes rest or rock at the
-/// wall.
+/// A node whirls forward or backward if its angle about the axis turns with or against the rotation
+/// at more than `whirlFraction` of the rotary speed. Slower nodes rest or rock at the wall.
 class OrbitFigures {
  public:
   static constexpr double whirlFraction = 0.1;
@@ -32,16 +31,16 @@ class OrbitFigures {
 
   void add(const OrbitSample& sample);
 
-  /// Mean precession rate of each node, sum(u v' - v u')/sum(u^2 + v^2), which weighs instants by
-  /// the radius squared [rad/s]; positive turns u into v. 0 where a node never leaves the axis.
+  /// Mean precession rate of each node, sum(u v' - v u')/sum(u^2 + v^2), which weights instants by
+  /// the radius squared [rad/s]; positive turns u into v. 0 if a node never leaves the axis.
   Vector rate() const;
   Vector forwardShare() const { return share(forward_); }     ///< of the samples
   Vector backwardShare() const { return share(backward_); }   ///< of the samples
   Vector forwardContact() const { return share(rubbing_); }   ///< forward and in contact
   Vector backwardContact() const { return share(rolling_); }  ///< backward and in contact
 
-  /// The node with the largest of these shares; of equal ones, as nodes that whirl in one shape
-  /// have, that of the widest orbit.
+  /// The node with the largest of these fractions. Among equal ones, as for nodes that whirl in one
+  /// shape, the node with the widest orbit.
   WorstPlace most(const Vector& share) const;
 
   void save(std::vector<double>& memory) const;

@@ -11,16 +11,16 @@ namespace tooljoint::cases {
 
 /// A cycle or a half cycle of a load.
 struct LoadCycle {
-  double range = 0.0;  ///< peak less valley
+  double range = 0.0;  ///< peak minus valley
   double mean = 0.0;
   double count = 0.0;  ///< 1, or 0.5 for a half cycle
 };
 
-/// Holds the peaks and valleys that are not counted yet; their ranges decrease, so that there are
-/// few. A sink is called with each cycle: sink(LoadCycle).
+/// Holds the peaks and valleys that are not counted yet; their ranges decrease, so there are few.
+/// Each counted cycle is passed to a function: sink(LoadCycle).
 class Rainflow {
  public:
-  /// The next sample; `sink` receives the cycles that it closes.
+  /// Adds the next sample; `sink` receives the cycles that it closes.
   template <class Sink>
   void add(double value, const Sink& sink) {
     if (!started_) {
@@ -35,8 +35,8 @@ class Rainflow {
     last_ = value;
   }
 
-  /// What is left when the history ends here: the last sample and half cycles. The counter itself
-  /// goes on as if it had not ended.
+  /// The remaining cycles if the history ends here: the last sample and half cycles. The counter
+  /// itself is not changed.
   template <class Sink>
   void finish(const Sink& sink) const {
     if (direction_ == 0) return;
@@ -54,7 +54,7 @@ class Rainflow {
     return {std::abs(to - from), 0.5 * (from + to), count};
   }
 
-  /// X is the range to `value`, Y the one before it: Y is counted when X is not smaller.
+  /// X is the range to `value`, Y the range before it: Y is counted unless X is smaller.
   template <class Sink>
   void addReversal(double value, const Sink& sink) {
     auto& r = reversals_;
@@ -75,12 +75,12 @@ class Rainflow {
   }
 
   std::vector<double> reversals_;  ///< peaks and valleys not counted yet, the starting point first
-  double last_ = 0.0;              ///< latest sample that differs from the one before
-  int direction_ = 0;              ///< of the way to it: 1 up, -1 down
+  double last_ = 0.0;              ///< latest sample that differs from the previous one
+  int direction_ = 0;              ///< direction of the last change: 1 up, -1 down
   bool started_ = false;
 };
 
-/// What is kept of the cycles of one history.
+/// Sums over the cycles of one history.
 struct CycleTotals {
   double cycles = 0.0;        ///< halves count 0.5
   double largestRange = 0.0;  ///< unit of the history

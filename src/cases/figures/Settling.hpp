@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// When the motion of a bit has settled.
+/// Criterion for a settled motion of the bit.
 #pragma once
 
 namespace tooljoint::cases {
 
 /// Summary key: the range of the speed of the bit about the rotary speed in the second half of the
-/// window of the figures, over that in the first.
+/// window, divided by that in the first half.
 inline constexpr const char* bitSpeedGrowthKey = "transient.figures.bit_speed_growth";
 
-/// From this growth on a vibration has not settled; settled motions, chaotic ones too, stay
-/// below 2.
+/// A vibration with this growth or more has not settled; settled motions, including chaotic ones,
+/// stay below 2.
 inline constexpr double unsettledGrowth = 5.0;
 
 }  // namespace tooljoint::cases

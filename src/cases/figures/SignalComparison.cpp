@@ -10,13 +10,13 @@
 namespace tooljoint::cases {
 namespace {
 
-/// Of a time: samples at the ends of a window belong to it.
+/// Relative tolerance of times: samples at the ends of a window belong to it.
 constexpr double rounding = 1e-9;
-/// Distances of samples that differ by less than this share are equal.
+/// Sample distances with a smaller relative difference are equal.
 constexpr double jitter = 1e-3;
-/// Of the median distance: what lies further apart has a gap between.
+/// A sample distance above this multiple of the median distance is a gap.
 constexpr double gap = 2.5;
-/// Of the largest value: a signal that changes by less is constant but for rounding.
+/// A signal with a smaller range, relative to its largest value, is constant up to rounding.
 constexpr double constant = 1e-12;
 
 SampledSignal within(const SampledSignal& signal, double begin, double end) {
@@ -30,7 +30,7 @@ SampledSignal within(const SampledSignal& signal, double begin, double end) {
   return out;
 }
 
-/// Samples of equal distances and that distance.
+/// Equidistant samples and their distance.
 struct EvenSignal {
   std::vector<double> value;
   double interval = 0.0;          ///< [s]
@@ -63,8 +63,8 @@ EvenSignal evenly(const SampledSignal& signal) {
   return out;
 }
 
-/// \param samples  whose figures are wanted
-/// \param even     of the same signal, whose spectrum is
+/// \param samples  of the signal, for its figures
+/// \param even     of the same signal, for its spectrum
 ComparedSignal describe(SampledSignal samples, const EvenSignal& even,
                         const SpectrumSettings& settings) {
   ComparedSignal out;
@@ -102,7 +102,7 @@ SignalComparison compareSignals(const SampledSignal& computed, const SampledSign
   if (within(computed, out.begin, out.end).time.size() < 2 || theirs.time.size() < 2)
     throw Error(ExitCode::Internal,
                 "A comparison of signals needs at least two samples in its window.");
-  SampledSignal mine{theirs.time, {}};  // like beside like: gaps and long steps are in both
+  SampledSignal mine{theirs.time, {}};  // so that both signals have the same gaps and long steps
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < theirs.time.size(); ++i) {
     mine.value.push_back(valueAt(computed, theirs.time[i]));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A computed signal beside a measured one: differences, figures of both, spectra.
+/// Comparison of a computed with a measured signal: differences, values of both, spectra.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ struct SampledSignal {
 struct ComparedSignal {
   SampledSignal samples;            ///< at the measured times of the window
   SignalFigures figures;            ///< fluctuationIndex() of a speed is the stick-slip index
-  Spectrum spectrum;                ///< empty for fewer than 16 samples a segment
-  std::vector<SpectralPeak> peaks;  ///< none of a constant signal
+  Spectrum spectrum;                ///< empty for fewer than 16 samples per segment
+  std::vector<SpectralPeak> peaks;  ///< empty for a constant signal
 };
 
 struct SignalComparison {
@@ -35,18 +35,18 @@ struct SignalComparison {
 
 struct SpectrumSettings {
   int segments = 3;       ///< of Welch's method
-  std::size_t peaks = 3;  ///< largest ones that are listed
+  std::size_t peaks = 3;  ///< number of largest peaks that are listed
 };
 
 /// Compares over the part of [begin, end] that both signals cover. The computed signal is linear
-/// between its samples; its figures are those at the measured times. Spectra are taken of the
-/// measured samples as they are where they have equal distances, else of the longest stretch
-/// without gaps, linear between samples, at the median of the distances; of the computed ones in
+/// between its samples; its values are taken at the measured times. The spectrum of the measured
+/// signal uses its samples directly if they are equidistant; otherwise the longest stretch without
+/// gaps, linear between samples, at the median distance. The spectrum of the computed signal uses
 /// the same stretch. Error(Internal) for fewer than two samples of either signal in the window.
 SignalComparison compareSignals(const SampledSignal& computed, const SampledSignal& measured,
                                 double begin, double end, const SpectrumSettings& settings);
 
-/// Value at t of a signal that is linear between its samples; t lies within its times.
+/// Value at t of a signal that is linear between its samples; t is within its times.
 double valueAt(const SampledSignal& signal, double t);
 
 }  // namespace tooljoint::cases

@@ -11,7 +11,7 @@
 
 namespace tooljoint::cases {
 
-/// Of one signal. All figures are 0 before the first sample.
+/// Values of one signal. All are 0 before the first sample.
 class SignalFigures {
  public:
   void add(double value);
@@ -21,8 +21,8 @@ class SignalFigures {
   double rms() const;  ///< about zero
   double min() const { return min_; }
   double max() const { return max_; }
-  /// (max - min)/(2 mean): 0 for a constant signal, 1 for a + a sin, above 1 where the signal
-  /// changes its sign. 0 where the mean is 0.
+  /// (max - min)/(2 mean): 0 for a constant signal, 1 for a + a sin, above 1 for a signal that
+  /// changes its sign. 0 if the mean is 0.
   double fluctuationIndex() const;
 
   /// Sets KEY.mean, .rms, .min and .max, times `scale`.
@@ -36,12 +36,12 @@ class SignalFigures {
   double sum_ = 0.0, squares_ = 0.0, min_ = 0.0, max_ = 0.0;
 };
 
-/// A place in a table of figures and the value there.
+/// A position in a table of values and the value there.
 struct WorstPlace {
   Eigen::Index row = 0;
   double value = 0.0;
 };
-/// The first of the largest values. `values` holds at least one.
+/// The largest value, the first of equal ones. `values` has at least one entry.
 WorstPlace worst(const Vector& values);
 
 /// Root mean square and peak of magnitudes at many nodes.
@@ -66,7 +66,8 @@ class MagnitudeFigures {
   Vector squares_, peak_;
 };
 
-/// Appends a vector to the memory of a checkpoint, and takes it back in its size.
+/// saveVector() appends a vector to the memory of a checkpoint; restoreVector() reads it into a
+/// vector of the same size.
 void saveVector(const Vector& values, std::vector<double>& memory);
 void restoreVector(Vector& values, const double*& memory);
 

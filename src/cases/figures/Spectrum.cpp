@@ -11,7 +11,7 @@ namespace tooljoint::cases {
 namespace {
 
 constexpr std::size_t fewestSamples = 32, shortestSegment = 16;
-/// Lines to either side of a peak that hold the power of a sine under a Hann window.
+/// Number of lines on either side of a peak that contain the power of a sine under a Hann window.
 constexpr std::size_t halfLobe = 2;
 
 bool onlySmallFactors(std::size_t n) {

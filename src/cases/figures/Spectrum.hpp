@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Power spectra of sampled signals by the mean of modified periodograms of overlapping segments
-/// (P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70-73): halves of neighbouring segments
-/// overlap, Hann windows, segment means removed.
+/// Power spectra of sampled signals: mean of modified periodograms of overlapping segments (P. D.
+/// Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70-73). Neighbouring segments overlap by half;
+/// Hann windows, segment means removed.
 #pragma once
 
 #include <complex>
@@ -18,23 +18,24 @@ struct Spectrum {
   std::vector<double> density;    ///< [unit2/Hz]
 };
 
-/// The largest power of two of which seven segments that overlap by their halves fit into the
-/// samples; 0 for fewer than 32.
+/// The largest power of two as segment length for which seven half-overlapping segments fit into
+/// the samples; 0 for fewer than 32 samples.
 std::size_t shortSegments(std::size_t samples);
-/// The largest even product of 2, 3 and 5 of which `segments` that overlap by their halves fit into
-/// the samples; 0 where it is below 16.
+/// The largest even product of 2, 3 and 5 as segment length for which `segments` half-overlapping
+/// segments fit into the samples; 0 if it is below 16.
 std::size_t longSegments(std::size_t samples, int segments);
 
 /// Mean of modified periodograms of many signals of one kind.
 class WelchSpectrum {
  public:
-  /// \param length samples of a segment, even; 0 for none \param interval between samples [s]
+  /// \param length    samples of a segment, even; 0 for none
+  /// \param interval  between samples [s]
   WelchSpectrum(std::size_t length, double interval);
 
   /// Adds the segments of a signal.
   void add(const std::vector<double>& signal);
 
-  /// Mean over the segments so far times the number of signals they come from, so that spectra of
+  /// Sum over the segments divided by the number of segments per signal, so that spectra of
   /// components add up:
   ///
   ///     S(f_k) = 2 dt sum |X_k|^2 / (segments sum w^2),
@@ -62,8 +63,8 @@ struct SpectralPeak {
   double amplitude = 0.0;  ///< of the sine with the power of the peak
 };
 
-/// The largest peaks above f = 0, by falling amplitude: maxima of the density among the two lines
-/// to either side, the main lobe of a Hann window. A^2/2 is the power in that lobe; exact for a
+/// The largest peaks above f = 0, by decreasing amplitude: maxima of the density within two lines
+/// on either side, the main lobe of a Hann window. A^2/2 is the power in that lobe; exact for a
 /// sine on a line.
 std::vector<SpectralPeak> largestPeaks(const Spectrum& spectrum, std::size_t most);
 

@@ -39,7 +39,7 @@ void append(std::string& text, const Sparse& matrix) {
     }
 }
 
-/// \param started  the parts are in the state that the motion starts from
+/// \param started  the parts are in the state from which the motion starts
 coupling::Coupling joinUnreduced(const parts::PartsScene& scene, bool started) {
   auto options = scene.coupling;
   options.requireAgreeingStarts = started;
@@ -62,7 +62,7 @@ class RestingParts : public RestingCase {
     return m.recoveryOffset + m.recovery * m.initialDisplacement;
   }
 
-  /// Nothing is known of walls and bits.
+  /// The case has no walls and bits.
   Measures measures() const override {
     Measures m;
     m.nodes = model().recoveryNodes;
@@ -93,7 +93,7 @@ class RestingParts : public RestingCase {
     if (!joined_->stability->stable()) summary.set("static.unstable_node", unstableNode());
   }
 
-  /// Group /model (which node of which part a row is), and the displacements at the start.
+  /// Group /model (part and node of each row), and the displacements at the start.
   void write(io::ResultsFile& file) const override {
     writeProfile(file);
     writeGeometry(file);
@@ -144,7 +144,7 @@ class RestingParts : public RestingCase {
  private:
   const model::SecondOrderModel& model() const { return joined_->whole.model; }
 
-  /// "part:node"; empty where no node moves.
+  /// "part:node"; empty if no node moves.
   std::string unstableNode() const {
     const auto found = joined_->scene.nodes.find(joined_->stability->outline.node);
     if (found == joined_->scene.nodes.end()) return "";
@@ -156,7 +156,7 @@ class RestingParts : public RestingCase {
     return stability::inWords(*joined_->stability, "the parts leave it", "node " + unstableNode());
   }
 
-  /// Positions of the nodes and edges of the mesh, where the files give positions.
+  /// Positions of the nodes and edges of the mesh, if the files give positions.
   void writeGeometry(io::ResultsFile& file) const {
     const auto positions = parts::nodePositions(joined_->scene, lists_->settings.imported);
     if (positions.empty()) return;
@@ -227,7 +227,7 @@ std::unique_ptr<Case> ImportedCase::with(const std::vector<std::string>& overrid
   return std::unique_ptr<Case>(new ImportedCase(std::move(lists), shared_));
 }
 
-/// Numbers in the scene of "part:node".
+/// Node numbers in the scene for "part:node".
 std::vector<std::int64_t> ImportedCase::recordedNodes() const {
   const auto& scene = joined_->scene;
   const auto wanted = cases::listOrDefaults(list(), io::parameters());

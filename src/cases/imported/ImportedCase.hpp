@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Parts from files, joined, as a case.
+/// A case of joined parts from files.
 #pragma once
 
 #include <map>
@@ -16,18 +16,18 @@
 
 namespace tooljoint::cases {
 
-/// Parts put together, and the state they start from once it is found.
+/// Joined parts, and their initial state once it is computed.
 struct JoinedParts {
   parts::PartsScene scene;
   coupling::Coupling whole;                            ///< unreduced, always primal
-  bool started = false;                                ///< the parts hold the state they start from
-  std::optional<stability::StateStability> stability;  ///< of their rest, or of the state that a
-                                                       ///< response is linearised about
+  bool started = false;                                ///< the parts are in their initial state
+  std::optional<stability::StateStability> stability;  ///< of the state at rest, or of the state
+                                                       ///< about which a response is linearised
 };
 
 class ImportedCase : public Case, public NodeChoice {
  public:
-  /// Reads the parts and puts them together. ModelError, FileError, DeckError.
+  /// Reads the parts and joins them. ModelError, FileError, DeckError.
   explicit ImportedCase(ImportedDeck lists);
 
   const deck::Deck& deck() const override { return lists_->deck; }
@@ -46,8 +46,9 @@ class ImportedCase : public Case, public NodeChoice {
   std::vector<std::string> remarks() const override;
   void summarise(io::Summary& summary) const override;
   CaseOutline outline() const override;
-  /// The parts may not come to rest, and a basis with interface forces leaves interface dofs to its
-  /// modes, which may not start where the neighbours do: only the reduction shows it.
+  /// Solves for rest and reduces: the parts may not come to rest, and a basis with interface forces
+  /// represents interface dofs by its modes, whose initial state may not match that of the
+  /// neighbours.
   void verify() const override;
   std::shared_ptr<const RestingCase> solveStatic() const override;
 
@@ -55,7 +56,7 @@ class ImportedCase : public Case, public NodeChoice {
   /// Joined parts by the lists they depend on.
   using Shared = std::map<std::string, std::shared_ptr<JoinedParts>>;
   ImportedCase(ImportedDeck lists, std::shared_ptr<Shared> shared);
-  /// A sentence on a name that is not there.
+  /// A sentence for an unknown node name.
   std::string unknownNode(const std::string& name) const;
 
   std::shared_ptr<const ImportedDeck> lists_;

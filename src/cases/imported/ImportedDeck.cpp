@@ -15,7 +15,7 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// Errors that only several lists together show.
+/// Errors that concern several lists.
 void crossCheck(const ImportedDeck& deck, Faults& faults) {
   const auto& output = deck.common.output;
   if (deck.deck.gives("Output/XDMF") && output.xdmf)
@@ -32,7 +32,7 @@ void crossCheck(const ImportedDeck& deck, Faults& faults) {
   checkCommonLists(deck.list(), deck.common, names, faults);
 }
 
-/// Messages of `work` with file and line in front.
+/// Adds file and line to the messages of `work`.
 template <class Work>
 auto locating(const deck::Deck& deck, const Work& work) {
   const Faults faults(deck, importedSpec());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck of a case of imported parts: where the parts come from, how they are joined, reduced
-/// and moved.
+/// The deck of a case of imported parts: source of the parts, connections, reduction and motion.
 #pragma once
 
 #include <string>
@@ -16,7 +15,7 @@ namespace tooljoint::cases {
 /// Description of a deck of imported parts.
 deck::ListSpec importedSpec();
 
-/// Such a deck as plain values, checked, before any part is read.
+/// Typed values of such a deck, checked before any part is read.
 struct ImportedDeck {
   deck::Deck deck;
   parts::PartsSettings settings;
@@ -30,14 +29,15 @@ struct ImportedDeck {
   bool moves() const { return list().isSublist("Transient"); }
   double startTime() const;  ///< [s]; 0 without a motion
 
-  /// Reads the files and puts the parts together. DeckError, ModelError, FileError. Collective.
+  /// Reads the files and joins the parts. DeckError, ModelError, FileError. Collective.
   parts::PartsScene build() const;
-  /// DeckError, ModelError: these parts lack what the list Reduction needs.
+  /// DeckError, ModelError: the parts lack data that the list Reduction needs.
   void checkReduction(const parts::PartsScene& scene) const;
-  /// Finds the state the parts start from; the rest as in parts::findStart. DeckError,
+  /// Computes the initial state of the parts; otherwise as parts::findStart. DeckError,
   /// ConvergenceError. Collective.
   Vector start(parts::PartsScene& scene) const;
-  /// ModelError naming a dof without mass where the integrator of the deck divides by it.
+  /// ModelError with the name of a dof without mass if the integrator of the deck divides by the
+  /// mass.
   void requireMass(const parts::PartsScene& scene, const model::SecondOrderModel& full) const;
 };
 

@@ -16,7 +16,7 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// A name as part of a path of the results file.
+/// Converts a name to a component of a path in the results file.
 std::string pathName(std::string name) {
   std::replace(name.begin(), name.end(), '/', '|');
   return name;

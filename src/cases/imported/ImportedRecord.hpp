@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What is recorded of the motion of imported parts beside their nodes: the channels of all point
-/// laws and the largest displacements.
+/// Recorded quantities of imported parts in addition to the motion of their nodes: the channels of
+/// all point laws and the largest displacements.
 #pragma once
 
 #include <array>
@@ -21,17 +21,17 @@
 
 namespace tooljoint::cases {
 
-/// SI unit of a component of a node by its name; "" where it says neither a translation nor a
-/// rotation.
+/// SI unit of a component of a node by its name; "" if it is neither a translation nor a rotation.
 std::string unitOf(const std::string& component);
 
 class ImportedRecord : public MotionRecord {
  public:
-  /// Name of the part of a node and its number there, by its number in the model.
+  /// Part name and number within the part of a node, from its number in the model.
   using NodeNames = std::function<std::pair<std::string, long>(std::int64_t)>;
 
-  /// `model` must outlive the record. \param forces record the channels of the point laws beside
-  /// the figures of merit of stops \param window that of the figures of merit
+  /// `model` must outlive the record.
+  /// \param forces  record the channels of the point laws, in addition to the results of stops
+  /// \param window  of the results
   ImportedRecord(const model::SecondOrderModel& model, bool forces, const FigureWindow& window,
                  NodeNames names);
 
@@ -56,7 +56,7 @@ class ImportedRecord : public MotionRecord {
   };
 
   void measure(const Sample& sample);
-  /// largest_ of the components in m, in rad and without a unit.
+  /// largest_ of the components in m, in rad and without unit.
   std::map<std::string, double> largestByUnit() const;
   void summariseStops(io::Summary& summary) const;
   void summarise(const std::string& key, const MagnitudeFigures& figures,

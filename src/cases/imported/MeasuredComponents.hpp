@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What errors of a motion of imported parts are measured in.
+/// Components in which errors of a motion of imported parts are measured.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace tooljoint::cases {
 
-/// Positions of the translations among the components of a node, or of everything where there are
-/// none.
+/// Positions of the translations among the components of a node, or of all components if there are
+/// no translations.
 std::vector<int> measuredComponents(const model::ComponentNames& names);
 
 }  // namespace tooljoint::cases

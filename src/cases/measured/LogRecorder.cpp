@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* transientGroup = "/transient/";
 
-/// The number of a record with this name: a column of motion.csv, or a channel of one value.
+/// The value with this name in a record: a column of motion.csv, or a channel with one value.
 const double* valueOf(const MotionRecord& record, const std::string& name) {
   const auto columns = record.columns();
   for (std::size_t i = 0; i < columns.size(); ++i)
@@ -23,7 +23,7 @@ const double* valueOf(const MotionRecord& record, const std::string& name) {
   return nullptr;
 }
 
-/// What an earlier run has left, on all ranks.
+/// Samples of an earlier run, on all ranks.
 std::vector<double> carried(const io::ResultsFile& file, const std::string& path) {
   auto values = file.carried(path);
   parallel::broadcast(values);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The computed signals that a measured log is compared with, and what comes of it.
+/// Computed signals for the comparison with a measured log, and its result.
 #pragma once
 
 #include <string>
@@ -16,20 +16,20 @@ namespace tooljoint::cases {
 
 class LogRecorder {
  public:
-  /// Opens a series /measured/NAME/computed for each column; a run that goes on has the samples
-  /// before it. All arguments must outlive the object. DeckError: a node or a component that is not
-  /// there, a quantity that the record does not have. Collective.
+  /// Opens a series /measured/NAME/computed for each column; a continued run includes the earlier
+  /// samples. All arguments must outlive the object. DeckError: an unknown node or component, or a
+  /// quantity that the record does not have. Collective.
   LogRecorder(const MeasuredLog& log, const RestingCase& rest, const model::SecondOrderModel& model,
               const MotionRecord& record, io::ResultsFile& file);
 
-  /// A sample to which the record has been brought.
+  /// Adds a sample; the record has been updated with it.
   void sample(const Sample& sample);
 
   /// One for each column.
   std::vector<SignalComparison> compare() const;
 
  private:
-  /// Where the values of a column are: a number of the record, or a row of the recovery.
+  /// Source of the values of a column: a number of the record, or a row of the recovery.
   struct Source {
     const double* value = nullptr;
     Eigen::Index row = 0;

@@ -12,7 +12,7 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// Stick-slip is a matter of speeds; of other quantities the same ratio is called fluctuation.
+/// The ratio is called stick-slip index for speeds and fluctuation for other quantities.
 const char* indexName(const MeasuredQuantity& quantity) {
   return quantity.si == "rad/s" ? "stick-slip index" : "fluctuation";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a run says and writes of a measured log beside its motion.
+/// Output of a run for the comparison with a measured log.
 #pragma once
 
 #include <string>

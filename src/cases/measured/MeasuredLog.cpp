@@ -53,7 +53,7 @@ deck::ListSpec columnParameters() {
   return list;
 }
 
-/// Unit of a component of a node: a displacement, its rate, the rate of that.
+/// Unit of a component of a node: displacement, velocity or acceleration.
 std::string unitOfNode(const MeasuredColumn& column) {
   static const char* const rates[] = {"", "/s", "/s2"};
   return unitOf(column.dof.component) + rates[column.quantity.rates];
@@ -85,7 +85,7 @@ MeasuredColumn readColumn(const ParameterList& list, const std::string& name) {
   return column;
 }
 
-/// Quantities of a string in scenes without one, and of a bit in scenes without its law.
+/// Rejects quantities of a string in other scenes, and of a bit in scenes without a bit law.
 void requireComputed(const Case& one, const MeasuredColumn& column) {
   const auto path = std::string(measuredLogName) + "/Columns/" + column.name + "/Quantity";
   if (column.quantity.ofNode()) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list `Measured Log`: a file of measured signals and what each is compared with.
+/// The deck list `Measured Log`: a file of measured signals and the quantities they are compared
+/// with.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -18,12 +19,12 @@ namespace tooljoint::cases {
 /// Name of the list.
 inline constexpr const char* measuredLogName = "Measured Log";
 
-/// What a measured signal can be compared with.
+/// A quantity that a measured signal can be compared with.
 struct MeasuredQuantity {
   std::string name;    ///< in the deck
-  std::string si;      ///< unit; "" for one of a component of a node
+  std::string si;      ///< unit; "" for a component of a node
   std::string usual;   ///< unit it is printed in
-  std::string source;  ///< name of the channel or of the column of motion.csv that holds it
+  std::string source;  ///< name of its channel or of its column of motion.csv
   int rates = 0;       ///< of a component of a node: 0 displacement, 1 velocity, 2 acceleration
   bool ofNode() const { return source.empty(); }
 };
@@ -33,23 +34,23 @@ const std::vector<MeasuredQuantity>& measuredQuantities();
 struct MeasuredColumn {
   std::string name;    ///< of its list
   std::string column;  ///< in the header of the file
-  std::string unit;    ///< of the deck; "": that of the file
+  std::string unit;    ///< given in the deck; "": unit of the file
   MeasuredQuantity quantity;
-  NodeDof dof;  ///< of a quantity of a node
+  NodeDof dof;  ///< for a quantity of a node
 };
 
 struct MeasuredLogSettings {
   std::string file;        ///< path
-  std::string timeColumn;  ///< "": by its name
+  std::string timeColumn;  ///< "": recognised by its name
   std::string timeUnit;
-  double offset = 0.0;               ///< time of the motion at time 0 of the log [s]
-  std::optional<double> begin, end;  ///< of the window, time of the motion [s]
-  double blockWeight = 0.0;          ///< taken off measured hook loads [N]
+  double offset = 0.0;               ///< time of the motion at log time 0 [s]
+  std::optional<double> begin, end;  ///< of the window, in the time of the motion [s]
+  double blockWeight = 0.0;          ///< subtracted from measured hook loads [N]
   SpectrumSettings spectra;
   std::vector<MeasuredColumn> columns;
 };
 deck::ListSpec measuredLogParameters();
-/// From the validated list. DeckError: no column, a node missing or without sense, a window that
+/// From the validated list. DeckError: no column, a node missing or given needlessly, a window that
 /// ends before it begins.
 MeasuredLogSettings readMeasuredLog(const Teuchos::ParameterList& list);
 
@@ -61,9 +62,9 @@ struct MeasuredLog {
 
   bool isCompared() const { return !settings.columns.empty(); }
 };
-/// Nothing to compare where the deck has no such list. DeckError: a scene that does not move, a
-/// quantity that the scene does not compute, a file that cannot be read as a log, a column with
-/// fewer than two samples in the window of the motion.
+/// Empty if the deck has no such list. DeckError: a scene without motion, a quantity that the scene
+/// does not compute, a file that cannot be read as a log, a column with fewer than two samples in
+/// the window of the motion.
 MeasuredLog loadMeasuredLog(const Case& one);
 
 /// "0.5 to 10 s of log.csv: bit (RPM) with bit speed, ...".

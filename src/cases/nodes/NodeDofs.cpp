@@ -33,7 +33,7 @@ NodeDof readNode(const Teuchos::ParameterList& list) {
 
 namespace {
 
-/// Numbers in the scene of the nodes a deck names: of one part, or of any.
+/// Scene numbers of the nodes named in a deck: of one part, or of any part.
 std::set<std::int64_t> numbersOf(const RestingCase& rest, const NodeDof& dof) {
   const auto parts = rest.parts().parts;
   const auto contents = rest.contents(parts);
@@ -50,7 +50,7 @@ std::set<std::int64_t> numbersOf(const RestingCase& rest, const NodeDof& dof) {
   return found;
 }
 
-/// Where a joint is released, the recovery has the motion of the first part that has the node.
+/// At a released joint the recovery has the motion of the first part with the node.
 void requireShown(const RestingCase& rest, const NodeDof& dof, std::int64_t number) {
   const auto joined = rest.parts();
   if (!joined.options.connections.releases(number, dof.component)) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Dofs of nodes as a deck names them, in any model of a case: loads and outputs of responses,
+/// Dofs of nodes as named in a deck, in any model of a case: loads and outputs of responses,
 /// columns of measured logs.
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace tooljoint::cases {
 
-/// A component of a node, in the words of a deck.
+/// A component of a node as named in a deck.
 struct NodeDof {
   std::string where;  ///< path of its list
-  std::string part;   ///< "": the scene has one node of this number
+  std::string part;   ///< "": only one node of the scene has this number
   int node = 0;
-  std::string component;  ///< "" for a node alone
+  std::string component;  ///< "" for the whole node
 };
 
 /// Declares `Part` and `Node`.
@@ -32,16 +32,16 @@ struct NodeRow {
   int component = 0;
 };
 
-/// The row that a deck names. DeckError where the part, the node (or more than one of this number)
-/// or the component is not there, or all of the node is held.
+/// The row named in a deck. DeckError if the part, the node (or a unique node of this number) or
+/// the component does not exist, or if all of the node is held.
 NodeRow findRow(const RestingCase& rest, const model::SecondOrderModel& model, const NodeDof& dof);
 
-/// The coefficients c of a displacement c'q, and of a unit load there c, dofs of the model; zero
-/// where the model does not have the node or the dof is held.
+/// The coefficients c of a displacement c'q, which are also those of a unit load there, dofs of the
+/// model; zero if the model does not have the node or the dof is held.
 Vector coefficients(const model::SecondOrderModel& model, const NodeRow& row);
 
-/// Positions among the components of a node of the two translations across the axis of rotation
-/// "x", "y" or "z", in the sense of the rotation; -1 for one that the nodes lack.
+/// Positions among the components of a node of the two translations normal to the axis of rotation
+/// "x", "y" or "z", in the sense of the rotation; -1 for a translation that the nodes do not have.
 std::array<int, 2> lateralComponents(const model::SecondOrderModel& model, const std::string& axis);
 
 }  // namespace tooljoint::cases

@@ -12,9 +12,9 @@ namespace tooljoint::cases {
 namespace {
 
 constexpr const char* motionSeries = "/transient/motion";
-/// The channel that has a value for each node.
+/// The channel with one value per node.
 constexpr const char* contactForces = "/transient/normal_force";
-/// Part of the motion between two flushes of the results file.
+/// Fraction of the motion between two flushes of the results file.
 constexpr double flushFraction = 0.1;
 
 }  // namespace
@@ -73,7 +73,7 @@ void Recorder::append(io::TimeSeries& series, const double* values, std::size_t 
   series.append(chosen_.data());
 }
 
-/// The series of the rows of motion.csv, and the rows that a run before this one has left there.
+/// The series of the rows of motion.csv, with the rows of an earlier run.
 void Recorder::addTable() {
   const auto columns = record_->columns();
   std::vector<std::string> names, units;
@@ -141,7 +141,7 @@ void Recorder::save(std::vector<double>& memory) const {
 
 void Recorder::restore(const double*& memory) {
   record_->restore(memory);
-  // only which fields a picture has matters here
+  // only the set of fields of a picture is needed here
   const Vector any = Vector::Zero(1);
   if (pictures_) pictures_->restore(memory, frame({0.0, any, any, any, any, any, any}));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Recovers the samples of a motion and writes them: what every case records, and the channels that
-/// its MotionRecord adds.
+/// Recovers the samples of a motion and writes them: the quantities common to all cases, and the
+/// channels of the MotionRecord of the case.
 #pragma once
 
 #include <cstdint>
@@ -25,39 +25,39 @@ struct TimeSpan {
   double end = 0.0;
 };
 
-/// What of a motion is recorded.
+/// Choice of the recorded quantities.
 struct Recorded {
   const io::OutputSettings& output;
   std::vector<std::int64_t> nodes;  ///< increasing; empty: all
 };
 
 /// Samples go into time series of the results file, which continue by themselves
-/// (ResultsFile::continueFrom()); save() and restore() are about everything else: extremes, counts,
-/// what is due next.
+/// (ResultsFile::continueFrom()). save() and restore() handle everything else: extremes, counts,
+/// next output times.
 class Recorder : public transient::ShareSink {
  public:
-  /// Opens the series of /transient that the list Output names. `model` and `file` must outlive
-  /// the recorder.
+  /// Opens the series of /transient named in the list Output. `model` and `file` must outlive the
+  /// recorder.
   Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrderModel& model,
            const Recorded& wanted, TimeSpan span, io::ResultsFile& file);
 
-  /// Records what a measured log is compared with. The log and `rest` must outlive the recorder.
-  /// Call before the first sample. Collective; errors are those of LogRecorder.
+  /// Records the quantities for the comparison with a measured log. The log and `rest` must outlive
+  /// the recorder. Call before the first sample. Collective; errors are those of LogRecorder.
   void compareWith(const MeasuredLog& log, const RestingCase& rest);
-  /// Of the columns of the log; none without one.
+  /// One per column of the log; empty without a log.
   std::vector<SignalComparison> comparisons() const;
 
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
   void states(const Vector& x) override { recovery_.states(x); }
-  /// Of a motion that ranks divide rank 0 alone has the samples, but for one that is compared with
-  /// a measured log.
+  /// In a divided motion only rank 0 needs the samples, unless the motion is compared with a
+  /// measured log.
   bool gathers() const override { return !measured_; }
   void sampleShare(const transient::SampleShare& mine) override;
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
   const MotionRecord& record() const { return *record_; }
-  /// motion.csv, whose rows also stand in /transient/motion, so that a restart has them.
+  /// motion.csv. Its rows are also in /transient/motion, so that a restart has them.
   void stageTable(io::OutputFolder& folder) const { table_.stage(folder.file("motion.csv")); }
   /// results.xdmf beside results.h5; nothing without pictures.
   void stagePictures(io::OutputFolder& folder) const;

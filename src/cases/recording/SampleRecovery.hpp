@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// From the coordinates of a model to the motion of its nodes, sample by sample.
+/// Converts coordinates of a model to the motion of its nodes, sample by sample.
 #pragma once
 
 #include <array>
@@ -24,19 +24,19 @@ class SampleRecovery {
 
   /// States of the point laws at the next sample.
   void states(const Vector& x) { states_ = x; }
-  /// D = offset + Phi q and its rates. What it refers to is that of this object, until the next
-  /// call, and `q` and `qDot`.
+  /// D = offset + Phi q and its rates. The sample refers to this object until the next call, and to
+  /// `q` and `qDot`.
   Sample recover(double t, const Vector& q, const Vector& qDot, const Vector& qDDot);
-  /// The same of a motion that ranks divide: each recovers the rows that belong to it. On rank 0;
-  /// nothing elsewhere. Collective.
+  /// The same for a divided motion: each rank recovers its rows. Rank 0 gets the sample, other
+  /// ranks nothing. Collective.
   std::optional<Sample> gather(const transient::SampleShare& mine);
 
  private:
-  /// What gather() needs between the samples of one motion.
+  /// Data of gather() between the samples of one motion.
   struct Division {
     explicit Division(const transient::RankShare& share);
     std::vector<int> rows;         ///< of the recovery that belong to this rank
-    linalg::GroupedRows recovery;  ///< these
+    linalg::GroupedRows recovery;  ///< of these rows
     transient::RankGather gather;
     std::array<Vector, 3> recovered;
   };
@@ -48,7 +48,7 @@ class SampleRecovery {
   Vector displacement_, velocity_, acceleration_, states_;
 };
 
-/// Hands the motion of the nodes to a record, which alone keeps something of it.
+/// Passes the motion of the nodes to a record and keeps nothing itself.
 class RecordSink : public transient::SampleSink {
  public:
   /// The arguments must outlive the object.

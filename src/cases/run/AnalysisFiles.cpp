@@ -52,7 +52,7 @@ void AnalysisFiles::complete(const std::function<void()>& work,
   log::info("results     " + folder_->folder() + ": " + join(folder_->files(), ", "));
 }
 
-/// Files that this run names are not removed.
+/// Registers the files of another command's results, so that they are not removed.
 void AnalysisFiles::keepOthers() {
   const auto others = io::readPreviousRun(folder_->folder() + "/" + io::summaryName).files;
   beside_ = std::find(others.begin(), others.end(), name_ + ".h5") == others.end();

@@ -17,14 +17,14 @@
 
 namespace tooljoint::cases {
 
-/// The folder `given` on the command line, else that of the deck or results/NAME for NAME.xml,
-/// with "_<analysis>" behind it.
+/// The folder `given` on the command line, otherwise that of the deck or results/NAME for NAME.xml,
+/// with "_<analysis>" appended.
 std::string analysisFolder(const Case& one, const std::string& given, const std::string& analysis);
 
-/// What becomes of the finished results of another command in the folder.
+/// Treatment of the finished results of another command in the folder.
 enum class Beside {
-  Nothing,  ///< they go
-  Results   ///< they stay: their summary gets the group of this analysis
+  Nothing,  ///< they are removed
+  Results   ///< they remain, and their summary gets the group of this analysis
 };
 
 class AnalysisFiles {
@@ -36,9 +36,9 @@ class AnalysisFiles {
   io::OutputFolder& folder() { return *folder_; }
   io::Summary& summary() { return summary_; }
 
-  /// Runs `work`, then writes with `write` (tables into the folder, groups into NAME.h5, figures
-  /// into the summary) and publishes; an error leaves a summary that says what happened, and is
-  /// thrown on. Collective.
+  /// Runs `work`, then writes with `write` (tables into the folder, groups into NAME.h5, values
+  /// into the summary) and publishes. After an error the summary describes it, and the error is
+  /// rethrown. Collective.
   void complete(const std::function<void()>& work,
                 const std::function<void(io::ResultsFile&)>& write);
 
@@ -56,10 +56,9 @@ class AnalysisFiles {
   bool beside_ = false;  ///< results of another command
 };
 
-/// An analysis from its results to its files: announces the case, computes the results, prints and
-/// writes the report of them, and returns them. `reportOf(results)` has print(),
-/// write(OutputFolder&, ResultsFile&) and summarise(Summary&). Errors: those of
-/// AnalysisFiles::complete. Collective.
+/// Runs an analysis and writes its files: announces the case, computes the results, prints and
+/// writes their report, and returns them. `reportOf(results)` has print(), write(OutputFolder&,
+/// ResultsFile&) and summarise(Summary&). Errors: those of AnalysisFiles::complete. Collective.
 template <class Compute, class ReportOf>
 auto completeReport(const Case& one, const std::string& given, const std::string& analysis,
                     const Compute& compute, const ReportOf& reportOf) {

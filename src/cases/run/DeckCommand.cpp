@@ -18,7 +18,7 @@ std::string switches(const std::vector<std::string>& overrides) {
   return words;
 }
 
-/// True of an override of the list or parameter `path`, or of something in it.
+/// True for an override of the list or parameter `path`, or of something inside it.
 bool touches(const std::string& override, const std::string& path) {
   const auto from = override.find_first_not_of("!/");
   if (from == std::string::npos || override.compare(from, path.size(), path) != 0) return false;

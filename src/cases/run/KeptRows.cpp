@@ -15,7 +15,7 @@
 namespace tooljoint::cases {
 namespace {
 
-/// Size and time of a file, for "has this been built anew?".
+/// Size and time of a file, to detect a new build.
 std::string fileStamp(const std::string& path) {
   struct stat info = {};
   if (::stat(path.c_str(), &info) != 0) return "";
@@ -23,8 +23,8 @@ std::string fileStamp(const std::string& path) {
          std::to_string(info.st_mtim.tv_nsec);
 }
 
-/// Loaded libraries of the program, and those that are neither its own nor of the system:
-/// extensions.
+/// Loaded libraries: those of the program, and extensions, which belong neither to it nor to the
+/// system.
 struct Libraries {
   std::string own, extensions;
 };
@@ -42,7 +42,7 @@ int addLibrary(dl_phdr_info* info, std::size_t, void* data) {
   return 0;
 }
 
-/// Names of files of ours in a folder.
+/// Names of the files of this program in a folder.
 std::vector<std::filesystem::path> filesOf(const std::string& folder,
                                            const std::vector<std::string>& kinds) {
   std::vector<std::filesystem::path> ours;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What an analysis of many rows has computed so far, kept in its folder so that the same command
-/// goes on where it stopped.
+/// Stored results of an analysis with many rows. They are kept in its folder, so that the same
+/// command continues after an interruption.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,23 @@
 
 namespace tooljoint::cases {
 
-/// The program that computes: version and commit, and for a build from changed sources also its
+/// Identification of the program: version and commit, and for a build from changed sources also its
 /// files with their sizes and times.
 std::string programStamp();
 
-/// Files FOLDER/cache/KIND_KEY.json, one a row, each under the key of all that decides it. Rank 0
-/// does all the work; other ranks find nothing and keep nothing. Files that cannot be read count as
-/// absent.
+/// Files FOLDER/cache/KIND_KEY.json, one per row; the key covers all data that determine the row.
+/// Rank 0 does all the work; other ranks find and store nothing. Unreadable files count as absent.
 class KeptRows {
  public:
   /// Makes FOLDER/cache. FileError when that fails.
   explicit KeptRows(const std::string& folder, std::string kind = "row");
 
-  /// Forget all of this kind, and reference runs.
+  /// Removes all rows of this kind, and reference runs.
   void clear() const;
-  /// Rows of this kind that are there, under whatever key.
+  /// Number of stored rows of this kind, with any key.
   int count() const;
 
-  /// A row as the text it was kept as.
+  /// A row as its stored text.
   std::optional<std::string> restoreText(const std::string& key) const;
   void keepText(const std::string& key, const std::string& text) const;
 

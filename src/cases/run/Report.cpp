@@ -11,17 +11,17 @@ namespace tooljoint::cases {
 
 namespace {
 
-/// Estimated error of the motion of a reduced model above which a run warns, as that of steps that
-/// fail (Transient/Step Error Limit).
+/// A run warns of an estimated error of the motion of a reduced model above this value, the same as
+/// for steps that fail (Transient/Step Error Limit).
 constexpr double largeError = 0.2;
-/// Part of the kinetic energy in the upper half of the kept frequencies above which a run warns.
-/// Scenes whose reduced motion is within 10 % have 1e-6 to 5e-3, those on walls too stiff for their
-/// modes 0.04 to 0.4 (more than 100 % off).
+/// A run warns if the upper half of the kept frequencies has more than this fraction of the kinetic
+/// energy. Scenes whose reduced motion is within 10 % have 1e-6 to 5e-3, those on walls too stiff
+/// for their modes 0.04 to 0.4 (more than 100 % off).
 constexpr double largeCutOffEnergy = 0.01;
-/// The same where the error of the reduced motion is estimated.
+/// The same if the error of the reduced motion is estimated.
 constexpr double muchCutOffEnergy = 0.03;
 
-/// Integrator and steps; the counters are printed behind the last screen.
+/// Integrator and steps, without the counters.
 std::string describeSteps(const transient::TransientReport& report) {
   const auto& c = report.counters;
   const std::string shortest = fmt::sprintf("%.3g", c.minStep),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the reduction and the transient of any case leave in results.h5, in the tables and in
+/// Output of the reduction and the transient of any case in results.h5, in the tables and in
 /// summary.json. docs/file-formats.md describes all of it.
 #pragma once
 
@@ -23,7 +23,7 @@ io::Provenance provenance(const deck::Deck& deck);
 /// Group /reduction: Phi, offset and eigenvalues of every part.
 void writeBases(const std::vector<reduction::ReducedSubstructure>& parts, io::ResultsFile& file);
 
-/// basis.csv: every vector of every basis, kept or dropped and why.
+/// basis.csv: every vector of every basis, with the reason for keeping or dropping it.
 void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts,
                      io::OutputFolder& folder);
 

@@ -16,7 +16,7 @@ std::string identity(const Case& owner) {
     list.remove(name, false);
   for (const auto& analysis : AnalysisLists::instance().lists()) list.remove(analysis.name, false);
   auto text = programStamp() + "\n" + canonicalText(list) + owner.files();
-  parallel::broadcast(text);  // the files are known to rank 0 alone
+  parallel::broadcast(text);  // only rank 0 reads the files
   return text;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rows of an analysis kept in its folder, so that the same command goes on where it stopped: rows
-/// that do not need each other, dealt to the ranks, and rows of which each needs the one before.
+/// Stored rows of an analysis, so that the same command continues after an interruption:
+/// independent rows, distributed to the ranks, or rows that each need the previous one.
 #pragma once
 
 #include <exception>
@@ -17,34 +17,34 @@
 
 namespace tooljoint::cases {
 
-/// Where rows are kept, and whose they are.
+/// Folder of stored rows, and the analysis they belong to.
 struct RowFolder {
   const Case& owner;
   std::string folder;
-  bool fresh = false;  ///< forget what is there
+  bool fresh = false;  ///< remove stored rows
 };
 
-/// What decides the rows of an analysis but for its own list: the program, the deck without Output
-/// and without the lists of analyses, and the files it names. Collective.
+/// Data that determine the rows of an analysis, except its own list: the program, the deck without
+/// Output and without the lists of analyses, and the files it names. Collective.
 std::string identity(const Case& owner);
 
-/// What distinguishes rows.
+/// Keys of rows.
 struct RowKeys {
   std::string plural;  ///< in messages and names of files: "depths"
-  std::string whose;   ///< all that decides every row
-  /// All that decides each of them beside: empty texts where each row needs the one before, none
-  /// where their number is not known.
+  std::string whose;   ///< data that determine all rows
+  /// Data that determine a single row in addition: empty texts if each row needs the previous one,
+  /// no texts if the number of rows is unknown.
   std::vector<std::string> rows;
 };
 
 /// Key of the file of a row.
 std::string fileKey(const RowKeys& keys, const std::string& row);
-/// Says how many rows are known, or that the `files` of the folder are those of other keys.
+/// Logs the number of known rows, or that the `files` of the folder have other keys.
 void announceKnown(const RowKeys& keys, int known, int files);
 /// The sentence of an InterruptedError.
 std::string interruptedSentence(const RowKeys& keys, int known, const std::string& folder);
 
-/// The row of a file; false for one that was damaged.
+/// Reads the row of a file; false for a damaged file.
 template <class Row>
 bool readRow(const std::string& bytes, Row& row) {
   try {
@@ -55,8 +55,9 @@ bool readRow(const std::string& bytes, Row& row) {
   }
 }
 
-/// compute(i) of all rows (parallel::dealRows) but for those that the folder holds under the same
-/// keys. Collective. Errors of compute(); FileError; InterruptedError that says how many are kept.
+/// Computes compute(i) for all rows (parallel::dealRows) except those stored in the folder with the
+/// same keys. Collective. Errors of compute(); FileError; InterruptedError with the number of
+/// stored rows.
 template <class Row>
 std::vector<Row> resumedRows(const RowFolder& where, const RowKeys& keys,
                              const std::function<Row(std::size_t)>& compute) {
@@ -98,8 +99,8 @@ std::vector<Row> resumedRows(const RowFolder& where, const RowKeys& keys,
   return rows;
 }
 
-/// Of rows that need each other: how far the analysis has come, in one file. Its member `done`
-/// counts the rows, 0 where the folder holds none. Collective.
+/// Restores the progress of an analysis whose rows need each other, from one file. Its member
+/// `done` counts the rows, 0 if none is stored. Collective.
 template <class Reached>
 Reached restoreReached(const RowFolder& where, const RowKeys& keys) {
   Reached reached;
@@ -117,7 +118,7 @@ Reached restoreReached(const RowFolder& where, const RowKeys& keys) {
   return reached;
 }
 
-/// Rank 0 writes it. Collective.
+/// Stores the progress; rank 0 writes. Collective.
 template <class Reached>
 void keepReached(const RowFolder& where, const RowKeys& keys, const Reached& reached) {
   parallel::agree(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Runs a deck in this process, as `tooljoint run` does, and gives its results.
+/// Runs a deck in this process, as `tooljoint run` does, and returns its results.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace tooljoint {
 
-/// What a run has left; the same on all ranks.
+/// Results of a run; the same on all ranks.
 class Results {
  public:
   /// Reads the summary in the folder of a run. Collective. FileError.
@@ -28,15 +28,15 @@ class Results {
 
   /// A value of summary.json by its keys joined by dots, rows of arrays counted from 0:
   /// "static.top_axial_force", "reduction.substructures.0.modes". docs/file-formats.md lists them.
-  /// UsageError for a key that is not there, is null (its stage did not run) or is of another kind.
+  /// UsageError for a key that does not exist, is null (its stage did not run) or has another type.
   double number(const std::string& key) const;
   std::string text(const std::string& key) const;
   bool flag(const std::string& key) const;
-  /// Whether the summary has the key, and it is not null.
+  /// True if the summary has the key and its value is not null.
   bool has(const std::string& key) const;
 
   /// results.h5: /transient/time, /transient/displacement (samples x nodes x components) and all
-  /// else that was recorded. Any rank may read. FileError.
+  /// other recorded data. Any rank may read. FileError.
   io::ResultsReader histories() const;
 
  private:
@@ -47,10 +47,9 @@ class Results {
   std::map<std::string, std::string> values_;  ///< JSON text of each value
 };
 
-/// Runs a deck of any kind of case, full or reduced. `overrides` as `--set` takes them,
-/// "PATH=VALUE", and "!PATH" for a list taken out. A deck is read by the kinds of cases that the
-/// linked libraries register (CaseKinds.hpp). Lines of the log go to standard output
-/// (log::setQuiet()).
+/// Runs a deck of any kind of case, full or reduced. `overrides` as for `--set`, "PATH=VALUE", and
+/// "!PATH" to remove a list. The kinds of cases are those registered by the linked libraries
+/// (CaseKinds.hpp). Log lines go to standard output (log::setQuiet()).
 ///
 /// Collective over `comm`. Call it after MPI and Kokkos have been initialised
 /// (`Tpetra::ScopeGuard scope(&argc, &argv);` in main). Errors are exceptions with the sentence

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 /// Attribute of a results file: SHA-256 of runIdentity().
 constexpr const char* identityAttribute = "run_sha256";
 
-/// Work of rank 0 whose errors end all ranks alike.
+/// Runs work on rank 0; an error is thrown on all ranks.
 template <class Work>
 void onFirstRank(const Work& work) {
   parallel::agree([&] {
@@ -37,15 +37,15 @@ void onFirstRank(const Work& work) {
   });
 }
 
-/// Largest resident memory so far, summed over the ranks [MB].
+/// Largest resident memory so far, sum of the ranks [MB].
 double peakMemory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return parallel::sum(static_cast<double>(usage.ru_maxrss) / 1024.0);
 }
 
-/// Folder of the command line, else of the run that goes on, else of the deck's list "Output", else
-/// results/<deck>.
+/// Folder of the command line, otherwise of the continued run, otherwise of the deck's list
+/// "Output", otherwise results/<deck>.
 std::string resultsFolder(const RunOptions& options, const Case& one) {
   if (!options.output.empty()) return options.output;
   if (!options.restart.empty()) return options.restart;
@@ -103,7 +103,7 @@ std::string RunFiles::at(const char* name) const {
   return (fs::path(folder_->folder()) / name).string();
 }
 
-/// All ranks have the bytes of rank 0.
+/// All ranks get the bytes read by rank 0.
 void RunFiles::readCheckpoint(const std::string& folderName) {
   const auto file = (fs::path(options_.restart) / io::checkpointName).string();
   std::string bytes;
@@ -124,7 +124,7 @@ void RunFiles::readCheckpoint(const std::string& folderName) {
             options_.restart + (folderName == options_.restart ? "" : " into " + folderName));
 }
 
-/// Why a results file is not the one with the samples of the checkpoint; empty when it is.
+/// Reason why a results file does not hold the samples of the checkpoint; empty if it does.
 std::string RunFiles::whyNot(const std::string& file) const {
   if (!fs::exists(file)) return file + " is not there";
   try {
@@ -157,8 +157,8 @@ std::string RunFiles::findSamples() const {
                   ". Restore them from a copy, or run the deck from the start.");
 }
 
-/// Samples in the output folder get a name that no run writes to; returns it. Finished results of a
-/// run that has computed the same stay.
+/// Renames samples in the output folder to a name that no run writes; returns it. Finished results
+/// of a run with the same identity remain.
 std::string RunFiles::keepSamples(const std::string& samples) const {
   const bool finished =
       fs::path(samples).filename() == io::resultsName && folder_->hasFinishedResults();
@@ -173,7 +173,7 @@ std::string RunFiles::keepSamples(const std::string& samples) const {
   return kept;
 }
 
-/// The samples first: a checkpoint on the disk has them.
+/// Writes the samples first, so that a checkpoint on disk always has them.
 void RunFiles::keep(const transient::Checkpoint& checkpoint, const Recorder& recorder) {
   results_->flush();
   if (parallel::rank() != 0) return;
@@ -231,8 +231,7 @@ void RunFiles::publish(const std::function<void()>& tables) {
   log::info("results     " + folder_->folder() + ": " + join(folder_->files(), ", "));
 }
 
-/// A run that does not converge leaves no checkpoint: from there the same deck would not converge
-/// again.
+/// A run that does not converge leaves no checkpoint: a restart from it would fail again.
 void RunFiles::leave(const Error& error) {
   parallel::meetFailing(error.code(), error.what());
   stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());

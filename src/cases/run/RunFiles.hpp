@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The files of one run: its folder, results.h5, summary.json, its checkpoint, and what an
-/// interrupted run has left to go on from.
+/// The files of one run: its folder, results.h5, summary.json, its checkpoint, and the files of an
+/// interrupted run to continue from.
 #pragma once
 
 #include <functional>
@@ -25,16 +25,16 @@ namespace tooljoint::cases {
 struct RunOptions {
   std::string output;   ///< of the results; empty: that of the restart, else of the deck, else
                         ///< results/NAME for NAME.xml
-  std::string restart;  ///< of an interrupted run; empty: start anew
+  std::string restart;  ///< folder of an interrupted run; empty: new run
 };
 
-/// A checkpoint and its samples form a pair that carries the identity of its run (RunIdentity.hpp).
-/// A pair is replaced only by a later one of the same run: the run that goes on keeps the samples
-/// of the other as checkpoint.h5 until its own file holds them.
+/// A checkpoint and its samples form a pair with the identity of its run (RunIdentity.hpp). A pair
+/// is replaced only by a later one of the same run: a continued run keeps the earlier samples as
+/// checkpoint.h5 until its own file contains them.
 class RunFiles {
  public:
-  /// Opens the folder and, with --restart, reads and verifies the checkpoint before anything is
-  /// computed. Collective. FileError, also when the disk has too little space for the results;
+  /// Opens the folder and, with --restart, reads and verifies the checkpoint before any
+  /// computation. Collective. FileError, also when the disk has too little space for the results;
   /// DeckError when the checkpoint belongs to another run. The arguments must outlive the object.
   RunFiles(const RunOptions& options, const Case& one);
 
@@ -43,17 +43,17 @@ class RunFiles {
   io::Summary& summary() { return summary_; }
   bool goesOn() const { return checkpoint_.has_value(); }
 
-  /// Runs the stages, then `tables`, and publishes; an error leaves what is there readable, with a
-  /// summary that says what happened, and is thrown on. Collective.
+  /// Runs the stages, then `tables`, and publishes. After an error the files remain readable, the
+  /// summary describes the error, and it is rethrown. Collective.
   void complete(const std::function<void()>& stages, const std::function<void()>& tables);
 
   /// The motion, with checkpoints, from the start or from the checkpoint. `sink` receives the
-  /// samples and hands them to `recorder`. \param hooks  of the reduction: `keep` and `resume` are
+  /// samples and passes them to `recorder`. \param hooks  of the reduction: `keep` and `resume` are
   /// set here
   transient::TransientReport integrate(const model::SecondOrderModel& model,
                                        const Teuchos::ParameterList& transient, Recorder& recorder,
                                        transient::SampleSink& sink, transient::RunHooks hooks);
-  /// Throws InterruptedError, which says how to go on, when the motion did not reach its end.
+  /// Throws InterruptedError with the restart command when the motion did not reach its end.
   void requireComplete(const transient::TransientReport& report) const;
 
  private:
@@ -69,7 +69,7 @@ class RunFiles {
   std::string at(const char* name) const;
 
   const RunOptions& options_;
-  std::string deck_;  ///< file and overrides, as words of a command
+  std::string deck_;  ///< file and overrides, as options of a command
   Stopwatch watch_;
   std::string identity_;
   bool samePlace_ = false;  ///< --restart names the output folder
@@ -80,7 +80,7 @@ class RunFiles {
   bool kept_ = false;  ///< this run has written a checkpoint
 };
 
-/// Rough size of the results [bytes]: 8 for every number recorded.
+/// Approximate size of the results [bytes]: 8 per recorded number.
 double expectedBytes(const Case& one);
 
 }  // namespace tooljoint::cases

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 /// Parameters that name a file or folder.
 const std::set<std::string> fileParameters{"File", "Library", "Pipe Table"};
-/// Parameters of Output that decide what is recorded.
+/// Parameters of Output that determine what is recorded.
 const std::set<std::string> recorded{"Output/Fields", "Output/XDMF", "Output/XDMF Interval"};
 constexpr const char* recordedFigures = "Output/Figures/";
 
@@ -70,7 +70,7 @@ class Describer {
       const std::string path = above + name;
       if (list.isSublist(name)) {
         if (isAnalysis(path) && path != measuredLogName) continue;  // its signals are recorded
-        if (path != "Output") lines_[path] = "list";  // an empty list is something too
+        if (path != "Output") lines_[path] = "list";                // an empty list counts too
         add(list.sublist(name), path + "/");
         continue;
       }
@@ -82,7 +82,8 @@ class Describer {
     }
   }
 
-  /// A file and those read with it; all files of a folder; all that match a pattern with "%".
+  /// Adds a file and the files read with it, all files of a folder, or all that match a pattern
+  /// with "%".
   void addContent(const std::string& path, const std::string& name) {
     const fs::path file(deck_.resolve(name));
     std::error_code ignored;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a run computes, as text: two runs with the same text compute the same numbers, and a
-/// checkpoint goes on only with its own.
+/// Identity of a run as text: two runs with the same text compute the same numbers, and a
+/// checkpoint continues only a run with the same text.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 namespace tooljoint::cases {
 
 /// A line "PATH = VALUE" for each parameter of the deck (overrides and defaults included) that
-/// changes the numbers or what is recorded of them, and a line for the content of each file the
-/// deck names. Left out: lists of analyses (Study), Transient/Progress, what Output writes beside
-/// the samples, and Transient/Checkpoint Interval for integrators that go on from anywhere.
+/// affects the numbers or their recording, and a line for the content of each file named in the
+/// deck. Excluded: lists of analyses (Study), Transient/Progress, output of Output other than
+/// samples, and Transient/Checkpoint Interval for integrators that can continue from any step.
 /// Collective. FileError when a file cannot be read.
 std::string runIdentity(const deck::Deck& deck);
 

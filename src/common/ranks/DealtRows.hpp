@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rows of a table that do not need each other, dealt to the ranks one by one.
+/// Independent rows of a table, distributed to the ranks one by one.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@
 
 namespace tooljoint::parallel {
 
-/// rows[i] = compute(i) for every i of `jobs`, which are the same on all ranks: each rank takes the
-/// next one when it is free, with Parallel.hpp about itself alone meanwhile, and all ranks end with
+/// rows[i] = compute(i) for every i of `jobs`, which are the same on all ranks. Each rank takes the
+/// next job when it is free; during it Parallel.hpp uses only this rank. At the end all ranks have
 /// all rows. Collective; an Error on one rank is thrown on all.
 template <class Row>
 void dealRows(const std::vector<std::size_t>& jobs, std::vector<Row>& rows,

@@ -7,7 +7,7 @@
 namespace tooljoint::parallel {
 
 QuickStart::QuickStart() {
-  // What mpirun, PMIx and PMI launchers, and Slurm set for the processes that they start.
+  // Variables that mpirun, PMIx and PMI launchers, and Slurm set for the processes they start.
   for (const char* launched :
        {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMI_SIZE", "SLURM_PROCID"})
     if (std::getenv(launched)) return;

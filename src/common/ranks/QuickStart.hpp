@@ -5,9 +5,9 @@
 
 namespace tooljoint::parallel {
 
-/// Alive while MPI begins: of a process that no launcher started, Open MPI then starts no daemon
-/// and seeks no network, which takes it a third of a second. What the environment says already
-/// stays; it is as before afterwards.
+/// Keep it alive during the start of MPI. In a process without launcher, Open MPI then starts no
+/// daemon and searches no network, which would take a third of a second. Existing environment
+/// variables are not changed; the environment is restored afterwards.
 class QuickStart {
  public:
   QuickStart();

@@ -17,7 +17,7 @@ namespace {
 /// Words of the window.
 enum Word : int { dealt, failed, words };
 
-/// The most groups that have a rank on the same machine.
+/// Largest number of groups with a rank on the same machine.
 int mostOnOneMachine(MPI_Comm all, int mine, int groups) {
   MPI_Comm machine = MPI_COMM_NULL;
   MPI_Comm_split_type(all, MPI_COMM_TYPE_SHARED, rank(), MPI_INFO_NULL, &machine);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Groups of ranks that work apart from each other and take numbers from one counter.
+/// Groups of ranks that work independently and take numbers from a common counter.
 #pragma once
 
 #include <functional>
@@ -20,13 +20,13 @@ class RankGroups {
   int count() const { return count_; }
   /// Number of the group of this rank.
   int mine() const { return mine_; }
-  /// The most groups that share one machine, less one. The same on every rank.
+  /// Largest number of groups on one machine, minus one. The same on every rank.
   int beside() const { return beside_; }
 
-  /// `work` in every group by itself: Parallel.hpp is about the ranks of the group meanwhile.
-  /// Collective. An Error in one of the groups is thrown on all ranks once all groups have ended.
+  /// Runs `work` in every group separately; Parallel.hpp then uses only the ranks of the group.
+  /// Collective. An Error in one of the groups is thrown on all ranks when all groups have ended.
   void apart(const std::function<void()>& work);
-  /// Inside apart(): 0, 1, 2 ..., each number once to one of the groups; -1 when a group has
+  /// Inside apart(): 0, 1, 2 ..., each number to exactly one of the groups; -1 when a group has
   /// failed. Collective in the group.
   int next();
 
@@ -35,12 +35,12 @@ class RankGroups {
   int fetch(int word, int value, MPI_Op operation) const;
 
   int count_ = 1, mine_ = 0, beside_ = 0;
-  int dealt_ = 0;  ///< of a group without others
+  int dealt_ = 0;  ///< for a single group
   MPI_Comm group_ = MPI_COMM_NULL;
-  MPI_Win shared_ = MPI_WIN_NULL;  ///< on the first rank: numbers dealt, groups that have failed
+  MPI_Win shared_ = MPI_WIN_NULL;  ///< on the first rank: numbers taken, groups that have failed
 };
 
-/// Lets MPI answer other ranks in the middle of a long computation. Not collective.
+/// Lets MPI answer other ranks during a long computation. Not collective.
 void progress();
 
 }  // namespace tooljoint::parallel

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Lines that are printed with --verbose only.
+/// Lines that are printed only with --verbose.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace tooljoint::log {
 void setVerbose(bool verbose);
 bool verbose();
 
-/// info() where verbose() and not quiet().
+/// info() if verbose() and not quiet().
 void detail(const std::string& line);
 
 }  // namespace tooljoint::log

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Counts what a run has built and evaluated on this rank, so that tests can assert that what a
-/// deck does not ask for is neither built nor evaluated. Names in use: "mud matrices", "contact
-/// evaluations", "friction evaluations", "gyroscopic matrices", "geometric stiffness", "unbalance
-/// loads", "modes computed", "modes of the static state", "factorisations", "parts reduced".
+/// Counts the quantities that a run builds and evaluates on this rank. Tests use them to check that
+/// effects absent from a deck are neither built nor evaluated. Names in use: "mud matrices",
+/// "contact evaluations", "friction evaluations", "gyroscopic matrices", "geometric stiffness",
+/// "unbalance loads", "modes computed", "modes of the static state", "factorisations", "parts
+/// reduced".
 #pragma once
 
 #include <map>
@@ -14,11 +15,11 @@ namespace tooljoint {
 /// Add `n` to the counter `what`.
 void count(const std::string& what, long n = 1);
 
-/// The counter itself, for loops that count often: the reference stays valid, also across
+/// The counter itself, for frequent counting; the reference remains valid, also across
 /// resetEvaluationCounters().
 long& counter(const std::string& what);
 
-/// Value of a counter; 0 for one that was never counted.
+/// Value of a counter; 0 if it was never used.
 long counted(const std::string& what);
 
 /// All counters that are not zero, by name.

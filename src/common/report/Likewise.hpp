@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Sentences on many runs that differ in their numbers alone are printed once, with a count.
+/// Prints sentences on many runs that differ only in numbers once, with a count.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace tooljoint {
 
-/// A sentence without its numbers: digits, points and signs, and the e of an exponent.
+/// Removes the numbers of a sentence: digits, points and signs, and the e of an exponent.
 inline std::string withoutNumbers(const std::string& text) {
   const auto isDigit = [](char letter) {
     return std::isdigit(static_cast<unsigned char>(letter)) != 0;
@@ -29,9 +29,9 @@ inline std::string withoutNumbers(const std::string& text) {
 
 class LikewiseList {
  public:
-  /// \param kind      what a sentence of the same kind begins with
-  /// \param reason    whose numbers may differ
-  /// \param sentence  printed when it is the first of its kind
+  /// \param kind      common beginning of sentences of the same kind
+  /// \param reason    may differ in its numbers
+  /// \param sentence  printed if it is the first of its kind
   void add(const std::string& kind, const std::string& reason, const std::string& sentence) {
     const auto key = kind + '\n' + withoutNumbers(reason);
     const auto known = std::find_if(groups_.begin(), groups_.end(),
@@ -44,7 +44,7 @@ class LikewiseList {
   }
   bool empty() const { return groups_.empty(); }
 
-  /// The first sentence of each kind, with the number of different further ones.
+  /// The first sentence of each kind, with the number of other different ones.
   std::vector<std::string> told(const std::string& thing) const {
     std::vector<std::string> out;
     for (const auto& group : groups_) {

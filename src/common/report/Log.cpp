@@ -21,7 +21,7 @@ std::vector<std::string>& collected() {
   return lines;
 }
 
-/// Warnings that were not printed: their kind (withoutNumbers), and how many. Empty without a
+/// Warnings that were not printed: their kind (withoutNumbers), and their number. Empty without a
 /// WarnOnce.
 std::optional<std::map<std::string, int>> likewise_;
 std::vector<std::string>* hearing_ = nullptr;  ///< of a Hearing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a run says while it works: plain lines on rank 0 only.
+/// Log of a run: plain lines on rank 0 only.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace tooljoint::log {
 
-/// Suppress info() lines; warnings are still printed and collected.
+/// Suppresses info() lines; warnings are still printed and collected.
 void setQuiet(bool quiet);
 bool quiet();
 
@@ -17,14 +17,14 @@ bool quiet();
 void info(const std::string& line);
 
 /// "warning: line" on standard error, rank 0 only. Collected on every rank that calls it, for the
-/// summary; a sentence that was said before is neither printed nor collected again.
+/// summary; a repeated sentence is neither printed nor collected again.
 void warn(const std::string& line);
 
-/// The distinct warnings of this rank so far, in the order they came.
+/// The distinct warnings of this rank so far, in the order of their appearance.
 const std::vector<std::string>& warnings();
 void clearWarnings();
 
-/// While it lives, hears every warning, also those that are not printed again. Not nested.
+/// Receives every warning during its lifetime, also those that are not printed again. Not nested.
 class Hearing {
  public:
   Hearing();

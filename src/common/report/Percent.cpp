@@ -7,7 +7,7 @@
 namespace tooljoint {
 
 std::string percent(double part) {
-  // rounded to two digits, then as plain a number as it has: 150 rather than 1.5e+02
+  // rounded to two digits, then in plain notation: 150 rather than 1.5e+02
   return fmt::format("{:g} %", std::stod(fmt::format("{:.2g}", 100 * part)));
 }
 

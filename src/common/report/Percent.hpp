@@ -6,7 +6,7 @@
 
 namespace tooljoint {
 
-/// A part of 1 in per cent, with two digits: "0.35 %", "150 %".
+/// A fraction of 1 in per cent, with two digits: "0.35 %", "150 %".
 std::string percent(double part);
 
 }  // namespace tooljoint

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int barWidth = 30;
 constexpr std::chrono::milliseconds redraw(100);
-constexpr double leastShare = 0.01;  ///< done, before the remaining time is printed
+constexpr double leastShare = 0.01;  ///< finished fraction at which the remaining time is first
+                                     ///< printed
 constexpr double minute = 60.0;
 constexpr double hour = 3600.0;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Progress of long work on standard error, on rank 0: a bar on a terminal, a line every few
-/// seconds elsewhere.
+/// Progress of long computations on standard error, on rank 0: a bar on a terminal, otherwise a
+/// line every few seconds.
 #pragma once
 
 #include <chrono>
@@ -11,11 +11,11 @@ namespace tooljoint {
 
 class Progress {
  public:
-  /// Least time between two lines of a log.
+  /// Shortest time between two lines of a log.
   static constexpr std::chrono::milliseconds logInterval{5000};
 
-  /// `title` stands in front of the bar; update() counts from `begin` to `end` (simulated time,
-  /// number of parts, ...). A log gets a line at most every `interval`.
+  /// `title` is printed before the bar; update() counts from `begin` to `end` (simulated time,
+  /// number of parts, ...). A log gets at most one line per `interval`.
   Progress(std::string title, double end, double begin = 0.0,
            std::chrono::milliseconds interval = logInterval);
   ~Progress();
@@ -25,21 +25,21 @@ class Progress {
   /// Cheap enough for every step of a time loop: prints at most ten times a second on a terminal.
   void update(double now, const std::string& suffix = "");
 
-  /// True when update() would print something: lets a caller skip the work of composing a suffix.
+  /// True when update() would print something; otherwise a caller need not compose a suffix.
   bool due() const;
 
-  /// What update() counts, per second of wall time since the construction.
+  /// Rate of the quantity counted by update(), per second of wall time since the construction.
   double rate(double now) const;
 
-  /// Ends the bar at 100 %. Destroyed before that (an error, an interrupt), it leaves the bar as it
-  /// is.
+  /// Ends the bar at 100 %. If it is destroyed before (by an error or an interrupt), the bar is not
+  /// changed.
   void finish();
 
  private:
   double fraction(double now) const;
   void drawBar(double fraction, const std::string& suffix);
   double elapsed() const;
-  /// ", 37 s left" at the rate so far; empty at the begin and at the end.
+  /// ", 37 s left" at the rate so far; empty at the beginning and at the end.
   std::string left(double done) const;
 
   std::string title_;
@@ -48,7 +48,7 @@ class Progress {
   bool speaks_ = false;    ///< rank 0 and not quiet
   bool terminal_ = false;  ///< standard error is a terminal
   bool finished_ = false;
-  bool drawn_ = false;                  ///< an unfinished bar stands on the terminal
+  bool drawn_ = false;                  ///< an unfinished bar is on the terminal
   std::chrono::milliseconds interval_;  ///< between two prints
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point lastPrint_;

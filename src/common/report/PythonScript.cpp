@@ -14,13 +14,13 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 
-extern char** environ;  // NOLINT: POSIX names it so
+extern char** environ;  // name given by POSIX
 
 namespace tooljoint {
 
 namespace {
 
-/// Ends with 0 when all modules are found; they are not loaded, which would take a second.
+/// Exits with 0 if all modules exist; they are not loaded, which would take a second.
 constexpr const char* kModulesAreThere =
     "import importlib.util as u, sys; "
     "sys.exit(any(u.find_spec(m) is None for m in ('h5py', 'matplotlib', 'numpy')))";
@@ -33,8 +33,8 @@ std::string readAll(int descriptor) {
   return text;
 }
 
-/// Runs a program found in PATH and keeps what it writes to standard error; code -1 when it cannot
-/// be started or is killed.
+/// Runs a program found in PATH and keeps its standard error; code -1 if it cannot be started or is
+/// killed.
 ScriptEnd start(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -67,8 +67,8 @@ std::string interpreter() {
   return "";
 }
 
-/// Folders that may hold share/tooljoint: those of the program (bin/..), then those of this library
-/// (lib/.. or lib/<architecture>/../..), for programs and interpreters from elsewhere.
+/// Folders that may contain share/tooljoint: those of the program (bin/..), then those of this
+/// library (lib/.. or lib/<architecture>/../..), for other programs and interpreters.
 std::vector<std::filesystem::path> roots() {
   namespace fs = std::filesystem;
   std::error_code error;

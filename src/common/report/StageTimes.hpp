@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How long the stages of a computation take on this rank.
+/// Times of the stages of a computation on this rank.
 #pragma once
 
 #include <chrono>
@@ -8,8 +8,8 @@
 
 namespace tooljoint {
 
-/// Wall-clock time from its construction to its destruction counts for the stage `name`, but for
-/// the stages inside it, which count for themselves.
+/// Wall-clock time from its construction to its destruction counts for the stage `name`, without
+/// the time of inner stages, which is counted separately.
 class Stage {
  public:
   explicit Stage(std::string name);
@@ -21,14 +21,14 @@ class Stage {
   std::string name_;
   Stage* outer_;
   std::chrono::steady_clock::time_point start_;
-  double inside_ = 0;  ///< seconds of inner stages
+  double inside_ = 0;  ///< time of inner stages [s]
 };
 
-/// "constraint modes 3.2 s, factorisation 1.1 s, ...", longest first, stages below `least` seconds
-/// left out; empty when none is left.
+/// "constraint modes 3.2 s, factorisation 1.1 s, ...", longest first, without stages below `least`
+/// seconds; empty if none is left.
 std::string stageTimes(double least = 0.05);
 
-/// The line "times" of the log; none where no stage took as long.
+/// Logs the line "times"; nothing if no stage took that long.
 void logStageTimes();
 
 }  // namespace tooljoint

@@ -29,8 +29,8 @@ const char* code(Colour colour) {
 /// Labels end before this column.
 constexpr std::size_t labels = 40;
 
-/// Column at which the text of a line begins: behind its label, which ends with two blanks, or
-/// `hanging` columns further in than the line.
+/// Column at which the continuation of a line begins: below the text after its label, which ends
+/// with two blanks, or `hanging` columns to the right of the start of the line.
 std::size_t hangingIndent(const std::string& line, std::size_t hanging) {
   const std::size_t gap = line.substr(0, labels).rfind("  ");
   const std::size_t first = line.find_first_not_of(' ');

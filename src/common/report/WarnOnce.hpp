@@ -3,8 +3,8 @@
 
 namespace tooljoint::log {
 
-/// While it lives, a warning that differs from an earlier one in its numbers alone is counted, not
-/// printed; at its end each such kind is printed again with its count, also in warnings(). Of many
+/// During its lifetime, a warning that differs from an earlier one only in numbers is counted, not
+/// printed. At its end each such kind is printed again with its count, also in warnings(). For many
 /// runs of one deck.
 class WarnOnce {
  public:

@@ -39,7 +39,7 @@ Sparse extended(const Sparse& A, Eigen::Index rows, Eigen::Index columns) {
   return out;
 }
 
-/// Puts the interface dofs of a part that has them not as coordinates behind its coordinates.
+/// Appends the interface dofs to the coordinates of a part that does not have them as coordinates.
 void appendInterface(const reduction::DerivedInterface& boundary, AlignedPart& alignedPart) {
   auto m = std::make_shared<SecondOrderModel>(*alignedPart.model);
   const Eigen::Index n = m->size(), all = n + static_cast<Eigen::Index>(boundary.dofs.size());
@@ -136,8 +136,8 @@ void alignComponents(std::vector<AlignedPart>& alignedParts) {
 
 namespace {
 
-/// Without entries that are rounding, as cos(pi/2) is: they would give a massless dof beside one
-/// with mass a mass of 1e-33 of it, at which a scale takes it for a dof with one.
+/// Removes entries that are rounding, such as cos(pi/2). They would give a massless dof 1e-33 of
+/// the mass of its neighbour, and a scale would then treat it as a dof with mass.
 Matrix3 withoutRounding(const Matrix3& axes) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   return (axes.array().abs() > rounding).select(axes, 0.0);
@@ -157,7 +157,7 @@ class PartFrames {
   }
   bool empty() const { return !any_ && nodes_.empty(); }
   const std::map<std::int64_t, Matrix3>& nodes() const { return nodes_; }
-  /// Null where the node has none.
+  /// Null if the node has no frame.
   const Matrix3* of(std::int64_t node) const {
     const auto it = nodes_.find(node);
     return it != nodes_.end() ? &it->second : any_ ? &everywhere_ : nullptr;
@@ -185,7 +185,7 @@ void checkRotation(const Frame& frame) {
         who + " is not a rotation: its axes are left-handed. Reverse one of them, or swap two.");
 }
 
-/// Turns one part.
+/// Turns one part into the common frame.
 class Turning {
  public:
   Turning(AlignedPart& alignedPart, const PartFrames& frames)
@@ -242,7 +242,7 @@ class Turning {
     return sparse(sizeOf(dofs), sizeOf(dofs), entries);
   }
 
-  /// One of the two vectors of a node: the components the names have, among those the dofs the part
+  /// One of the two vectors of a node: the named components, restricted to the dofs that the part
   /// has.
   void turnVector(const std::map<int, int>& positions, const std::array<int, 3>& vector,
                   const Matrix3& axes, Triplets& entries, std::vector<char>& turned) {
@@ -265,7 +265,7 @@ class Turning {
     }
   }
 
-  /// A frame mixes dofs of an interface with ones the part does not have.
+  /// Rejects a frame that mixes dofs of an interface with dofs that the part does not have.
   void refusePartial(const std::map<int, int>& positions, const std::array<int, 3>& vector,
                      const std::vector<int>& have) const {
     const auto& names = alignedPart_.model->componentNames;
@@ -285,7 +285,7 @@ class Turning {
     }
   }
 
-  /// Rows of the recovery of a node, component by component, into the common frame.
+  /// Turns the rows of the recovery of a node into the common frame, component by component.
   void turnRecovery(SecondOrderModel& m) {
     const int width = static_cast<int>(m.componentNames.size());
     if (m.recovery.rows() != static_cast<Eigen::Index>(m.recoveryNodes.size()) * width) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A part as the assembler uses it, reduced or not: its model in the common frame, with the
-/// components in one order and the interface among its dofs.
+/// A part in the form used by the assembler, reduced or not: its model in the common frame, with
+/// the components in one order and the interface among its dofs.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ namespace tooljoint::coupling {
 struct AlignedPart {
   std::string name;
   const model::SecondOrderModel* model = nullptr;      ///< of the part, or `own`
-  std::shared_ptr<const model::SecondOrderModel> own;  ///< where it had to be changed
+  std::shared_ptr<const model::SecondOrderModel> own;  ///< if the model had to be changed
   bool reduced = false;
   std::vector<int> interface;  ///< positions
   std::vector<int> retained;   ///< positions
@@ -26,13 +26,13 @@ struct AlignedPart {
   Sparse turn;          ///< dofs in the frames of the part = turn * dofs here; empty: the same
   Sparse recoveryTurn;  ///< recovery rows here = recoveryTurn * those of the part; empty: the same
   std::set<model::DofLabel>
-      unturned;  ///< dofs with a frame that could not be turned: nothing may be attached to them
+      unturned;  ///< dofs with a frame that could not be turned; nothing may be attached to them
 
-  // Of parts with reduction::DerivedInterface: the interface dofs stand behind the coordinates of
-  // the part, without mass or stiffness.
+  // For parts with reduction::DerivedInterface: the interface dofs follow the coordinates of the
+  // part, without mass or stiffness.
   int coordinates = 0;  ///< of the part itself
   Sparse boundaryRows;  ///< u_b = rows q + offset; no rows without Boundary
-  int forces = 0;       ///< the last so many coordinates of the part
+  int forces = 0;       ///< number of interface forces, the last coordinates of the part
   Vector staticForces;  ///< reduction::DerivedInterface::staticForces, in the frames of the part
 };
 

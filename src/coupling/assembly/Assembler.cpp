@@ -25,10 +25,10 @@ namespace {
 using model::DofLabel;
 using model::SecondOrderModel;
 
-/// An initial state may violate a constraint by this, relative to the largest value.
+/// Largest violation of a constraint by an initial state, relative to the largest value.
 constexpr double agreement = 1e-9;
 
-/// From aligned parts to the coupled model.
+/// Builds the coupled model from aligned parts.
 class Coupler {
  public:
   Coupler(std::vector<AlignedPart> alignedParts, const CouplingOptions& options)
@@ -100,8 +100,8 @@ class Coupler {
     return rules;
   }
 
-  /// The one coordinate a dof means. Where several parts have it and none is named, they must be
-  /// joined.
+  /// The coordinate of a dof. If several parts have it and none is named, they must be joined
+  /// there.
   DofPosition place(const DofLookup& lookup, const PartDof& dof, const std::string& who) const {
     const auto places = lookup.find(dof, who);
     for (const auto& other : places)
@@ -156,8 +156,8 @@ class Coupler {
     }
   }
 
-  /// All constraints over the coordinates of labelled_, relative to the states the parts were
-  /// reduced about.
+  /// All constraints over the coordinates of labelled_, relative to the reference states of the
+  /// reduced parts.
   void makeRows(const DofLookup& lookup) {
     if (dual()) addJoints();
     for (std::size_t k = 0; k < connections_.constraints.size(); ++k) {
@@ -223,7 +223,7 @@ class Coupler {
     }
   }
 
-  /// Interface dofs are eliminated first, then other physical dofs, then modes.
+  /// Elimination order: first interface dofs, then other physical dofs, then modes.
   std::vector<int> ranks() const {
     std::vector<int> rank(labelled_.model.dofs.size(), 2);
     for (std::size_t p = 0; p < alignedParts_.size(); ++p) {
@@ -290,7 +290,7 @@ class Coupler {
     map_.swap(dualModel.map);
   }
 
-  /// The narrow numbering, and the coordinates of every part in it.
+  /// Computes the narrow numbering, and the coordinates of every part in it.
   void number() {
     const auto position = narrowNumbering(out_.model);
     renumber(out_.model, position);
@@ -320,7 +320,7 @@ class Coupler {
     listInterface(map);
   }
 
-  /// Joined dofs that are still coordinates, and in dual assembly those of all parts.
+  /// Joined dofs that remain coordinates; in dual assembly those of all parts.
   void listInterface(const Sparse& map) {
     const auto position = positionsOf(map);
     for (const auto& joint : labelled_.joints)
@@ -335,7 +335,7 @@ class Coupler {
   const Connections& connections_;
   Labelled labelled_;
   std::vector<ConstraintRow> rows_;
-  Sparse map_;     ///< coordinates of labelled_ from those of the result
+  Sparse map_;     ///< coordinates of labelled_ in terms of those of the result
   Vector offset_;  ///< likewise
   Coupling out_;
 };

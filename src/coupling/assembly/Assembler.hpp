@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Joins parts into one model by equal labels of their interface dofs and by constraints. The
-/// source of the parts does not matter: any graph of parts (chain, branch, loop) can be coupled.
+/// Joins parts into one model by equal labels of their interface dofs and by constraints, whatever
+/// the source of the parts. Any graph of parts (chain, branch, loop) can be coupled.
 #pragma once
 
 #include <memory>
@@ -21,15 +21,17 @@ struct Multiplier {
   std::string part;     ///< the part it acts on
   model::DofLabel dof;  ///< the dof of that part it acts on, in the common frame
   double scale = 1;
-  /// Force [N, N m] by the rest of the model on that dof, for coordinates z.
+  /// Force [N, N m] of the rest of the model on that dof, for coordinates z.
   double force(const Vector& z) const { return scale * (z[first] + z[second]); }
 };
 
-/// A coupled model and where the coordinates of the parts went: q_p = maps[p] z + offsets[p].
+/// A coupled model and the relation of its coordinates to those of the parts: q_p = maps[p] z +
+/// offsets[p].
 struct Coupling {
   model::SecondOrderModel model;
   std::vector<std::vector<int>> positions;  ///< positions[p][i]: dof of the coupled model that is
-                                            ///< coordinate i of part p; -1 where it is not just one
+                                            ///< coordinate i of part p; -1 if it is not a single
+                                            ///< dof
   std::vector<Sparse> maps;           ///< coordinates of part p (in its own frames) x coupled dofs
   std::vector<Vector> offsets;        ///< zero unless a constraint has a value
   std::vector<Sparse> recoveryTurns;  ///< recovery rows of part p in the common frame =
@@ -37,45 +39,47 @@ struct Coupling {
   std::vector<Multiplier> multipliers;  ///< dual assembly
   std::vector<std::string> remarks;     ///< redundant constraints, for example
   std::vector<int> interface;  ///< coupled dofs that join parts: joined physical ones, or the modes
-                               ///< they were reduced to, increasing
+                               ///< that replace them, increasing
   int joinedDofs =
-      0;  ///< how many of `interface` there are, or were replaced by an interface reduction
+      0;  ///< number of `interface` dofs, or of those that an interface reduction replaced
   int dependent = 0;        ///< coordinates that depend on others
-  int interfaceModes = -1;  ///< modes of the interfaces; -1: their dofs are not reduced
-  std::shared_ptr<const Coupling> wholeInterfaces;  ///< before their reduction; null without one
-  Sparse interfaceMap;  ///< coordinates of wholeInterfaces = interfaceMap * those here
+  int interfaceModes = -1;  ///< modes of the interfaces; -1: no interface reduction
+  std::shared_ptr<const Coupling> wholeInterfaces;  ///< before the interface reduction; null
+                                                    ///< without one
+  Sparse interfaceMap;  ///< coordinates of wholeInterfaces = interfaceMap * coordinates of this
+                        ///< model
 
-  /// Coordinates of part p for the columns z of the coupled model (motions: without the offset).
+  /// Coordinates of part p for the columns z of the coupled model (motions, so without the offset).
   Matrix local(int p, const Matrix& z) const { return maps[static_cast<std::size_t>(p)] * z; }
-  /// Every coordinate of every part is one coupled dof: `positions` says all.
+  /// True if every coordinate of every part is one coupled dof: `positions` is then complete.
   bool boolean() const;
 };
 
 /// M, C_i, K_i and loads of all parts in z: A' = sum_p L_p' A_p L_p. Terms of one name and one law
-/// become one term, laws are merged by name, every part keeps its own point sets, the
-/// recovery row of a node that several parts have is that of the first that has the component. Dofs
-/// are numbered by a Cuthill-McKee walk over nodes and modes, so a chain is narrow.
+/// become one term, laws are merged by name, and every part keeps its own point sets. The recovery
+/// row of a shared node is that of the first part that has the component. Dofs are numbered by a
+/// Cuthill-McKee walk over nodes and modes, so the bandwidth of a chain is small.
 ///
-/// Primal: L = null space of the constraints by sparse elimination, interface dofs first; for equal
-/// labels alone L_p is Boolean. Dual (C. Farhat and F.-X. Roux 1991; D. J. Rixen 2004): with
-/// constraints B q = g, the stationary point of the Lagrangian with multipliers, forces on the dof
-/// each constraint is solved for. Each is split in two (as in Code_Aster, R3.03.01), so that no row
-/// is without a diagonal:
+/// Primal: L = null space of the constraints by sparse elimination, interface dofs first; with
+/// equal labels only, L_p is Boolean. Dual (C. Farhat and F.-X. Roux 1991; D. J. Rixen 2004): with
+/// constraints B q = g, the stationary point of the Lagrangian with multipliers, which are forces
+/// on the dof that each constraint is solved for. Each multiplier is split in two (as in
+/// Code_Aster, R3.03.01), so that every row has a diagonal entry:
 ///
-///     [M . .; . . .; . . .] z'' + [C . .; . . .; . . .] z' + [K -B' -B'; -B -S S; -B S -S] z = [F;
-///     -g; -g],   z = (q, lambda_1, lambda_2)
+///     [M . .; . . .; . . .] z'' + [C . .; . . .; . . .] z'
+///         + [K -B' -B'; -B -S S; -B S -S] z = [F; -g; -g],   z = (q, lambda_1, lambda_2)
 ///
-/// which means B q = g and lambda_1 = lambda_2, half of the force each, S its stiffness at that
-/// dof. Multipliers carry the node number of that dof, so that block solvers keep them together.
-/// The start has the multipliers that belong to it. Parts with reduction::DerivedInterface have
-/// interface displacements that are no coordinates, u_b = B_p q_p; where their coordinates hold
+/// This means B q = g and lambda_1 = lambda_2, each half of the force; S is its stiffness at that
+/// dof. Multipliers have the node number of that dof, so that block solvers keep them together.
+/// The start contains consistent multipliers. Parts with reduction::DerivedInterface have
+/// interface displacements that are not coordinates, u_b = B_p q_p; if their coordinates contain
 /// interface forces (dual Craig-Bampton), these become the multipliers.
 ///
-/// Throws ModelError, naming parts and dofs: labels that join nothing, stand twice in a part or
-/// mean an inner dof of another part, different component names, reference or initial states that
-/// differ at a shared dof by more than 1e-9 of the largest, recovery rows of a node that disagree;
-/// a connection with an unknown part, node or component, or with an inner dof of a reduced part;
-/// constraints that contradict each other; a translation tied to a rotation; a frame that is not a
+/// Throws ModelError, naming parts and dofs: labels that join nothing, occur twice in a part or
+/// belong to an inner dof of another part; different component names; reference or initial states
+/// that differ at a shared dof by more than 1e-9 of the largest; inconsistent recovery rows of a
+/// node; a connection with an unknown part, node or component, or with an inner dof of a reduced
+/// part; contradictory constraints; a translation tied to a rotation; a frame that is not a
 /// rotation.
 Coupling coupleWithPositions(const std::vector<reduction::ReducedSubstructure>& parts,
                              const CouplingOptions& options = {});
@@ -84,7 +88,7 @@ Coupling coupleWithPositions(const std::vector<model::Substructure>& parts,
 
 model::SecondOrderModel couple(const std::vector<reduction::ReducedSubstructure>& parts,
                                const CouplingOptions& options = {});
-/// Unreduced parts: the full model put together again.
+/// Couples unreduced parts: restores the full model.
 model::SecondOrderModel couple(const std::vector<model::Substructure>& parts,
                                const CouplingOptions& options = {});
 

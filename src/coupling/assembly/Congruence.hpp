@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A second-order model in other coordinates, and the numbering of a coupled model.
+/// Coordinate transformation of a second-order model, and the numbering of a coupled model.
 #pragma once
 
 #include <vector>
@@ -20,31 +20,30 @@ struct Substitution {
 };
 
 /// Mass, damping, stiffness and loads become L' A L and L' (F - K offset); point rows and recovery
-/// are transformed alike.
+/// are transformed in the same way.
 void substitute(model::SecondOrderModel& model, const Substitution& substitution);
 
-/// Fills `s` with the coordinates that stay, keep[i] != 0, as they are, and `more` new ones behind
-/// them, whose dofs are for the caller to add. `entries` say what the others are: row and column
-/// are coordinates of the model, or the number of coordinates and more for the new ones. Returns
-/// the new number of every coordinate, -1 for those that do not stay.
+/// Fills `s` with the kept coordinates, keep[i] != 0, unchanged, followed by `more` new ones, whose
+/// dofs the caller adds. `entries` define the other coordinates: row and column are coordinates of
+/// the model, or the number of coordinates and above for the new ones. Returns the new number of
+/// every coordinate, -1 for those not kept.
 std::vector<int> keepOnly(const model::SecondOrderModel& model, const std::vector<char>& keep,
                           Triplets entries, int more, Substitution& s);
 
-/// Position of every dof in a numbering by a Cuthill-McKee walk over groups: the dofs of a node
-/// together, with the forces on them; the modes of an interface together; every mode of a part by
-/// itself.
+/// Position of every dof in a numbering by a Cuthill-McKee walk over groups. A group is: the dofs
+/// of a node with the forces on them; the modes of an interface; a single mode of a part.
 std::vector<int> narrowNumbering(const model::SecondOrderModel& model);
 
-/// Puts dof i at position[i].
+/// Moves dof i to position[i].
 void renumber(model::SecondOrderModel& model, const std::vector<int>& position);
 
-/// Entries at other columns: out(i, column[j]) = A(i, j); exact zeros are left out.
+/// Moves columns: out(i, column[j]) = A(i, j); exact zeros are omitted.
 Sparse moveColumns(const Sparse& A, const std::vector<int>& column, Eigen::Index columns);
 
-/// Per row of a map the column it is the same as, -1 where it is not just one.
+/// For each row of a map the column it equals, -1 if it is not a single column.
 std::vector<int> positionsOf(const Sparse& map);
 
-/// Every matrix of the model: mass, damping and stiffness terms.
+/// Visits every matrix of the model: mass, damping and stiffness terms.
 template <class Visit>
 void forEachMatrix(const model::SecondOrderModel& model, const Visit& visit) {
   visit(model.mass);
@@ -52,7 +51,7 @@ void forEachMatrix(const model::SecondOrderModel& model, const Visit& visit) {
   for (const auto& term : model.stiffness) visit(term.matrix);
 }
 
-/// The same, for writing.
+/// The same with write access.
 template <class Change>
 void changeEachMatrix(model::SecondOrderModel& model, const Change& change) {
   change(model.mass);

@@ -12,8 +12,8 @@ namespace tooljoint::coupling {
 
 namespace {
 
-/// z of the state q: its entries where the dependent coordinates agree; else those of physical dofs
-/// P, and of the others (S_m' M S_m) z_m = S_m' M (q - S_P z_P).
+/// z of the state q. If the dependent coordinates agree, the entries of q; otherwise those of the
+/// physical dofs P, and for the others (S_m' M S_m) z_m = S_m' M (q - S_P z_P).
 Vector fit(const model::SecondOrderModel& model, const Sparse& S, const Vector& q,
            const std::vector<int>& others) {
   Vector z = q(others);

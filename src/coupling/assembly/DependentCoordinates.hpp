@@ -8,12 +8,12 @@
 
 namespace tooljoint::coupling {
 
-/// q = [1; rows] z in all matrices, loads, point rows, recovery and maps, z the other coordinates;
-/// a start that is not in their span is fitted in least squares of mass. Nothing happens without
-/// dependent coordinates. ModelError for a model with multipliers.
+/// Inserts q = [1; rows] z into all matrices, loads, point rows, recovery and maps; z are the other
+/// coordinates. A start outside their span is fitted by least squares in the mass norm. No effect
+/// without dependent coordinates. ModelError for a model with multipliers.
 void condenseDependent(Coupling& coupling, const reduction::DependentCoordinates& dependent);
 
-/// Coordinates of the parts after old coupled dofs = map * new ones.
+/// Replaces the old coupled dofs in the maps of the parts: old = map * new.
 void changeCoordinates(Coupling& coupling, const Sparse& map);
 
 }  // namespace tooljoint::coupling

@@ -55,8 +55,8 @@ class Builder {
       }
   }
 
-  /// y = S (x, lambda): interface displacements that are no coordinates are rows of their part, u_b
-  /// = B_p q_p.
+  /// y = S (x, lambda): interface displacements that are not coordinates are rows of their part,
+  /// u_b = B_p q_p.
   void dropInterfacesThatAreNoCoordinates() {
     std::vector<char> keep(at(all_), 1);
     Triplets entries;
@@ -77,8 +77,8 @@ class Builder {
     out_.map = s.map;
   }
 
-  /// A multiplier stands with the node of its dof, or with the modes of a part whose interface is
-  /// no coordinate.
+  /// A multiplier has the node of its dof, or the label of a mode of the part if the interface is
+  /// not a coordinate.
   DofLabel labelOf(int unknown, std::int8_t which) const {
     const DofLabel& label = labelled_.model.dofs[at(unknown)];
     if (virtual_[at(unknown)] >= 0)
@@ -86,8 +86,9 @@ class Builder {
     return label.joiningForce(which);
   }
 
-  /// Constraints as rows over all unknowns of `labelled`, y[unknown] - rest = value, twice and
-  /// times the stiffness S of that dof, so that the multipliers are displacements of sorts:
+  /// Constraints as rows over all unknowns of `labelled`, y[unknown] - rest = value. Each is added
+  /// twice and scaled by the stiffness S of that dof, so that the multipliers have the unit of a
+  /// displacement:
   ///
   ///     K -> [K -S B' -S B'; -S B -S S; -S B S -S],   F -> [F; -S g; -S g]
   void addForces() {
@@ -129,7 +130,7 @@ class Builder {
     }
   }
 
-  /// Of the parts; constant terms.
+  /// Diagonal of the stiffness of the parts; constant terms.
   Vector diagonalStiffness() const {
     Vector diagonal = Vector::Zero(out_.model.mass.rows());
     for (std::size_t i = 0; i < out_.model.stiffness.size(); ++i) {
@@ -147,9 +148,9 @@ class Builder {
     return size > 0.0 ? size : 1.0;
   }
 
-  /// Of one dof; of an interface dof that is no coordinate, what it takes at least to move it by
-  /// its coordinates: forces, and modes that are not rigid-body motion (with rounding for
-  /// stiffness).
+  /// Stiffness of one dof. For an interface dof that is not a coordinate, the lowest stiffness
+  /// against moving it by its coordinates: by forces, or by modes other than rigid-body modes
+  /// (whose stiffness is rounding).
   double stiffnessOf(int unknown, const Vector& stiffness) const {
     if (virtual_[at(unknown)] < 0) return std::abs(stiffness[column_[at(unknown)]]);
     const AlignedPart& alignedPart = alignedParts_[at(owner_[at(unknown)])];
@@ -159,7 +160,7 @@ class Builder {
     double largest = 0, flexibility = 0;
     for (int i = 0; i < modes; ++i) largest = std::max(largest, std::abs(stiffness[place(i)]));
     for (int i = alignedPart.coordinates - 1; i >= 0; --i) {
-      if (i == modes - 1 && flexibility > 0.0) break;  // the residual flexibility says it
+      if (i == modes - 1 && flexibility > 0.0) break;  // the residual flexibility decides
       const double own = std::abs(stiffness[place(i)]), row = out_.map.coeff(unknown, place(i));
       if (own > (i < modes ? 1e-8 * largest : 0.0))
         flexibility = std::max(flexibility, row * row / own);
@@ -167,14 +168,14 @@ class Builder {
     return flexibility > 0.0 ? 1.0 / flexibility : 0.0;
   }
 
-  /// Entry (j, i) of T, from the common frame to the part's, for interface forces.
+  /// Entry (j, i) of T for interface forces; T turns the common frame into that of the part.
   static double turned(const AlignedPart& part, int j, int i) {
     const int n = part.coordinates;
     return part.turn.rows() > 0 ? part.turn.coeff(n + j, n + i) : i == j ? 1.0 : 0.0;
   }
 
-  /// Coordinates that are interface forces of a part are what the multipliers make them: g = T C'
-  /// lambda, T from the common frame to the part's.
+  /// Replaces the interface forces of a part by the multipliers: g = T C' lambda, where T turns the
+  /// common frame into that of the part.
   void putForcesInPlace() {
     std::vector<char> keep(at(coordinates_ + count()), 1);
     Triplets entries;
@@ -208,9 +209,8 @@ class Builder {
     }
   }
 
-  /// Forces of the static state load the parts (reduction::DerivedInterface). What they leave where
-  /// parts meet is no force between parts but what the static state lacks to equilibrium, and is
-  /// taken back.
+  /// Forces of the static state load the parts (reduction::DerivedInterface). Their sum where parts
+  /// meet is not a force between parts but the residual of the static state, and is subtracted.
   void returnImbalance() {
     Vector total = Vector::Zero(all_);
     for (std::size_t p = 0; p < alignedParts_.size(); ++p) {
@@ -233,12 +233,14 @@ class Builder {
                                 out_.model.lawIndex(model::ScalarLaw::one())});
   }
 
-  /// Multipliers that nothing but constraints determines, at t = 0 (J: what addForces() has added):
+  /// Initial multipliers of constraints, which nothing else determines, at t = 0 (J: what
+  /// addForces() has added):
   ///
   ///     [M . ; . .] (a, lambda) + J (a, lambda) = (F + R'f - C v - K q, 0)
   ///
-  /// Coordinates without mass get that of the fastest diagonal frequency of the others, and motions
-  /// of several, as those of turned dofs, a small part of it. It hardly matters to the forces.
+  /// Coordinates without mass get that of the highest diagonal frequency of the others. Massless
+  /// motions of several coordinates, as of turned dofs, get a small part of it. This hardly affects
+  /// the forces.
   void startConsistently() {
     SecondOrderModel& m = out_.model;
     const Eigen::Index n = m.mass.rows();
@@ -287,9 +289,10 @@ class Builder {
   const int all_;                       ///< coordinates of `labelled`
   int coordinates_ = 0;                 ///< of the model without multipliers
   std::vector<int> owner_;              ///< per coordinate of `labelled`: its (first) part
-  std::vector<int> virtual_;            ///< row of its part's boundaryRows, -1 for a coordinate
-  std::vector<int> column_;             ///< place among the coordinates
-  std::optional<std::size_t> joining_;  ///< place of the term of the multipliers in the stiffness
+  std::vector<int> virtual_;            ///< row in boundaryRows of its part, -1 for a coordinate
+  std::vector<int> column_;             ///< position among the coordinates
+  std::optional<std::size_t> joining_;  ///< position of the term of the multipliers in the
+                                        ///< stiffness
   Sparse labelRows_;                    ///< scaled constraints over `labelled`
   DualModel out_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Lagrange multipliers for the constraints of a model of parts that keep their own dofs.
+/// Lagrange multipliers for the constraints of a model whose parts keep their own dofs.
 #pragma once
 
 #include <vector>
@@ -18,8 +18,8 @@ struct DualModel {
   std::vector<Multiplier> multipliers;
   Sparse map;  ///< coordinates of `labelled` from those of the model
 };
-/// Two multipliers for each constraint that `constraints` solved: halves of the force on the dof it
-/// is solved for.
+/// Adds two multipliers for each constraint that `constraints` solved: each half of the force on
+/// the dof that the constraint is solved for.
 DualModel addMultipliers(const std::vector<AlignedPart>& alignedParts, const Labelled& labelled,
                          const Elimination& constraints);
 

@@ -14,19 +14,19 @@ namespace tooljoint::coupling {
 
 namespace {
 
-/// A coefficient that is left of larger ones by cancellation to this fraction is zero.
+/// A coefficient reduced by cancellation to this fraction of its terms is zero.
 constexpr double rounding = 1e-11;
 /// A pivot is at least this fraction of the largest coefficient of its row.
 constexpr double smallestPivot = 1e-3;
 
-/// A row while unknowns are put in: values, and the sizes they were made of.
+/// A row during substitution: values, and the sum of the magnitudes of their terms.
 struct Accumulator {
   struct Entry {
     double value = 0, size = 0;
   };
   std::map<int, Entry> entries;
   Entry right;
-  std::set<int> origins;  ///< other constraints that were used
+  std::set<int> origins;  ///< other constraints used
 
   void add(int unknown, double value) {
     Entry& e = entries[unknown];
@@ -70,7 +70,7 @@ class Eliminator {
     solve(r, pivot(row, a), a);
   }
 
-  /// factor * y[unknown], in unknowns that are not solved for.
+  /// factor * y[unknown], expressed in unsolved unknowns.
   void put(int unknown, double factor, Accumulator& a) const {
     const int s = solvedBy_[at(unknown)];
     if (s < 0) {
@@ -83,7 +83,7 @@ class Eliminator {
     a.origins.insert(origins_[at(s)].begin(), origins_[at(s)].end());
   }
 
-  /// The left side of the row is zero: the row is redundant, or a contradiction.
+  /// Handles a row whose left side is zero: a redundant row, or a contradiction.
   void empty(const ConstraintRow& row, const Accumulator& a) {
     std::vector<std::string> others;
     for (int o : a.origins) others.push_back(rows_[at(o)].name);
@@ -141,7 +141,7 @@ class Eliminator {
     for (const auto& [other, coefficient] : s.rest) users_[at(other)].insert(number);
   }
 
-  /// Puts the newly solved unknown into an earlier row.
+  /// Inserts the newly solved unknown into an earlier row.
   void replace(int user, int number) {
     SolvedRow& s = out_.solved[at(user)];
     Accumulator a;
@@ -162,7 +162,7 @@ class Eliminator {
   const std::vector<ConstraintRow>& rows_;
   const std::vector<int>& rank_;
   std::vector<int> solvedBy_;
-  std::vector<std::set<int>> users_;  ///< per unknown: solved rows it stands in
+  std::vector<std::set<int>> users_;  ///< per unknown: solved rows that contain it
   std::vector<std::set<int>> origins_;
   Elimination out_;
 };

@@ -53,7 +53,8 @@ class Labeller {
   }
   bool released(int p, int i) const { return rules_.released.count({p, i}) > 0; }
 
-  /// Interface dofs by label, and that inner dofs are nobody else's.
+  /// Finds the interface dofs of each label; checks that no other part has the label of an inner
+  /// dof.
   void findJoints() {
     std::map<DofLabel, std::vector<DofPosition>> shared;
     std::map<DofLabel, DofPosition> inner;
@@ -103,8 +104,8 @@ class Labeller {
     return label.kind == DofLabel::Kind::Modal ? DofLabel::modal(p, label.component) : label;
   }
 
-  /// Gives every dof of every part a coordinate; joined ones get the same. Modes are renumbered by
-  /// part.
+  /// Numbers the dofs of all parts as coordinates; joined dofs get the same. Modes are renumbered
+  /// by part.
   void numberDofs() {
     out_.columns.resize(at(parts()));
     std::map<DofLabel, int> numberOf;
@@ -123,7 +124,7 @@ class Labeller {
 
   int column(const DofPosition& place) const { return out_.columns[at(place.part)][at(place.dof)]; }
 
-  /// L_p' A L_p as entries.
+  /// Adds L_p' A L_p as entries.
   void scatter(int p, const Sparse& A, Triplets& entries) const {
     const auto& to = out_.columns[at(p)];
     forEachEntry(A, [&](int i, int j, double value) {
@@ -179,19 +180,19 @@ class Labeller {
       }
   }
 
-  /// The boundary dofs of a part follow from its modes.
+  /// True if the boundary dofs of a part are functions of its modes.
   bool derives(int p) const { return alignedParts_[at(p)].boundaryRows.rows() > 0; }
   static constexpr const char* derivedStart =
       "The bases of these parts have no boundary dofs of their own (Dual Craig-Bampton), and their "
       "modes give each part another start. Choose a basis with boundary dofs, such as "
       "\"Craig-Bampton\", or keep more modes.";
 
-  /// Puts the values of all parts together; those of joined dofs must agree.
+  /// Assembles the values of all parts; those of joined dofs must agree.
   template <class ValuesOf>
   Vector gather(const ValuesOf& valuesOf, const std::string& what,
                 const std::string& advice) const {
     Vector all = Vector::Zero(size());
-    std::vector<int> from(at(size()), -1);  // of the dof that stands for the joint
+    std::vector<int> from(at(size()), -1);  // of the dof that represents the joint
     double largest = 0;
     for (int p = 0; p < parts(); ++p)
       largest = std::max(largest, part(p).size() > 0 ? valuesOf(p).cwiseAbs().maxCoeff() : 0.0);
@@ -277,21 +278,21 @@ class Labeller {
 
   double offsetOf(const OutputRow& row) const { return part(row.part).recoveryOffset[row.row]; }
 
-  /// A component that the part does not have (its row is zero): another part may recover it.
+  /// True if the part does not have the component (its row is zero): another part may recover it.
   bool empty(const std::vector<Sparse>& rows, const OutputRow& row) const {
     bool zero = offsetOf(row) == 0.0;
     forEachInRow(rows[at(row.part)], row.row, [&](int, double) { zero = false; });
     return zero;
   }
 
-  /// Whether the dof is released in one of the parts, so that its motion differs.
+  /// True if the dof is released in one of the parts, so that its motion differs.
   bool free(const DofLabel& dof, int a, int b) const {
     for (const auto& [p, i] : rules_.released)
       if ((p == a || p == b) && part(p).dofs[at(i)] == dof) return true;
     return false;
   }
 
-  /// A row in the dofs that stand for joints.
+  /// A row in terms of the dofs that represent joints.
   Eigen::SparseVector<double> standing(const Sparse& rows, int row) const {
     Eigen::SparseVector<double> out(size());
     forEachInRow(rows, row,
@@ -317,8 +318,9 @@ class Labeller {
 
   const std::vector<AlignedPart>& alignedParts_;
   const LabelRules& rules_;
-  std::set<std::pair<int, int>> own_;  ///< (part, dof): one of several of its label, and by itself
-  std::vector<int> stands_;  ///< per coordinate: the first of those it is or will be joined to
+  std::set<std::pair<int, int>> own_;  ///< (part, dof): one of several with its label, not joined
+  std::vector<int> stands_;  ///< per coordinate: the first of the coordinates it is or will be
+                             ///< joined to
   Labelled out_;
 };
 

@@ -18,7 +18,7 @@ struct LabelRules {
   bool apart = false;                      ///< every part keeps its own dofs (dual assembly)
   std::set<std::pair<int, int>> released;  ///< (part, dof): not joined
   std::set<std::pair<int, int>>
-      attached;  ///< (part, dof): held by a connection, so it may join nothing by its label
+      attached;  ///< (part, dof): held by a connection, so its label need not join anything
 };
 
 /// Interface dofs of one label, joined or to be joined.

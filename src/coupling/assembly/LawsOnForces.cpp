@@ -16,7 +16,7 @@ namespace tooljoint::coupling {
 
 namespace {
 
-/// k G of a spring that its own residual flexibility may change.
+/// Largest k G of a spring that is not changed noticeably by its own residual flexibility.
 constexpr double negligibleCompliance = 0.01;
 
 constexpr const char* advice =

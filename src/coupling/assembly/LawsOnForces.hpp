@@ -14,13 +14,13 @@ namespace tooljoint::coupling {
 ///
 ///     u = Phi_b p + G (C' lambda + f),
 ///
-/// G the residual flexibility, but the force f of a law finds no coordinate for its own part G f:
-/// the law sees u without it. A spring k acts as k/(1 - k G), and a damper c adds a mode that grows
-/// at 1/(c G).
+/// with the residual flexibility G. The force f of a law has no coordinate for its own contribution
+/// G f, so the law is evaluated without it: a spring k acts as k/(1 - k G), and a damper c adds a
+/// mode that grows at 1/(c G).
 ///
-/// ModelError where that makes a connector wrong at rest: k G above a hundredth, or a damper. Of
-/// all other laws on such dofs a remark; "" without.
-/// \param connectors  so many of the last point sets of the labelled model are connectors
+/// ModelError if this makes a connector wrong at rest: k G above a hundredth, or a damper. Returns
+/// a remark for all other laws on such dofs; "" without. \param connectors  number of connectors,
+/// the last point sets of the labelled model
 std::string checkLawsOnForces(const std::vector<AlignedPart>& alignedParts,
                               const Labelled& labelled, std::size_t connectors);
 

@@ -11,7 +11,7 @@ namespace {
 
 using Graph = std::vector<std::vector<int>>;
 
-/// Distance of every group from `root`, -1 where there is no way; and the reached groups in the
+/// Distance of every group from `root`, -1 if it is not reached; and the reached groups in the
 /// order of the walk.
 struct Walk {
   std::vector<int> distance;
@@ -32,7 +32,8 @@ Walk walk(const Graph& graph, int root) {
   return w;
 }
 
-/// Farthest group from `w`'s root, of these the one with the fewest neighbours, then the lowest.
+/// Group farthest from the root of `w`; among several the one with the fewest neighbours, then the
+/// lowest.
 int farthest(const Graph& graph, const Walk& w) {
   const int depth = w.distance[at(w.order.back())];
   int best = -1;

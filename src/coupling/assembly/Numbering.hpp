@@ -9,9 +9,9 @@
 namespace tooljoint::coupling {
 
 /// Cuthill-McKee order of the groups 0 .. size-1 (E. Cuthill, J. McKee 1969) from a
-/// pseudo-peripheral group (A. George, J. W. H. Liu 1979): order[k] is the group that comes k-th.
-/// Deterministic; of the two ends of a chain the lower group comes first. \param edges pairs of
-/// coupled groups, in any order, repetitions allowed
+/// pseudo-peripheral group (A. George, J. W. H. Liu 1979): order[k] is the k-th group.
+/// Deterministic; a chain starts at its lower end group. \param edges  pairs of coupled groups, in
+/// any order, repetitions allowed
 std::vector<int> cuthillMcKee(int size, const std::vector<std::pair<int, int>>& edges);
 
 }  // namespace tooljoint::coupling

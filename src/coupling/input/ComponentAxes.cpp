@@ -35,8 +35,8 @@ std::pair<ComponentKind, int> meaning(const std::string& name) {
   return {ComponentKind::Unknown, -1};
 }
 
-/// The name of the component along or about `axis` (0, 1, 2) of one with this name: "w" of "u",
-/// "theta_x" of "theta_y" and of "theta".
+/// Name of the component along or about `axis` (0, 1, 2) in the style of this one: "w" from "u",
+/// "theta_x" from "theta_y" and from "theta".
 std::string alongAxis(std::string name, int axis) {
   for (const std::string letters : {"uvw", "UVW", "xyz", "XYZ", "123"})
     if (letters.find(name.back()) != std::string::npos) {

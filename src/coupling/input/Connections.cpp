@@ -107,7 +107,7 @@ std::vector<Term> separation(const PartNode& a, const PartNode& b, const Vector3
 
 namespace {
 
-/// Numbers for the nodes of parts that number them for themselves.
+/// Assigns numbers to the nodes of parts with their own numbering.
 class Numberer {
  public:
   explicit Numberer(const std::vector<model::Substructure>& parts) : parts_(parts) {

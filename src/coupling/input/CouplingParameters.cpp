@@ -21,7 +21,7 @@ namespace {
 
 using Teuchos::ParameterList;
 
-/// Axes of a frame may be this far from perpendicular.
+/// Largest deviation of the axes of a frame from perpendicular.
 constexpr double skewness = 1e-6;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& sentence) {
@@ -174,8 +174,8 @@ PointInput readEnds(const ParameterList& list) {
   return input;
 }
 
-/// The law `name` with its parameters in `own`. Made once here, so that what is wrong with it is
-/// found before there are parts.
+/// Sets the law `name` with its parameters in `own`. It is made once here, so that its faults are
+/// found before the parts exist.
 void setLaw(PointInput& input, const std::string& name, const ParameterList& own) {
   input.law = [name, own](int coordinates) -> std::shared_ptr<const model::PointLaw> {
     return model::PointLawRegistry::instance().make(name, own, {1, coordinates});
@@ -183,7 +183,7 @@ void setLaw(PointInput& input, const std::string& name, const ParameterList& own
   input.law(input.direction ? 3 : 1);
 }
 
-/// An entry of Springs, Stops or Sliders, which holds the parameters of its law.
+/// An entry of Springs, Stops or Sliders with the parameters of its law.
 PointInput readConnector(const ParameterList& list, const char* law) {
   auto input = readEnds(list);
   setLaw(input, law, list);
@@ -201,7 +201,7 @@ PointInput readPointLaw(const ParameterList& list) {
   return input;
 }
 
-/// One plan for each sublist of `list`'s sublist `name`.
+/// One entry for each sublist of `list`'s sublist `name`.
 template <class Plan>
 void readAll(const ParameterList& list, const std::string& name, Plan (*read)(const ParameterList&),
              std::vector<Plan>& inputs, std::vector<std::string>& faults) {
@@ -217,7 +217,7 @@ void readAll(const ParameterList& list, const std::string& name, Plan (*read)(co
   }
 }
 
-/// Looks up what a plan names among the parts.
+/// Checks the names of entries against the parts.
 class NameCheck {
  public:
   NameCheck(const std::vector<PartOutline>& parts, const model::ComponentNames& names)

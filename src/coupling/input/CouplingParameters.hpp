@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list `Coupling`: connections of parts beside equal labels. It is read before the parts
-/// exist and resolved into connections afterwards.
+/// The deck list `Coupling`: connections of parts in addition to equal labels. It is read before
+/// the parts exist and resolved into connections afterwards.
 #pragma once
 
 #include <functional>
@@ -51,15 +51,16 @@ struct PointInput : InputEntry {
   PartNode first;
   std::optional<PartNode> second;  ///< none: the ground
   std::optional<Vector3> direction;
-  std::string component;  ///< instead of a direction
-  /// The law for as many coordinates as there are at most: the separation and, with a direction,
-  /// one (in a plane) or two displacements across it.
+  std::string component;  ///< in place of a direction
+  /// Makes the law for the available coordinates: the separation and, with a direction, one (in a
+  /// plane) or two displacements normal to it.
   std::function<std::shared_ptr<const model::PointLaw>(int coordinates)> law;
 };
 
 struct CouplingInput {
   Assembly assembly = Assembly::Primal;
-  bool ownNumbers = false;  ///< every part has its own node numbers, and joints join them
+  bool ownNumbers = false;  ///< every part has its own node numbers, and parts are connected by
+                            ///< joints
   bool keepStaticForces = true;
   std::vector<JointInput> joints;
   std::vector<FrameInput> frames;
@@ -73,9 +74,9 @@ struct CouplingInput {
 /// Description of the list `Coupling`.
 deck::ListSpec parameters();
 
-/// Throws DeckError: a node that is not written PART:NODE, not exactly one of Direction and
-/// Component, axes that are not perpendicular, factors that are not as many as terms, joints of
-/// parts whose numbers are shared.
+/// Throws DeckError: a node not in the form PART:NODE, not exactly one of Direction and Component,
+/// axes that are not perpendicular, different numbers of factors and terms, joints of parts with
+/// shared numbers.
 CouplingInput readCoupling(const Teuchos::ParameterList& list);
 
 /// Data of a part before it is built.
@@ -83,8 +84,8 @@ struct PartOutline {
   std::string name;
   std::vector<std::int64_t> nodes;  ///< empty: not known yet
 };
-/// Throws DeckError, one line each, for parts, nodes and components of the list that do not exist,
-/// with path and suggestion.
+/// Throws DeckError, one line each, for unknown parts, nodes and components of the list, with path
+/// and suggestion.
 void checkNames(const CouplingInput& input, const std::vector<PartOutline>& parts,
                 const model::ComponentNames& names);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of the list Coupling.
+// Names and descriptions of the list Coupling.
 #include <map>
 
 #include "coupling/input/ComponentAxes.hpp"
@@ -80,7 +80,7 @@ deck::ListSpec hingeSpec() {
   return deck::ListSpec("Hinges", "Hinges between parts.").namedLists(entry);
 }
 
-/// Where a point law acts.
+/// End points of a point law.
 deck::ListSpec& ends(deck::ListSpec& entry) {
   return entry.text("First", deck::Required{}, "Node, PART:NODE.")
       .text("Second", deck::Optional{},
@@ -95,8 +95,8 @@ deck::ListSpec& ends(deck::ListSpec& entry) {
             "Direction.");
 }
 
-/// The parameters of a registered law beside its ends. `byComponent`: along a translation they have
-/// the units of the law, about a rotation those with N m for N and rad for m.
+/// The parameters of a registered law in addition to its ends. `byComponent`: along a translation
+/// they have the units of the law, about a rotation N m in place of N and rad in place of m.
 deck::ListSpec& law(deck::ListSpec& entry, const std::string& name, bool byComponent) {
   static const std::map<std::string, std::string> aboutRotation{
       {"N", "N m"}, {"N/m", "N m/rad"}, {"N/m3", "N m/rad3"}, {"N s/m", "N m s/rad"}};

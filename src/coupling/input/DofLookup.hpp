@@ -21,11 +21,11 @@ class DofLookup {
  public:
   explicit DofLookup(const std::vector<AlignedPart>& alignedParts);
 
-  /// Positions of the dof: one, or all of them when no part is named. `who` opens messages:
-  /// `The constraint "a"`. ModelError: unknown part (with a suggestion), component or node, an
-  /// interior dof of a reduced part, or one that a frame cannot rotate.
+  /// Positions of the dof: one, or all of them when no part is named. `who` begins messages: `The
+  /// constraint "a"`. ModelError: unknown part (with a suggestion), component or node, an interior
+  /// dof of a reduced part, or a dof that a frame cannot rotate.
   std::vector<DofPosition> find(const PartDof& dof, const std::string& who) const;
-  /// The dof for messages, its node as a person knows it: `u of node 4 of part "beam"`.
+  /// The dof for messages, with the node number of the user: `u of node 4 of part "beam"`.
   std::string describe(const PartDof& dof) const;
   const model::ComponentNames& names() const { return alignedParts_.front().model->componentNames; }
 
@@ -47,7 +47,7 @@ std::vector<std::string> namesOf(const Parts& parts) {
 /// ` names part "pip", but no part has this name. Did you mean "pipe"?`
 std::string noSuchPart(const std::string& name, const std::vector<std::string>& names);
 
-/// Index of `name` among `names`. ModelError where it is none of them; `who` opens the message.
+/// Index of `name` among `names`. ModelError if it is not among them; `who` begins the message.
 int partNumber(const std::vector<std::string>& names, const std::string& name,
                const std::string& who);
 

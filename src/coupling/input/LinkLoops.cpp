@@ -11,7 +11,7 @@ namespace tooljoint::coupling {
 
 namespace {
 
-/// Loops that close to this part of the longest way round are closed.
+/// A loop counts as closed if its gap is below this fraction of its longest path.
 constexpr double closed = 1e-6;
 
 std::string text(const Vector3& v) { return fmt::format("({:g}, {:g}, {:g}) m", v[0], v[1], v[2]); }
@@ -28,7 +28,7 @@ std::pair<LinkLoops::Node, Vector3> LinkLoops::rootOf(const Node& node) const {
   return {root, way};
 }
 
-/// Whether the nodes have rotations that displace the end of an arm of this length.
+/// True if the nodes have rotations that displace the end of an arm of this length.
 bool LinkLoops::turns(const Vector3& gap) const {
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3, c = (a + 2) % 3;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rigid links and hinges that close a loop must lead back to where they began.
+/// Consistency check of loops of rigid links and hinges: their arms must add up to zero.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,28 @@
 
 namespace tooljoint::coupling {
 
-/// Where nodes stand from one another, as far as links say. A link between nodes whose distance
-/// other links give otherwise would hold their rotations: u_to = u_from + theta x arm twice, with
-/// two arms, leaves theta x (arm - arm') = 0.
+/// Relative positions of nodes according to links. A link between nodes whose distance already
+/// follows differently from other links would hold their rotations: u_to = u_from + theta x arm
+/// with two arms leaves theta x (arm - arm') = 0.
 class LinkLoops {
  public:
   using Node = std::pair<std::string, std::int64_t>;  ///< part (empty: any) and number
 
   explicit LinkLoops(const model::ComponentNames& names) : axes_(componentAxes(names)) {}
 
-  /// `to` stands at `from` + arm. \param what  the link, for messages: "deck.xml: /a/Rigid Links/b"
-  /// \throw ModelError: the links before lead elsewhere
+  /// `to` is at `from` + arm.
+  /// \param what  the link, for messages: "deck.xml: /a/Rigid Links/b"
+  /// \throw ModelError: the previous links give another position
   void add(const Node& from, const Node& to, const Vector3& arm, const std::string& what);
 
  private:
-  /// The node that stands for all linked with this one, and the way from it to this one [m].
+  /// The node that represents all nodes linked with this one, and the vector from it to this one
+  /// [m].
   std::pair<Node, Vector3> rootOf(const Node& node) const;
   bool turns(const Vector3& gap) const;
 
   ComponentAxes axes_;
-  std::map<Node, std::pair<Node, Vector3>> from_;  ///< a linked node, and the way from it [m]
+  std::map<Node, std::pair<Node, Vector3>> from_;  ///< a linked node, and the vector from it [m]
 };
 
 }  // namespace tooljoint::coupling

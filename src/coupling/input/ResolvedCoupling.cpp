@@ -59,7 +59,7 @@ class Planner {
     }
     for (const auto& one : plan_.hinges) addHinge(one);
     for (const auto& one : plan_.points) addPoint(one);
-    // What a released dof carries is taken once all of them are known.
+    // The static forces of released dofs are evaluated when all released dofs are known.
     if (plan_.keepStaticForces) keepStaticForces();
     return std::move(out_);
   }
@@ -85,7 +85,7 @@ class Planner {
     }
   }
 
-  /// The node by the number it has now.
+  /// The node with its present number.
   PartNode translated(const PartNode& node, const std::string& path) const {
     if (!plan_.ownNumbers) return node;
     if (node.part.empty())
@@ -101,7 +101,8 @@ class Planner {
     return {node.part, number->second};
   }
 
-  /// The same for all parts that a joint puts in one place, unless something is released there.
+  /// The representative of all parts that a joint connects at this node, unless a dof is released
+  /// there.
   LinkLoops::Node place(const PartNode& node) const {
     return {out_.options.connections.releases(node.node) ? node.part : "", node.node};
   }
@@ -119,7 +120,7 @@ class Planner {
     }
   }
 
-  /// What a connection names stays physical; in a frame with all of its node.
+  /// Retains the dof of a connection; in a frame all dofs of its node.
   void retain(const PartDof& dof) {
     everywhere(dof, [&](model::Substructure& part, int position) {
       retain(part, position);
@@ -134,8 +135,8 @@ class Planner {
                          position);
   }
 
-  /// Displacement of the dof in the reference state, in the common frame; 0 where the parts have
-  /// none.
+  /// Displacement of the dof in the reference state, in the common frame; 0 if the parts have no
+  /// reference state.
   double reference(const PartDof& dof) {
     double value = 0;
     everywhere(dof, [&](model::Substructure& part, int position) {
@@ -184,7 +185,7 @@ class Planner {
     out_.options.connections.released.push_back({one.node.part, one.node.node, one.component});
   }
 
-  /// By the name that the deck gives: its nodes have other numbers here.
+  /// Sets the name used in the deck, since node numbers differ here.
   static Constraint named(Constraint constraint, const std::string& kind, const std::string& name) {
     constraint.name =
         kind + " \"" + name + "\"" + constraint.name.substr(constraint.name.rfind(", "));
@@ -206,7 +207,7 @@ class Planner {
       add(named(constraint, "hinge", one.name));
   }
 
-  /// Separation along a direction, or of a component; the displacement of `first` where there is no
+  /// Separation along a direction, or of a component; the displacement of `first` if there is no
   /// second node.
   std::vector<Term> row(const PointInput& one, const PartNode& first,
                         const std::optional<PartNode>& second, const Vector3& direction) const {
@@ -259,7 +260,7 @@ class Planner {
     out_.options.connections.connectors.push_back(connector);
   }
 
-  /// r = K D_s - F - f(D_s) of constant terms: what the rest of the model exerts on the part.
+  /// r = K D_s - F - f(D_s) of constant terms: the force of the rest of the model on the part.
   static Vector jointForces(const model::Substructure& part) {
     const auto& m = part.model;
     Vector force = reduction::constantStiffness(m) * part.reference -
@@ -293,7 +294,7 @@ class Planner {
                                "be kept. Set \"Keep Static Forces\" to false.");
             const double value = force(part)[i];
             put(part, i, value);
-            if (one.node.part.empty()) return;  // free in every part: each keeps its own
+            if (one.node.part.empty()) return;  // released in every part: each keeps its own force
             // The reaction on the rest of the model.
             everywhere({"", one.node.node, one.component},
                        [&, given = false](model::Substructure& other, int j) mutable {

@@ -60,8 +60,8 @@ class Reducer {
     for (int i = 0; i < model_.size(); ++i) (joined[at(i)] ? reduced_ : others_).push_back(i);
   }
 
-  /// Whether the coordinate belongs to an inner dof of a reduced part, which the joined dofs only
-  /// carry along.
+  /// True if the coordinate belongs to an inner dof of a reduced part, which the joined dofs move
+  /// only through modes.
   bool throughModes(const Sparse& rows, int r) const {
     bool found = false;
     forEachInRow(rows, r, [&](int column, double value) {
@@ -103,7 +103,7 @@ class Reducer {
     return problem;
   }
 
-  /// Old coordinates from (others, modes).
+  /// Expresses the old coordinates by (others, modes).
   void apply(const reduction::InterfaceProblem& problem,
              const reduction::InterfaceVectors& vectors) {
     coupling_.wholeInterfaces = std::make_shared<const Coupling>(coupling_);
@@ -140,8 +140,8 @@ class Reducer {
         coupling_.interface.push_back(static_cast<int>(i));
   }
 
-  /// xi with Psi xi = u - Psi_C u_C in least squares of mass: (Psi' M Psi) xi = Psi' M (u - Psi_C
-  /// u_C).
+  /// xi of Psi xi = u - Psi_C u_C by least squares in the mass norm: (Psi' M Psi) xi = Psi' M (u -
+  /// Psi_C u_C).
   Vector fit(const reduction::InterfaceProblem& problem, const reduction::InterfaceVectors& vectors,
              const Vector& state, const Vector& others) const {
     const Vector u = Vector(state(reduced_)) - vectors.attached * others;

@@ -16,7 +16,7 @@ namespace {
 struct Override {
   std::vector<std::string> path;
   std::string value;
-  bool removes = false;  ///< "!PATH": the list or parameter is taken out
+  bool removes = false;  ///< "!PATH": the list or parameter is removed
   Place place;
 };
 
@@ -65,7 +65,7 @@ std::string typeLike(const std::string& text) {
   return parseValue("Array(string)", text, ignored) ? "Array(string)" : "string";
 }
 
-/// What stands behind the number a text begins with; "" when it begins with none.
+/// The text after the number at its beginning; "" if it does not begin with a number.
 std::string tailOf(const std::string& text) {
   const std::string whole = trim(text);
   double number = 0.0;
@@ -84,7 +84,7 @@ class Applier {
   void apply(Override item) {
     stripSceneName(item.path);
     RawList* list = &scene_;
-    const ListSpec* spec = &spec_;  // null inside a list that passes through
+    const ListSpec* spec = &spec_;  // null inside a list that is passed through
     std::string path = "/" + scene_.name;
     for (std::size_t i = 0; i < item.path.size(); ++i) {
       if (trim(item.path[i]).empty()) {
@@ -118,7 +118,7 @@ class Applier {
       path.erase(path.begin());
   }
 
-  /// Step into the list `name`; false (and a finding) when there is no such list.
+  /// Enters the list `name`; false (and a finding) if there is no such list.
   bool enter(const Override& item, const std::string& name, std::string& path, RawList*& list,
              const ListSpec*& spec) {
     const ListSpec* next = spec == nullptr ? nullptr : declaredList(*spec, name);
@@ -141,8 +141,8 @@ class Applier {
     return true;
   }
 
-  /// Take a list, or a parameter, out; one that the deck could hold but does not is no fault, so
-  /// that a switch works on every deck.
+  /// Removes a list or a parameter. A known but absent one is not a fault, so that the option works
+  /// for every deck.
   void remove(const Override& item, const std::string& path, RawList& list, const ListSpec* spec) {
     const std::string& name = item.path.back();
     if (list.removeList(name) || list.removeParameter(name)) return;

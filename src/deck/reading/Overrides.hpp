@@ -12,11 +12,11 @@
 
 namespace tooljoint::deck {
 
-/// Put each override into `scene`, creating declared lists that are not there yet; its type is the
-/// one `spec` declares (in lists that pass through to Trilinos: the type of the parameter it
-/// replaces, else the one its text looks like). The scene's own name and a "/" may stand in front
-/// of PATH. "!PATH" takes the list or parameter PATH out of the deck (`--without PATH`). Faults are
-/// added to `findings`; an override without "=" or path is a UsageError.
+/// Applies each override to `scene` and creates declared lists that do not exist yet. Its type is
+/// that of `spec` (in lists passed through to Trilinos: the type of the replaced parameter,
+/// otherwise that suggested by its text). PATH may begin with the name of the scene and "/".
+/// "!PATH" removes the list or parameter PATH (`--without PATH`). Faults are added to `findings`;
+/// an override without "=" or path is a UsageError.
 void applyOverrides(RawList& scene, const ListSpec& spec, const std::vector<std::string>& overrides,
                     std::vector<Finding>& findings);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an unknown name may have meant: the sentences behind "is not a parameter" and "is not a
-// list".
+// Suggestions for unknown names: the sentences after "is not a parameter" and "is not a list".
 #include "common/Text.hpp"
 #include "deck/Describe.hpp"
 #include "deck/reading/Validator.hpp"
@@ -27,7 +26,7 @@ bool declares(const ListSpec& list, const std::string& name) {
   return false;
 }
 
-/// Paths of the lists below `list` that hold a parameter (or a list) of this name.
+/// Adds the paths of the lists below `list` with a parameter (or a list) of this name.
 void collectHomes(const ListSpec& list, const std::string& path, const std::string& name,
                   bool ofList, std::vector<std::string>& homes) {
   if (ofList ? declares(list, name) : list.findParameter(name) != nullptr)
@@ -62,7 +61,7 @@ std::string known(const ListSpec& list) {
   return result.empty() ? " This list has no parameters." : " Available: " + result + ".";
 }
 
-/// `Did you mean "Stiffness"? It is ...`, over parameters and lists; "" when nothing is close.
+/// `Did you mean "Stiffness"? It is ...`, over parameters and lists; "" if nothing is similar.
 std::string didYouMean(const ListSpec& list, const std::string& name, bool listsFirst) {
   const std::string parameter = closest(name, parameterNames(list));
   const std::string sublist = closest(name, listNames(list));
@@ -80,7 +79,7 @@ std::string nowCalled(const std::string& path, const std::string& name, const st
   return path + "/" + name + " is now called \"" + now + "\". " + introduce(parameter);
 }
 
-/// The list that holds the one of this path; null where that is none of declared names.
+/// The list that contains the list of this path; null if the path has an undeclared name.
 const ListSpec* parentOf(const ListSpec& root, const std::string& path) {
   const auto names = split(path.substr(1), '/');
   const ListSpec* list = &root;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A deck after its lexical reading: lists and parameters with the place each came from, before
-/// the names are checked. Internal to src/deck.
+/// A deck after lexical reading: lists and parameters with the position of each, before the names
+/// are checked. Internal to src/deck.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@
 
 namespace tooljoint::deck {
 
-/// Where something was said: a line of the file, or the n-th override of the command line.
+/// Position of an entry: a line of the file, or the n-th override of the command line.
 struct Place {
-  int line = 0;            ///< 1-based; 0 when there is none
+  int line = 0;            ///< 1-based; 0 for none
   int overrideNumber = 0;  ///< 1-based; 0 for the file
   std::string overrideText;
-  std::string diameter = {};  ///< name of the parameter where it gives the radius that is looked up
+  std::string diameter = {};  ///< name of the parameter if it gives the radius
   std::string unit = {};      ///< of its quantity; "" for a number in SI
 
   bool before(const Place& other) const {
@@ -38,7 +38,7 @@ struct Place {
 struct RawParameter {
   std::string name;
   std::string type;
-  std::string text;  ///< value attribute as written
+  std::string text;  ///< value attribute, unchanged
   Value value;
   Place place;
 };
@@ -79,7 +79,7 @@ class RawList {
     lists_.push_back(std::move(list));
     return lists_.back();
   }
-  /// Take a list out; false when there is none of that name.
+  /// Removes a list; false if there is none with that name.
   bool removeList(const std::string& unwanted) {
     const auto it = listIndex_.find(unwanted);
     if (it == listIndex_.end()) return false;
@@ -88,7 +88,7 @@ class RawList {
     for (std::size_t i = 0; i < lists_.size(); ++i) listIndex_.emplace(lists_[i].name, i);
     return true;
   }
-  /// Take a parameter out; false when there is none of that name.
+  /// Removes a parameter; false if there is none with that name.
   bool removeParameter(const std::string& unwanted) {
     const auto it = parameterIndex_.find(unwanted);
     if (it == parameterIndex_.end()) return false;
@@ -106,14 +106,14 @@ class RawList {
   std::unordered_map<std::string, std::size_t> listIndex_;
 };
 
-/// One error with its place; `text` is what stands behind "deck.xml:42: ".
+/// One error with its position; `text` follows "deck.xml:42: ".
 struct Finding {
   Place place;
   std::string text;
 };
 
-/// All findings in the order of their places, one line each, as one DeckError (of more than a
-/// hundred the first hundred); returns when there are none.
+/// Throws all findings, ordered by position, one line each, as one DeckError (at most the first
+/// hundred); returns if there are none.
 void raise(std::vector<Finding> findings, const std::string& file);
 
 }  // namespace tooljoint::deck

@@ -23,11 +23,11 @@ constexpr double gallon = 231.0 * inch * inch * inch;  // US gallon, 231 cubic i
 
 constexpr double barrel = 42.0 * gallon;
 constexpr double waterDensity =
-    1000.0;  // kg/m3, what specific gravities of drilling fluids refer to
+    1000.0;  // kg/m3, reference of the specific gravity of drilling fluids
 
 constexpr Dimension none{0, 0, 0, 0, 0};
 
-/// A measured quantity, its SI unit and its dimension.
+/// A physical quantity, its SI unit and its dimension.
 struct Quantity {
   const char* name;
   const char* si;
@@ -50,9 +50,9 @@ constexpr Quantity dynamicViscosity{"dynamic viscosity", "Pa s", {-1, 1, -1, 0, 
 constexpr Quantity rotarySpeed{"rotary speed", "rad/s", {0, 0, -1, 1, 0}};
 constexpr Quantity frequency{"frequency", "Hz", {0, 0, -1, 0, 1}};
 
-/// What the table is made of, kept apart from the compound units of a manual.
-/// Quantities stand together. Inch, foot, pound, gallon and standard gravity are exact by
-/// definition (NIST SP 811, appendix B).
+/// Source of the table, without the compound units of the manual. Symbols are grouped by quantity.
+/// Inch, foot, pound, gallon and standard gravity are exact by definition (NIST SP 811, appendix
+/// B).
 std::vector<UnitSymbol> makeSymbols() {
   std::vector<UnitSymbol> table;
   const auto add = [&table](const Quantity& quantity, const char* symbol, double factor,
@@ -130,15 +130,15 @@ Unit multiply(const Unit& a, const Unit& b, int power_) {
   return result;
 }
 
-/// number * factor, by a division where the factor is one over a whole number (12.5 mm is 12.5 /
-/// 1000, the nearest double).
+/// number * factor, as a division if the factor is the reciprocal of a whole number (12.5 mm is
+/// 12.5 / 1000, the nearest double).
 double scaled(double number, double factor) {
   const double inverse = std::round(1.0 / factor);
   const bool whole = inverse > 1.0 && std::abs(factor * inverse - 1.0) < 1e-14;
   return whole ? number / inverse : number * factor;
 }
 
-/// Letters, and the bytes of characters that are not ASCII (the degree sign).
+/// Letters, and bytes of characters outside ASCII (the degree sign).
 bool isLetter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80;
 }
@@ -149,8 +149,8 @@ bool isNamed(const UnitSymbol& symbol, const std::string& name) {
   return symbol.symbol == name || std::find(also.begin(), also.end(), name) != also.end();
 }
 
-/// The table's entry of this name; of a symbol of mass and force the one that `reading` wants. Null
-/// when there is none.
+/// The table entry with this name; for a symbol of both mass and force the entry selected by
+/// `reading`. Null if there is none.
 const UnitSymbol* findSymbol(const std::string& name, Reading reading) {
   const UnitSymbol* found = nullptr;
   for (const UnitSymbol& symbol : unitSymbols())
@@ -158,7 +158,7 @@ const UnitSymbol* findSymbol(const std::string& name, Reading reading) {
   return found;
 }
 
-/// The symbol for a unit a person has written another way; "" when there is no good guess.
+/// The symbol for a misspelt unit; "" if there is no good match.
 std::string meantUnit(const std::string& name) {
   std::vector<std::string> known;
   for (const UnitSymbol& symbol : unitSymbols()) {
@@ -168,7 +168,7 @@ std::string meantUnit(const std::string& name) {
   return closest(name, known);
 }
 
-/// Recursive descent over the grammar of the header: product of factors, "/" applies to the one
+/// Recursive descent over the grammar in the header: product of factors; "/" applies to the single
 /// factor after it.
 class UnitParser {
  public:

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Quantities with a unit ("120 rpm", "5 in", "8.6 ppg", "2.5 kN s/m") into SI numbers. Inside the
-/// program everything is SI.
+/// Conversion of quantities with a unit ("120 rpm", "5 in", "8.6 ppg", "2.5 kN s/m") to SI numbers.
+/// Inside the program everything is SI.
 ///
-/// A unit is a product of the symbols of unitSymbols(), each with an optional exponent, "/" before
-/// those it divides by: "N m", "N*m", "ft-lbf", "ft.lbf", "kg/m3", "kg/m^3", "N s/m", "m/s2",
+/// A unit is a product of the symbols of unitSymbols(), each with an optional exponent; "/"
+/// precedes divisors: "N m", "N*m", "ft-lbf", "ft.lbf", "kg/m3", "kg/m^3", "N s/m", "m/s2",
 /// "deg/30m", "1/s". More than one factor below a "/" needs parentheses: "W/(m s)". Angles (rad)
-/// and cycles (Hz) are dimensions of their own: 1/s, rad/s and Hz are never mistaken for each
-/// other. A few symbols (t, lb, klb) stand for a mass and for the weight of that mass under
-/// standard gravity: toSi takes the reading of the wanted quantity.
+/// and cycles (Hz) have their own dimensions, so that 1/s, rad/s and Hz are never confused. A few
+/// symbols (t, lb, klb) denote both a mass and the weight of that mass under standard gravity: toSi
+/// selects the meaning by the wanted quantity.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ struct Unit {
   Dimension dimension{};
 };
 
-/// One symbol of the table with what it measures, for the manual. Symbols of a mass and of its
-/// weight have an entry for each.
+/// One symbol of the table with its quantity, for the manual. Symbols of a mass and of its weight
+/// have one entry for each.
 struct UnitSymbol {
   std::string symbol;
   std::vector<std::string> synonyms;  ///< other spellings: "inch", "inches"
@@ -39,24 +39,23 @@ struct UnitSymbol {
 
 const std::vector<UnitSymbol>& unitSymbols();
 
-/// How symbols are read that stand for a mass and for a force.
+/// Meaning of symbols that denote both a mass and a force.
 enum class Reading { Mass, Force };
 
-/// The unit, or nothing when the text is none; `fault` (if given) then holds a clause that says
-/// why.
+/// The unit, or none if the text is not a unit; `fault` (if given) then contains a clause with the
+/// reason.
 std::optional<Unit> parseUnit(std::string_view text, std::string* fault = nullptr,
                               Reading reading = Reading::Mass);
 
-/// "120 rpm" -> SI value for a parameter whose SI unit is `si` ("rad/s"); nothing when the text has
-/// no number, no unit, an unknown unit or one of another quantity, and `fault` then holds a full
-/// clause for an error message.
+/// "120 rpm" -> SI value for a parameter with the SI unit `si` ("rad/s"). None if the text has no
+/// number, no unit, an unknown unit or one of another quantity; `fault` then contains a full clause
+/// for an error message.
 std::optional<double> toSi(std::string_view text, const std::string& si, std::string& fault);
 
-/// "in" of "5 in": what follows the number of a quantity, without blanks around it.
+/// "in" for "5 in": the text after the number of a quantity, without surrounding blanks.
 std::string unitText(const std::string& quantity);
 
-/// Units of the table that may stand where `si` is expected, the best known ones: {"m", "mm",
-/// "cm", "km", "ft", "in"}.
+/// Common units of the table that are accepted for `si`: {"m", "mm", "cm", "km", "ft", "in"}.
 std::vector<std::string> unitsLike(const std::string& si);
 
 }  // namespace tooljoint::deck

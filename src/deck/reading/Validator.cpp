@@ -36,8 +36,7 @@ void setValue(Teuchos::ParameterList& list, const std::string& name, const Value
   std::visit(Setter{list, name}, value);
 }
 
-/// A text in the type of `kind` that says what the person most probably meant; "" when there
-/// is none.
+/// The most probable intended text in the type of `kind`; "" if there is none.
 std::string rewritten(Kind kind, const RawParameter& given) {
   std::vector<std::string> candidates = {given.text, "{" + given.text + "}"};
   if (const double* real = std::get_if<double>(&given.value))
@@ -49,15 +48,14 @@ std::string rewritten(Kind kind, const RawParameter& given) {
   return "";
 }
 
-/// Checks one parameter against its description: a clause that says what is wrong, or the value in
-/// SI.
+/// Checks one parameter against its description: gives a clause with the fault, or the value in SI.
 class ParameterCheck {
  public:
   /// `unit` is the SI unit of the value, which may depend on another parameter.
   ParameterCheck(const ParameterSpec& spec, const RawParameter& given, std::string unit)
       : spec_(spec), given_(given), unit_(std::move(unit)) {}
 
-  /// The value to store; nothing when fault() says why not.
+  /// The value to store; none if fault() gives the reason.
   std::optional<Value> run() {
     std::optional<Value> value = converted();
     if (value && !inRange(*value)) return std::nullopt;
@@ -125,7 +123,7 @@ class ParameterCheck {
     return true;
   }
 
-  /// `entry` is 1-based; 0 for a number that is no array.
+  /// `entry` is 1-based; 0 for a number outside an array.
   bool inRange(double number, std::size_t entry) {
     if (contains(spec_.range, number)) return true;
     const bool convertedUnit = given_.type == "string";
@@ -161,8 +159,8 @@ class ParameterCheck {
   std::string fault_;
 };
 
-/// The choice of the list `spec` that has `name` among its values: that list holds the parameters
-/// of one of its variants.
+/// The choice of the list `spec` with `name` among its values; that list contains the parameters of
+/// one of its variants.
 const ParameterSpec* choiceOf(const ListSpec& spec, const std::string& name) {
   for (const auto& parameter : spec.parameters())
     if (parameter.kind == Kind::Choice &&
@@ -172,7 +170,7 @@ const ParameterSpec* choiceOf(const ListSpec& spec, const std::string& name) {
   return nullptr;
 }
 
-/// The first parameter in or below the list that an override has set; null when there is none.
+/// The first parameter in or below the list set by an override; null if there is none.
 const RawParameter* overridden(const RawList& list) {
   for (const auto& parameter : list.parameters())
     if (parameter.place.overrideNumber > 0) return &parameter;
@@ -186,8 +184,8 @@ class Validation {
   Validation(const ListSpec& root, std::vector<Finding>& findings, Places& places)
       : root_(root), findings_(findings), places_(places) {}
 
-  /// `path` is the full one, `key` the one below the scene; `spec` is null inside a list that
-  /// passes through.
+  /// `path` is the full path, `key` the path below the scene; `spec` is null inside a list that is
+  /// passed through.
   void fill(const RawList& given, const ListSpec* spec, const std::string& path,
             const std::string& key, Teuchos::ParameterList& out) {
     out.setName(path);
@@ -220,9 +218,9 @@ class Validation {
   }
 
  private:
-  /// A deck may hold lists of variants that it does not choose; an override of one would be lost.
-  /// One that a later override of the choice supersedes, as the check of a study does, is not
-  /// meant.
+  /// A deck may contain lists of variants that it does not choose, but an override in such a list
+  /// would be lost and is a fault. It is no fault if a later override changes the choice, as in the
+  /// check of a study.
   void requireSelected(const RawList& variant, const RawList& list, const ListSpec& spec,
                        const std::string& path) {
     const ParameterSpec* choice = choiceOf(spec, variant.name);
@@ -245,7 +243,7 @@ class Validation {
 
   void add(const Place& place, const std::string& text) { findings_.push_back({place, text}); }
 
-  /// SI unit of a parameter in the list it stands in.
+  /// SI unit of a parameter in its list.
   static std::string unitOf(const ParameterSpec& parameter, const RawList& list) {
     if (!parameter.unitOf) return parameter.unit;
     const RawParameter* decides = list.findParameter(parameter.unitFrom);
@@ -277,7 +275,7 @@ class Validation {
     }
   }
 
-  /// Required things that are missing, and defaults of the parameters that were not given.
+  /// Reports missing required entries, and adds the defaults of omitted parameters.
   void complete(const RawList& given, const ListSpec& spec, const std::string& path,
                 Teuchos::ParameterList& out) {
     for (const ParameterSpec& parameter : spec.parameters()) {

@@ -12,7 +12,7 @@
 namespace tooljoint::deck {
 namespace {
 
-/// What follows a number that reads up to `rest`: why the text is not a number.
+/// Reason why a text is not a number although a number precedes `rest`.
 std::string trailing(const std::string& text, const std::string& rest, bool inArray) {
   const std::optional<Unit> unit = parseUnit(rest);
   const bool quantity = unit && unit->dimension != Dimension{};
@@ -85,7 +85,7 @@ std::optional<bool> parseBoolean(const std::string& text, std::string& fault) {
   return std::nullopt;
 }
 
-/// "{a, b}" -> entries without blanks around them; "{}" has none.
+/// "{a, b}" -> entries without surrounding blanks; "{}" has none.
 std::optional<std::vector<std::string>> parseEntries(const std::string& raw, std::string& fault) {
   const std::string text = trim(raw);
   if (text.size() < 2 || text.front() != '{' || text.back() != '}') {

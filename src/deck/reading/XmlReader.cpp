@@ -19,7 +19,7 @@
 namespace tooljoint::deck {
 namespace {
 
-/// What the parser has reported; hangs on the parser context.
+/// Reports of the parser; attached to the parser context.
 struct ParserNews {
   bool documentType = false;
   int line = 0;
@@ -43,8 +43,8 @@ void onError(void* context, xmlErrorPtr error) {
   news->fault = trim(error->message != nullptr ? error->message : "unknown fault");
 }
 
-/// Builds the element as libxml2 does and notes the line its "<" stands in (libxml2 itself counts
-/// to 65535, and to a tag's end).
+/// Builds the element as libxml2 does and stores the line of its "<" (libxml2 itself counts up to
+/// 65535, and to the end of a tag).
 void onElement(void* context, const xmlChar* name, const xmlChar* prefix, const xmlChar* uri,
                int namespaceCount, const xmlChar** namespaces, int attributeCount,
                int defaultedCount, const xmlChar** attributes) {
@@ -72,20 +72,20 @@ std::string asText(const xmlChar* text) {
   return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
 }
 
-/// Most characters of a name, so that messages can hold it whole, with the names of the lists
-/// around it.
+/// Largest length of a name, so that messages can contain it completely, with the names of its
+/// lists.
 constexpr std::size_t longestName = longestQuote;
-/// Most attributes of an element. libxml2 compares every attribute of an element with every other
-/// one.
+/// Largest number of attributes of an element. libxml2 compares every attribute of an element with
+/// every other one.
 constexpr int mostAttributes = 100;
 
-/// Text a person can read in an error message: cut to a line's length.
+/// Readable text for an error message: shortened to the length of a line.
 std::string shortened(const std::string& text) { return excerpt(trim(text), 60); }
 
 int lineOf(const xmlNode* node) {
   if (node->type == XML_ELEMENT_NODE)
     return static_cast<int>(reinterpret_cast<std::intptr_t>(node->_private));
-  // Of a text libxml2 knows the line it ends in.
+  // libxml2 gives the line in which a text ends.
   const std::string text = asText(node->content);
   const auto first = text.find_first_not_of(" \t\r\n");
   const auto after =
@@ -121,8 +121,8 @@ Document parseDocument(const std::string& text, const std::string& file) {
   return document;
 }
 
-/// Line of the first element with more than mostAttributes attributes; 0 when there is none. Looks
-/// at the text alone: what the parser makes of it is said by the parser.
+/// Line of the first element with more than mostAttributes attributes; 0 if there is none. Uses
+/// only the text; faults of its syntax are reported by the parser.
 int lineOfCrowdedElement(const std::string& text) {
   int line = 1, attributes = 0;
   char quote = 0;
@@ -156,7 +156,7 @@ int lineOfCrowdedElement(const std::string& text) {
   return 0;
 }
 
-/// Walks the elements of a deck and collects what is wrong with each.
+/// Visits the elements of a deck and collects their faults.
 class TreeReader {
  public:
   explicit TreeReader(std::string file) : file_(std::move(file)) {}
@@ -222,7 +222,7 @@ class TreeReader {
            (near.empty() ? "" : " Did you mean " + inQuotes(near) + "?");
   }
 
-  /// How messages call an element before and after its name is known.
+  /// Name of an element in messages, before and after its name is known.
   static std::string subjectOf(const xmlNode* node, const std::string& path) {
     xmlChar* content =
         xmlGetNoNsProp(const_cast<xmlNode*>(node), reinterpret_cast<const xmlChar*>("name"));

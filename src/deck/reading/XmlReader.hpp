@@ -9,15 +9,15 @@
 
 namespace tooljoint::deck {
 
-/// Largest deck that is read; anything longer is no deck.
+/// Largest size of a deck; a larger file is rejected.
 constexpr std::size_t largestDeck = 64UL * 1024UL * 1024UL;
 
-/// The whole text of a file. Throws FileError when it is missing, no regular file, not readable or
+/// The whole text of a file. Throws FileError if it is missing, not a regular file, unreadable or
 /// longer than largestDeck.
 std::string readTextFile(const std::string& file);
 
 /// Lexical reading of a deck; all faults are collected in one DeckError. Document type definitions
-/// and entities are refused, nothing is loaded from anywhere else.
+/// and entities are rejected; no other source is loaded.
 RawList readXml(const std::string& text, const std::string& file);
 
 }  // namespace tooljoint::deck

@@ -10,8 +10,8 @@
 namespace tooljoint::deck {
 namespace {
 
-/// Days from 1970-01-01 to a date of the Gregorian calendar, whose years begin in March here so
-/// that the day of a leap year comes last.
+/// Days from 1970-01-01 to a date of the Gregorian calendar. Years begin in March here, so that the
+/// leap day is the last day of a year.
 long daysSinceEpoch(long year, long month, long day) {
   constexpr long daysOfFourCenturies = 146097, epoch = 719468;
   if (month <= 2) --year;

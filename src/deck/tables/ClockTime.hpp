@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Times of day as loggers write them.
+/// Times of day in the formats of loggers.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ struct ClockTime {
   bool dated = false;
 };
 
-/// "7:05:30", "07:05:30.25", or one behind a date and a blank or "T": "2024-03-01 07:05:30",
-/// "2024/03/01T07:05:30Z" (ISO 8601; offsets from UTC are not read). Nothing for other texts.
+/// "7:05:30", "07:05:30.25", or a time after a date and a blank or "T": "2024-03-01 07:05:30",
+/// "2024/03/01T07:05:30Z" (ISO 8601; offsets from UTC are ignored). None for other texts.
 std::optional<ClockTime> clockTime(const std::string& cell);
 
 }  // namespace tooljoint::deck

@@ -11,8 +11,8 @@
 namespace tooljoint::deck {
 namespace {
 
-/// The unit with the words of the table of units in the case they have there; nothing where a word
-/// fits several of them, or none.
+/// The unit with its words in the case of the table of units; none if a word matches several of
+/// them, or none.
 std::string inTheCaseOfTheTable(const std::string& unit) {
   std::string text, word;
   const auto finish = [&] {

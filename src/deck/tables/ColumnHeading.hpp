@@ -8,17 +8,16 @@
 
 namespace tooljoint::deck {
 
-/// "Hook Load [klbf]" or "Hook Load (klbf)": name and unit, each without blanks around it; no unit
-/// is "".
+/// "Hook Load [klbf]" or "Hook Load (klbf)": name and unit, each without surrounding blanks; "" for
+/// no unit.
 struct ColumnHeading {
   std::string name, unit;
 };
 ColumnHeading splitHeading(const std::string& cell);
 
-/// Value in `si` of one `unit` as files of measurements write it: "klbf", "KLBF", "ft.lbf", "rpm";
-/// "g" is the standard gravity where an acceleration is expected. Upper and lower case count only
-/// where more than one unit would fit. Nothing for a unit that is unknown or measures something
-/// else.
+/// Value in `si` of one `unit` in the spellings of measurement files: "klbf", "KLBF", "ft.lbf",
+/// "rpm"; "g" is the standard gravity if an acceleration is expected. Case matters only if several
+/// units would match. None for a unit that is unknown or of another quantity.
 std::optional<double> unitFactor(const std::string& unit, const std::string& si);
 
 }  // namespace tooljoint::deck

@@ -13,7 +13,7 @@
 namespace tooljoint::deck {
 namespace {
 
-/// Without a byte-order mark, and with degree signs of UTF-8.
+/// Removes a byte-order mark and converts degree signs to UTF-8.
 std::string normalised(const std::string& text) {
   constexpr char utf8Lead = '\xC2', degree = '\xB0';
   std::string result;

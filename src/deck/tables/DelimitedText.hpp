@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Tables as spreadsheets and survey programs write them: cells separated by commas, semicolons or
-/// tabs.
+/// Tables in the formats of spreadsheets and survey programs: cells separated by commas, semicolons
+/// or tabs.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace tooljoint::deck {
 
-/// Line of the text (1-based) and its cells without blanks around them.
+/// Line number in the text (1-based) and its cells without surrounding blanks.
 struct DelimitedRow {
   int line = 0;
   std::vector<std::string> cells;
@@ -19,37 +19,39 @@ struct DelimitedRow {
 struct DelimitedText {
   char separator = ',';
   std::vector<DelimitedRow> rows;
-  int comments = 0;   ///< lines that begin with #, not read
-  int emptyRows = 0;  ///< rows of separators alone, not read
+  int comments = 0;   ///< lines that begin with #, ignored
+  int emptyRows = 0;  ///< rows of separators only, ignored
 };
 
-/// Splits a text into rows of cells. The first line that is no comment and not empty decides the
-/// separator: a semicolon where it has one, else a tab, else a comma. A cell in double quotes may
-/// hold the separator; "" in it is one quote. A byte-order mark of UTF-8 is skipped; a degree sign
-/// of Latin-1 becomes one of UTF-8. Throws DeckError for UTF-16, whose bytes hold zeros.
+/// Splits a text into rows of cells. The first line that is neither comment nor empty decides the
+/// separator: a semicolon if it has one, otherwise a tab, otherwise a comma. A cell in double
+/// quotes may contain the separator; "" in it is one quote. A UTF-8 byte-order mark is skipped; a
+/// Latin-1 degree sign is converted to UTF-8. Throws DeckError for UTF-16, whose bytes contain
+/// zeros.
 DelimitedText splitDelimited(const std::string& text);
 
-/// A number as a cell writes it; `comma` says whether it has a decimal comma.
+/// The number of a cell; `comma` is true for a decimal comma.
 struct CellNumber {
   double value = 0.0;
   bool comma = false;
   bool point = false;
 };
 
-/// The number that fills the whole cell and is finite, with a decimal point or a decimal comma (not
-/// both, no groups of thousands).
+/// A finite number that fills the whole cell, with a decimal point or a decimal comma (not both, no
+/// groups of thousands).
 std::optional<CellNumber> cellNumber(const std::string& cell);
 
-/// Whether a number is what loggers write where nothing was measured: -999.25, -9999 and the like.
+/// True for numbers that loggers write for missing measurements: -999.25, -9999 and the like.
 bool isUsualNull(double number);
 
-/// The decimal marks of one file: commas or points, and no commas where they separate cells.
+/// Consistency of the decimal marks of one file: commas or points, and no commas if they separate
+/// cells.
 class DecimalMarks {
  public:
   explicit DecimalMarks(char separator = ' ') : separator_(separator) {}
 
-  /// What is wrong with the mark of a number of this line, to be put behind its name; empty where
-  /// nothing is.
+  /// Fault of the decimal mark of a number in this line, to follow its name; empty if there is
+  /// none.
   std::string fault(const CellNumber& number, int line);
 
   bool commas() const { return commaLine_ > 0; }

@@ -11,7 +11,7 @@ namespace tooljoint::deck {
 namespace {
 
 /// "MNEM.UNIT  DATA : DESCRIPTION": the mnemonic ends at the first dot, the unit at the first blank
-/// behind it, the data at the last colon.
+/// after it, the data at the last colon.
 struct HeaderLine {
   std::string name, unit, value;
 };

@@ -15,17 +15,17 @@ namespace tooljoint::deck {
 struct LasFile {
   std::vector<ColumnHeading> curves;  ///< of ~C, the index first
   int curveLine = 0;                  ///< line of ~C
-  std::optional<double> null;         ///< what stands for "not measured" (NULL of ~W)
+  std::optional<double> null;         ///< value for "not measured" (NULL of ~W)
   std::vector<DelimitedRow> rows;     ///< of ~A, as many cells as curves; wrapped lines are joined
 };
 
 /// True for a text that begins, after comments and empty lines, with a section ("~").
 bool looksLikeLas(const std::string& text);
 
-/// Sections ~V, ~C and ~A, and NULL of ~W; the others are not read. Versions 1.2 and 2.0, which
-/// differ in texts that are not read. DeckError, a line for each fault, with `file`, line, what was
-/// found and what is expected: no ~V at the begin, another version, no WRAP, a line without ".", no
-/// ~C or ~A, a row with another number of values than there are curves.
+/// Reads the sections ~V, ~C and ~A, and NULL of ~W; the others are ignored. Supports versions 1.2
+/// and 2.0, which differ only in ignored texts. DeckError, a line for each fault, with `file`,
+/// line, text found and text expected: no ~V at the beginning, another version, no WRAP, a line
+/// without ".", no ~C or ~A, a row whose number of values differs from the number of curves.
 LasFile parseLas(const std::string& text, const std::string& file);
 
 }  // namespace tooljoint::deck

@@ -19,20 +19,20 @@ namespace tooljoint::deck {
 namespace {
 
 constexpr std::uint64_t largestLog = 1U << 26U;  // bytes
-/// Faults that are printed; the others are counted.
+/// Largest number of printed faults; the others are counted.
 constexpr std::size_t mostFaults = 10;
-/// Headings of the time, where the deck names none.
+/// Headings of the time, if the deck names none.
 const std::vector<std::string> timeNames{"time",     "elapsed time", "etim",     "t",
                                          "datetime", "date time",    "timestamp"};
 
-/// Names are compared without case, "_" and blanks around them.
+/// Names are compared without case, "_" and surrounding blanks.
 std::string plain(const std::string& name) {
   std::string text = lower(trim(name));
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 
-/// A wanted column and its place in the file.
+/// A wanted column and its position in the file.
 struct Column {
   WantedColumn wanted;
   std::size_t place = 0;
@@ -96,7 +96,7 @@ class Reader {
     header();
   }
 
-  /// The first row of a CSV file, and units in the row below it where that holds no number.
+  /// Reads the first row of a CSV file, and units in the next row if that contains no number.
   void header() {
     auto cells = rows_.front().cells;
     while (!cells.empty() && cells.back().empty()) cells.pop_back();
@@ -139,8 +139,8 @@ class Reader {
     unit(column, headings_[column.place].unit);
   }
 
-  /// Whether the first cell of the time that is not empty is a time of day, and be it one in a form
-  /// that is not read, such as a date whose day and month may be meant in either order.
+  /// True if the first nonempty time cell is a time of day, even in an unsupported form, such as a
+  /// date with an ambiguous order of day and month.
   bool hasClock(const Column& time) {
     for (std::size_t i = firstRow_; i < rows_.size(); ++i) {
       if (time.place >= rows_[i].cells.size() || rows_[i].cells[time.place].empty()) continue;
@@ -212,7 +212,7 @@ class Reader {
       return;
     }
     if (lastTime_ && !(*time > *lastTime_)) {
-      if (std::exchange(sorted_, false))  // said once
+      if (std::exchange(sorted_, false))  // reported once
         fault(row.line, "the time " + inQuotes(cells[columns_[0].place]) +
                             " does not increase from the row before. Sort the log, and leave out "
                             "rows that are there twice.");
@@ -226,8 +226,8 @@ class Reader {
       }
   }
 
-  /// A time of day counts from the first one; without a date, one that is earlier by more than half
-  /// a day belongs to the next day. Nothing for a gap, and for a fault that has been kept.
+  /// A time of day counts from the first one. Without a date, a time earlier by more than half a
+  /// day belongs to the next day. None for a gap, and for a fault that has been collected.
   std::optional<double> sinceFirst(int line, const std::string& cell) {
     if (cell.empty() || isNull(cell)) return std::nullopt;
     const auto read = clockTime(cell);
@@ -252,7 +252,7 @@ class Reader {
     return read && (null_ ? read->value == *null_ : !las_ && isUsualNull(read->value));
   }
 
-  /// SI; nothing for a gap, and for a fault that has been kept.
+  /// The value in SI; none for a gap, and for a fault that has been collected.
   std::optional<double> number(int line, const std::vector<std::string>& cells,
                                const Column& column) {
     const std::string& cell = cells[column.place];
@@ -279,7 +279,7 @@ class Reader {
   std::optional<double> null_, lastTime_;
   bool clock_ = false;  ///< times are times of day
   std::optional<ClockTime> firstClock_;
-  int midnights_ = 0;  ///< passed
+  int midnights_ = 0;  ///< number of midnights passed
   DecimalMarks marks_;
   bool sorted_ = true;
   std::vector<Column> columns_;  ///< the time first

@@ -8,26 +8,27 @@
 
 namespace tooljoint::deck {
 
-/// A column that is wanted of a log.
+/// A wanted column of a log.
 struct WantedColumn {
-  std::string name;  ///< in the header; of the time "": the column "Time", of a LAS file the index
+  std::string name;  ///< in the header; "" for the time: the column "Time", or the index of a LAS
+                     ///< file
   std::string si;    ///< SI unit of what it measures
-  std::string unit;  ///< of the deck; "": that of the header
+  std::string unit;  ///< given in the deck; "": that of the header
 };
 
-/// A measured signal; what was not measured is left out.
+/// A measured signal; gaps are omitted.
 struct LogSignal {
   std::vector<double> time;   ///< [s], increasing
   std::vector<double> value;  ///< SI
 };
 
-/// The signals of the wanted columns, in their order. A CSV file begins with a header, units in
-/// brackets or in a row below; separators and decimal commas as in surveys, an empty cell is a gap.
-/// A LAS file is recognised by its first section; NULL is a gap. Times of day (ClockTime.hpp) count
-/// from the first one and have no unit. DeckError, a line for each fault, with file, line, what was
-/// found and what is expected: columns missing or twice, units missing, unknown, of another
-/// quantity or other than the deck's, cells that are no finite number, times that do not increase,
-/// rows of other lengths, fewer than two values of a column.
+/// The signals of the wanted columns, in their order. A CSV file begins with a header, with units
+/// in brackets or in the next row; separators and decimal commas as in surveys, an empty cell is a
+/// gap. A LAS file is recognised by its first section; NULL is a gap. Times of day (ClockTime.hpp)
+/// count from the first one and have no unit. DeckError, a line for each fault, with file, line,
+/// text found and text expected: missing or duplicate columns; units that are missing, unknown, of
+/// another quantity or different from the deck's; cells that are not finite numbers; times that do
+/// not increase; rows of different length; fewer than two values in a column.
 std::vector<LogSignal> readLog(const std::string& file, const WantedColumn& time,
                                const std::vector<WantedColumn>& wanted);
 

@@ -22,7 +22,7 @@ Json::json_pointer pointer(const std::string& path) {
   return where;
 }
 
-/// All keys with null; arrays of rows are null too until the first row comes.
+/// All keys with null; arrays of rows are also null before the first row.
 Json skeleton() {
   Json json;
   for (const auto& key : documentedKeys()) {
@@ -51,7 +51,7 @@ struct SummaryRow::Data {
 struct Summary::Data {
   Json json = skeleton();
 
-  /// The place of a documented value; rows and groups are not values.
+  /// The entry of a documented value; rows and groups are not values.
   Json& at(const std::string& path) {
     for (const auto& key : documentedKeys()) {
       if (key == path) return json[pointer(path)];
@@ -120,8 +120,7 @@ void Summary::append(const std::string& path, const SummaryRow& row) {
 std::vector<std::string> Summary::keys() { return documentedKeys(); }
 
 std::string Summary::text() const {
-  // texts from the outside (file names, messages) may hold bytes that are no UTF-8: replaced, never
-  // a failure
+  // external texts (file names, messages) may contain bytes that are not UTF-8; they are replaced
   return data_->json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// summary.json: the main numbers, for scripts and people. All documented keys are always
-/// there, null where a stage did not run; docs/file-formats.md lists them.
+/// summary.json: the main results, for scripts and people. All documented keys always exist, with
+/// null if a stage did not run; docs/file-formats.md lists them.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@ namespace tooljoint::io {
 /// Version of the layout of summary.json.
 constexpr int summaryFormatVersion = 1;
 
-/// One entry of an array of the summary ("reduction.substructures", "study"): keys in the order
-/// they are set.
+/// One entry of an array of the summary ("reduction.substructures", "study"); its keys have the
+/// order in which they are set.
 class SummaryRow {
  public:
   SummaryRow();
@@ -40,15 +40,15 @@ class SummaryRow {
 
 class Summary {
  public:
-  /// All keys, null; program version, git hash and ranks filled in.
+  /// All keys with null, except program version, git hash and ranks.
   Summary();
   ~Summary();
   Summary(const Summary&) = delete;
   Summary& operator=(const Summary&) = delete;
 
-  /// Set one number or text; `path` is the keys joined by dots ("static.contact_nodes").
-  /// Error(Internal) for a key that is not documented (so that the list of keys is stable) and for
-  /// a number that is not finite.
+  /// Sets one number or text; `path` is the keys joined by dots ("static.contact_nodes").
+  /// Error(Internal) for an undocumented key (so that the list of keys is stable) and for a number
+  /// that is not finite.
   void set(const std::string& path, double value);
   void set(const std::string& path, long value);
   void set(const std::string& path, int value) { set(path, static_cast<long>(value)); }
@@ -57,18 +57,18 @@ class Summary {
   void set(const std::string& path, const char* value) { set(path, std::string(value)); }
   void set(const std::string& path, const std::vector<std::string>& values);
 
-  /// Add a row to an array. Its keys must be those documented for the array, missing ones become
+  /// Adds a row to an array. Its keys must be those documented for the array; missing ones become
   /// null.
   void append(const std::string& path, const SummaryRow& row);
 
   /// All documented keys in dotted form; array rows as "reduction.substructures[].name".
   static std::vector<std::string> keys();
 
-  /// The file's text.
+  /// The text of the file.
   std::string text() const;
-  /// Write `path`.part, to be published later (OutputFolder). FileError when that fails.
+  /// Writes `path`.part, to be published later (OutputFolder). FileError when that fails.
   void stage(const std::string& path) const;
-  /// Write `path` at once, never half.
+  /// Writes `path` directly; a partial file never appears.
   void write(const std::string& path) const;
 
  private:
@@ -76,7 +76,7 @@ class Summary {
   std::unique_ptr<Data> data_;
 };
 
-/// What an existing summary.json says of its run: `status` ("" when there is no readable file) and
+/// Content of an existing summary.json: `status` of its run ("" if there is no readable file) and
 /// its `files`.
 struct PreviousRun {
   std::string status;

@@ -11,8 +11,8 @@ namespace tooljoint::io {
 /// The documented keys, in the order of the file. "[]" ends the name of an array of rows.
 const std::vector<std::string>& documentedKeys();
 
-/// The key that stands for one of earlier versions; "" for a key that was none. The last name
-/// decides where it was renamed in all parts: study[].dyn.
+/// The new name of a key of earlier versions; "" if there was no such key. The last name decides if
+/// it was renamed in all groups: study[].dyn.
 std::string renamedKey(const std::string& key);
 
 }  // namespace tooljoint::io

@@ -14,7 +14,7 @@ bool startsWith(const std::string& text, const std::string& begin) {
   return text.compare(0, begin.size(), begin) == 0;
 }
 
-/// Numbers of one quantity below a key: mean, rms, min, max; peak and worst of a node.
+/// Groups of numbers of one quantity below a key: mean, rms, min, max; peak and worst of a node.
 const std::pair<const char*, const char*> groups[] = {
     {"transient.figures.weight_on_bit.", "N"},
     {"transient.figures.torque_on_bit.", "N m"},

@@ -119,7 +119,7 @@ class Hdf5Source : public PartSource {
     throw DeckError(file_ + ": " + inQuotes(path) + " " + what + ".");
   }
 
-  /// Turns messages about a results file into messages about a file of the deck.
+  /// Converts messages on a results file to messages on a file of the deck.
   template <class Work>
   void read(const Work& work) const {
     try {

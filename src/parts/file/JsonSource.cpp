@@ -18,11 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Largest JSON file of a part; larger matrices stand in files of their own [bytes].
+/// Largest JSON file of a part; larger matrices must be in separate files [bytes].
 constexpr std::uint64_t largestJson = 1ULL << 28U;
 
-/// A JSON file whose matrices stand in Matrix Market files beside it, or as lists of rows in
-/// itself.
+/// A JSON file whose matrices are in Matrix Market files in the same folder, or lists of rows in
+/// the JSON file.
 class JsonSource : public PartSource {
  public:
   explicit JsonSource(const std::string& path) : file_(path), inDeck_(isPartText(path)) {
@@ -97,7 +97,7 @@ class JsonSource : public PartSource {
   }
 
  private:
-  /// DeckError where an object has a name twice, of which a parser takes either.
+  /// DeckError for an object with a repeated name, of which a parser would take either.
   Json parsed(const std::string& text) const {
     std::vector<std::set<std::string>> open;
     return Json::parse(text, [&](int, Json::parse_event_t event, const Json& value) {
@@ -163,7 +163,7 @@ class JsonSource : public PartSource {
     return name + (value.is_string() ? " (" + value.get<std::string>() + ")" : "");
   }
 
-  /// A file the JSON names, relative to its folder unless absolute.
+  /// A file named in the JSON file, relative to its folder unless absolute.
   std::string beside(const Json& value) const {
     const std::filesystem::path name = value.get<std::string>();
     if (inDeck_ && !name.is_absolute())
@@ -173,7 +173,7 @@ class JsonSource : public PartSource {
                               : (std::filesystem::path(file_).parent_path() / name).string();
   }
 
-  /// The name of a Matrix Market file, a list of rows, or a list of numbers (one column).
+  /// Reads the name of a Matrix Market file, a list of rows, or a list of numbers (one column).
   Sparse matrixOf(const std::string& path, const Json& value) const {
     if (value.is_string()) return io::readMatrixMarket(beside(value));
     if (!value.is_array() || value.empty())
@@ -237,7 +237,7 @@ class JsonSource : public PartSource {
   Json root_;
 };
 
-/// `path` and what its format reads with it.
+/// Adds `path` and the files that its format reads with it.
 void addWithCompanions(const std::string& path, std::set<std::string>& files) {
   files.insert(path);
   if (const auto format = partFormatByExtension(path))
@@ -251,7 +251,7 @@ std::set<std::string> filesOfPart(const std::string& path) {
   addWithCompanions(path, files);
   if (std::filesystem::path(path).extension() != ".json") return files;
   const Json root = Json::parse(readInput(path, largestJson), nullptr, false);
-  if (root.is_discarded()) return files;  // no JSON: its reader says so
+  if (root.is_discarded()) return files;  // not JSON; its reader reports that
   const Json leaves = root.flatten();
   for (const auto& [key, value] : leaves.items()) {
     if (!value.is_string()) continue;

@@ -12,7 +12,7 @@ namespace tooljoint::parts {
 
 namespace {
 
-/// Relative size below which a difference or a negative pivot is rounding.
+/// A difference or a negative pivot below this relative size is rounding.
 constexpr double rounding = 1e-10;
 
 class MassCheck {
@@ -37,7 +37,8 @@ class MassCheck {
                      what);
   }
 
-  /// |m_ij - m_ji| <= 1e-10 sqrt(m_ii m_jj), the largest entry where a diagonal is missing
+  /// m_ij - m_ji| <= 1e-10 sqrt(m_ii m_jj), or relative to the largest entry if a diagonal is
+  /// missing
   void symmetric() const {
     const Sparse transposed = M_.transpose();
     const Sparse difference = M_ - transposed;
@@ -60,7 +61,7 @@ class MassCheck {
          " in the transposed entry. Write equal triangles, or one triangle in a symmetric file.");
   }
 
-  /// No negative pivot of S M S + 1e-10, S scaling the diagonal to 1.
+  /// Checks that S M S + 1e-10 has no negative pivot; S scales the diagonal to 1.
   void definite() const {
     const Vector diagonal = M_.diagonal();
     for (Eigen::Index i = 0; i < diagonal.size(); ++i)

@@ -96,7 +96,7 @@ class Reader {
                      (meant.empty() ? ". Available: " + quotedList(knownNames)
                                     : ". Did you mean " + inQuotes(meant) + "?"));
     }
-    if (source_->has("name")) source_->text("name");  // for people: the deck names the part
+    if (source_->has("name")) source_->text("name");  // for readers only: the deck names the part
     for (const char* needed : {"components", "dofs", "mass", "stiffness"})
       if (!source_->has(needed))
         fail(needed, "is missing: a part has \"components\", \"dofs\", \"mass\" and \"stiffness\"");
@@ -168,7 +168,7 @@ class Reader {
         {name, [](double) { return std::numeric_limits<double>::quiet_NaN(); }});
   }
 
-  /// Terms of a matrix; a message on an entry that is not finite names its dofs.
+  /// Terms of a matrix; an error on an entry that is not finite names its dofs.
   std::vector<NamedTerm> termsOf(const std::string& path) const {
     try {
       auto terms = source_->terms(path);
@@ -352,8 +352,8 @@ class Reader {
         source_->has("basis/offset") ? vectorOf("basis/offset", rows) : Vector(Vector::Zero(rows));
   }
 
-  /// D of all nodes: from the basis where there is one, else the dofs themselves; dofs the part
-  /// does not have are 0.
+  /// D of all nodes: from the basis if there is one, otherwise the dofs themselves; missing dofs
+  /// are 0.
   void recoverNodes() {
     auto& m = content_.part.model;
     const auto& rows = content_.basis.empty() ? m.dofs : content_.basis.dofs;

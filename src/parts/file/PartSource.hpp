@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The two kinds of part files behind one face: named values in groups.
+/// Common interface of the two kinds of part files: named values in groups.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace tooljoint::parts {
 
-/// A dof or a node as a file names it.
+/// A dof or a node as named in a file.
 struct DofName {
   std::int64_t node = 0;
-  int number = 0;         ///< component, 1-based; 0: by name, or all of the node
-  std::string component;  ///< empty: by number, or all of the node
-  bool mode = false;      ///< a coordinate without a node, `number` says which
+  int number = 0;         ///< component, 1-based; 0: by name, or the whole node
+  std::string component;  ///< empty: by number, or the whole node
+  bool mode = false;      ///< a coordinate without a node; `number` is its number
   bool whole() const { return !mode && number == 0 && component.empty(); }
 };
 
@@ -31,7 +31,7 @@ struct NamedTerm {
 };
 
 /// Paths are names joined by "/". Every getter throws DeckError, or io::MatrixFileError for an
-/// entry, when the value is not there or of another kind.
+/// entry, if the value does not exist or has another type.
 class PartSource {
  public:
   virtual ~PartSource() = default;
@@ -49,7 +49,7 @@ class PartSource {
   virtual std::vector<NamedTerm> terms(const std::string& path) const = 0;
 };
 
-/// By the kind of file: a folder or *.json, a format of parts/foreign/, else HDF5.
+/// Selects the kind of file: a folder or *.json, a format of parts/foreign/, otherwise HDF5.
 std::unique_ptr<PartSource> openPart(const std::string& path);
 std::unique_ptr<PartSource> openJsonPart(const std::string& path);
 std::unique_ptr<PartSource> openHdf5Part(const std::string& path);

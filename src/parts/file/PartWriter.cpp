@@ -22,7 +22,7 @@ const std::string& lawName(const model::SecondOrderModel& m, int law) {
   return m.laws[static_cast<std::size_t>(law)].name;
 }
 
-/// part.json and matrices beside it.
+/// Writes part.json and its matrices into a folder.
 class FolderWriter {
  public:
   FolderWriter(const PartContent& content, const std::string& folder)
@@ -114,7 +114,7 @@ class FolderWriter {
   Json root_;
 };
 
-/// One HDF5 file with the same names.
+/// Writes one HDF5 file with the same names.
 class Hdf5Writer {
  public:
   Hdf5Writer(const PartContent& content, const std::string& path)

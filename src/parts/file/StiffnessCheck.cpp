@@ -9,10 +9,11 @@ namespace tooljoint::parts {
 
 namespace {
 
-/// Fewer entries beside the diagonal may stand alone: a force that follows one dof.
+/// Smallest number of one-sided entries that causes a warning: fewer may be a force that depends on
+/// one dof.
 constexpr int fewest = 2;
 
-/// Entries on either side of the diagonal.
+/// Number of entries on either side of the diagonal.
 struct Sides {
   int below = 0, above = 0;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Matrices as Abaqus writes them with *MATRIX GENERATE and *MATRIX OUTPUT, FORMAT=MATRIX INPUT (or
-/// LABELS): JOB_STIFn.mtx, JOB_MASSn.mtx, JOB_DMPVn.mtx and JOB_LOADn.mtx with lines "node, dof,
-/// node, dof, value" (Abaqus Analysis User's Guide, "Generating structural matrices", and Keywords
-/// Reference Guide, *MATRIX OUTPUT and *MATRIX INPUT).
+/// Matrices in the format of Abaqus with *MATRIX GENERATE and *MATRIX OUTPUT, FORMAT=MATRIX INPUT
+/// (or LABELS): JOB_STIFn.mtx, JOB_MASSn.mtx, JOB_DMPVn.mtx and JOB_LOADn.mtx with lines "node,
+/// dof, node, dof, value" (Abaqus Analysis User's Guide, "Generating structural matrices", and
+/// Keywords Reference Guide, *MATRIX OUTPUT and *MATRIX INPUT).
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// On the diagonal of the stiffness: a dof with a boundary condition.
+/// A dof with this value on the diagonal of the stiffness has a boundary condition.
 constexpr double boundaryCondition = 1e36;
 
 struct Tag {
@@ -96,7 +96,7 @@ class MtxFile {
  private:
   using Entries = std::map<std::pair<PointDof, PointDof>, double>;
 
-  /// Whether the keyword *MATRIX INPUT of this line says so, by TYPE=UNSYMMETRIC.
+  /// True if the keyword *MATRIX INPUT of this line has TYPE=UNSYMMETRIC.
   bool isUnsymmetric() const {
     auto words = tooljoint::split(upper(text_), ',');
     const auto keyword = trim(words.front());
@@ -118,8 +118,8 @@ class MtxFile {
     return unsymmetric;
   }
 
-  /// Whether the file holds one triangle of a symmetric matrix: entries without their transpose,
-  /// and no others but zeros. DeckError where equal pairs stand beside such entries.
+  /// True if the file contains one triangle of a symmetric matrix: nonzero entries have no
+  /// transpose. DeckError if equal pairs occur beside such entries.
   bool isOneTriangle(const Entries& given) const {
     const Entries::value_type *alone = nullptr, *paired = nullptr;
     bool unequal = false;
@@ -150,7 +150,7 @@ class MtxFile {
                     " is " + inQuotes(text) + ", expected " + expected + ".");
   }
 
-  /// The next line that is no comment and not empty.
+  /// Goes to the next line that is neither comment nor empty.
   bool next() {
     while (in_.line(text_, longestLine)) {
       ++line_;
@@ -164,7 +164,7 @@ class MtxFile {
     return false;
   }
 
-  /// Fields between commas or blanks.
+  /// Fields separated by commas or blanks.
   std::vector<std::string> split() const {
     std::vector<std::string> out;
     std::string field;
@@ -212,10 +212,10 @@ class MtxFile {
   long line_ = 0;
 };
 
-/// The files that Abaqus wrote together: JOB_STIFn.mtx, JOB_MASSn.mtx ...
+/// The set of files written by Abaqus: JOB_STIFn.mtx, JOB_MASSn.mtx ...
 class Job {
  public:
-  /// The job of one of its files; none for a file of another name.
+  /// The job of one of its files; none for a file with another name.
   static std::optional<Job> of(const std::string& path) {
     const auto stem = fs::path(path).stem().string();
     for (const auto& tag : tags)
@@ -225,14 +225,14 @@ class Job {
     return std::nullopt;
   }
 
-  /// The file with this tag, be it there or not.
+  /// The file with this tag, whether it exists or not.
   std::string file(const std::string& tag) const {
     const auto stem = path_.stem().string();
     const auto name = stem.substr(0, mark_) + tag + stem.substr(mark_ + tag.size());
     return (path_.parent_path() / (name + path_.extension().string())).string();
   }
 
-  /// Those that are there, by what they hold.
+  /// The existing files by content.
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> out;
     std::error_code ignored;
@@ -285,7 +285,7 @@ class AbaqusMatrices : public PartFormat {
   }
 
  private:
-  /// Every file of the job by what it holds.
+  /// All files of the job by content.
   static std::map<std::string, std::string> beside(const std::string& path) {
     const auto job = Job::of(path);
     if (!job) return alone(path);
@@ -304,11 +304,11 @@ class AbaqusMatrices : public PartFormat {
     return files;
   }
 
-  /// Says why this file is no part.
+  /// Reports why this file is not a part.
   [[noreturn]] static std::map<std::string, std::string> alone(const std::string& path) {
     if (const std::string reason = whyUnreadable(path); !reason.empty())
       throw DeckError(path + " cannot be read: " + reason + ".");
-    MtxFile(path).matrix(Quantity::Stiffness, "");  // says what else is wrong with it
+    MtxFile(path).matrix(Quantity::Stiffness, "");  // reports its other faults
     throw DeckError(path +
                     " is one matrix of a part. Name JOB_STIFn.mtx, beside which JOB_MASSn.mtx is, "
                     "or a part.json with \"matrices\": {\"stiffness\": ..., \"mass\": ...}.");

@@ -23,7 +23,7 @@ std::string padded(const std::string& text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }
 
-/// As many digits as 16 columns hold with a D exponent, 10 to 12: -1.2345678901D+5.
+/// As many digits as 16 columns can hold with a D exponent, 10 to 12: -1.2345678901D+5.
 std::string largeNumber(double value) {
   for (int digits = 15;; --digits) {
     char text[40];
@@ -114,7 +114,8 @@ class DmigWriter {
     text_ += "*       " + whole(at.point) + whole(at.component) + largeNumber(value) + "\n";
   }
 
-  /// Columns one after the other; with `all` every dof is named, be its diagonal zero.
+  /// Writes the columns one after the other; with `all` every dof is listed, even with a zero
+  /// diagonal.
   void matrix(const std::string& name, const Sparse& A, bool all) {
     if (!all && A.nonZeros() == 0) return;
     const bool half = reduction::nearlySymmetric(A, rounding);

@@ -69,7 +69,7 @@ class ExtPtfmWriter {
     order_.insert(order_.end(), modes.begin(), modes.end());
   }
 
-  /// Two rows for loads that do not change.
+  /// Two rows for constant loads.
   std::pair<double, long> samples() const {
     const auto& m = content_.part.model;
     const bool constant = std::all_of(m.loads.begin(), m.loads.end(), [&](const auto& load) {
@@ -84,7 +84,7 @@ class ExtPtfmWriter {
     return {times_.step, static_cast<long>(count)};
   }
 
-  /// A number in a field of its own, which reads back as the same double.
+  /// Writes a number in its own field; it reads back as the same double.
   void number(double value) {
     char text[32];
     std::snprintf(text, sizeof(text), " %23.16e", value);

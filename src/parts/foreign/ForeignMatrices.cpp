@@ -12,7 +12,8 @@ namespace {
 constexpr const char* entryName = "matrices";
 const std::vector<std::string> keys{"stiffness", "mass", "damping", "loads", "mapping"};
 
-/// Sets, states and names from a JSON file, matrices and labels from the files of another code.
+/// Combines sets, states and names of a JSON file with matrices and labels from the files of
+/// another code.
 class JoinedSource : public PartSource {
  public:
   explicit JoinedSource(std::unique_ptr<PartSource> json) : json_(std::move(json)) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Assembled matrices in Harwell-Boeing format (I. S. Duff, R. G. Grimes and J. G. Lewis, Users'
-/// Guide for the Harwell-Boeing Sparse Matrix Collection, TR/PA/92/86), as HBMAT of Ansys writes
-/// them, with its mapping file "equation, node, dof" (Mechanical APDL Command Reference, HBMAT).
+/// Guide for the Harwell-Boeing Sparse Matrix Collection, TR/PA/92/86), as written by HBMAT of
+/// Ansys, with its mapping file "equation, node, dof" (Mechanical APDL Command Reference, HBMAT).
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Dofs of Ansys in the order of the components 1 to 6.
+/// Ansys names of the components 1 to 6.
 const std::vector<std::string> ansysDofs{"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"};
 
 std::vector<std::string> wordsOf(const std::string& text) {
@@ -42,7 +42,7 @@ struct FieldFormat {
   std::size_t count = 1, width = 0;
 };
 
-/// One matrix, column by column.
+/// Reads one matrix, column by column.
 class HbFile {
  public:
   explicit HbFile(const std::string& path) : path_(path), in_(path) {}
@@ -125,7 +125,8 @@ class HbFile {
     if (!next()) fail("is the last line, but the matrix goes on: the file is cut short");
   }
 
-  /// Line 2: lines in all, of pointers, rows, values and right-hand sides (0 where it ends before).
+  /// Line 2: numbers of lines in total, of pointers, rows, values and right-hand sides (0 if it
+  /// ends earlier).
   std::vector<std::int64_t> lineCounts() const {
     std::vector<std::int64_t> out;
     for (const auto& word : wordsOf(text_)) out.push_back(wholeNumber(word));
@@ -136,7 +137,7 @@ class HbFile {
     return out;
   }
 
-  /// The counts of line 2 are those that so many `numbers` in their formats take.
+  /// Checks that the counts of line 2 match the number of lines of `numbers` in their formats.
   void checkCounts(const std::vector<std::int64_t>& counts,
                    const std::array<std::size_t, 3>& numbers,
                    const std::array<FieldFormat, 4>& formats) const {
@@ -184,7 +185,7 @@ class HbFile {
     return out;
   }
 
-  /// Where the bracket at `open` is closed, npos where it is not.
+  /// Position of the bracket that closes the one at `open`, npos if there is none.
   std::size_t closing(std::size_t open) const {
     int depth = 0;
     for (auto i = open; i < text_.size(); ++i) {
@@ -226,7 +227,8 @@ class HbFile {
       if (!next())
         fail("is the last line, with number " + std::to_string(done) + " of " +
              std::to_string(count) + " " + what + ": the file is cut short");
-      // numbers between blanks may stand in other columns than the format says (SciPy's do)
+      // numbers between blanks may be in other columns than the format specifies (as in SciPy's
+      // files)
       const auto apart = wordsOf(text_);
       const bool counted = apart.size() == std::min(format.count, count - done);
       for (std::size_t i = 0; i < format.count && done < count; ++i, ++done) {
@@ -383,7 +385,7 @@ class HarwellBoeing : public PartFormat {
     if (!load.forces.empty()) part.loads.push_back(std::move(load));
   }
 
-  /// The mapping beside a matrix; "" without one.
+  /// The mapping file of a matrix; "" without one.
   static std::string mappingBeside(const std::string& file) {
     std::error_code ignored;
     for (const char* extension : {".mapping", ".MAPPING"})

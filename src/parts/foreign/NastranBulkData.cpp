@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t smallField = 8, largeField = 16, lastColumn = 80, dataColumns = 72;
 
-/// Without comment, with tabs as blanks up to the next column of a small field.
+/// Removes the comment and replaces tabs by blanks up to the next column of a small field.
 std::string plainLine(const std::string& text) {
   std::string out;
   for (const char c : text.substr(0, text.find('$'))) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Entries of a Nastran bulk data section in small-field (8 columns), large-field (16 columns) and
-/// free (comma) format, as the MSC and NX Nastran Quick Reference Guides, "Bulk Data Entries",
-/// describe them.
+/// free (comma) format, according to the MSC and NX Nastran Quick Reference Guides, "Bulk Data
+/// Entries".
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ namespace tooljoint::parts {
 struct BulkField {
   std::string text;
   long line = 0;
-  int number = 0;  ///< on its line, the name of the entry is field 1
+  int number = 0;  ///< on its line; the name of the entry is field 1
 };
 
 /// An entry with its continuations: fields from the second one on, in groups of eight (small
@@ -33,8 +33,8 @@ class NastranBulkData {
   /// FileError when the file cannot be read.
   explicit NastranBulkData(const std::string& path);
 
-  /// The next entry; false at the end. DeckError naming file and line for a continuation without
-  /// an entry and text where no field is.
+  /// The next entry; false at the end. DeckError with file and line for a continuation without an
+  /// entry, and for text outside the fields.
   bool next(BulkEntry& entry);
 
  private:
@@ -51,7 +51,7 @@ class NastranBulkData {
   InputFile in_;
   long line_ = 0, begin_ = 0;
   Line current_;
-  bool waiting_ = false, ended_ = false;  ///< a line is read ahead; nothing is left
+  bool waiting_ = false, ended_ = false;  ///< a line is read ahead; the end is reached
 };
 
 }  // namespace tooljoint::parts

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Nastran DMIG entries (direct matrix input at points), as EXTSEOUT(DMIGPCH), PARAM,EXTOUT and
-/// hand-written bulk data hold them: MSC and NX Nastran Quick Reference Guide, "DMIG"; the same
-/// entry in Altair OptiStruct and Autodesk Nastran.
+/// Nastran DMIG entries (direct matrix input at points), as in files from EXTSEOUT(DMIGPCH) and
+/// PARAM,EXTOUT and in hand-written bulk data: MSC and NX Nastran Quick Reference Guide, "DMIG";
+/// the same entry in Altair OptiStruct and Autodesk Nastran.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -16,13 +16,13 @@ namespace tooljoint::parts {
 
 namespace {
 
-/// Largest relative difference of two values that are given for one entry of a symmetric matrix:
-/// the digits of double and of single precision.
+/// Largest relative difference of two values for one entry of a symmetric matrix: the digits of
+/// double and of single precision.
 constexpr double sameInDouble = 1e-9, sameInSingle = 1e-6;
 
 using namespace dmig;
 
-/// Entries beside DMIG that say nothing about the matrices.
+/// Entries other than DMIG that do not affect the matrices.
 const std::set<std::string> skipped{"SPOINT", "ASET",   "ASET1",  "QSET",    "QSET1",
                                     "BSET",   "BSET1",  "CSET",   "CSET1",   "USET",
                                     "USET1",  "PARAM",  "EXTRN",  "SECONCT", "CORD1R",
@@ -150,7 +150,7 @@ class DmigReader {
     }
   }
 
-  /// Of a symmetric matrix the lower triangle is stored, whichever was given.
+  /// For a symmetric matrix the lower triangle is stored, whichever triangle is given.
   void add(Dmig& matrix, const PointDof& row, const PointDof& column, const Value& value) const {
     auto key = std::make_pair(row, column);
     if (matrix.form == symmetric && value.transposed) std::swap(key.first, key.second);
@@ -207,7 +207,7 @@ class DmigReader {
     part_.matrices.push_back(std::move(out));
   }
 
-  /// A column is a load case: the only one acts always, several each by a law of their own.
+  /// A column is a load case: a single one always acts; several have their own laws.
   void addLoads(const std::string& name, const std::string& where, const Dmig& matrix) {
     if (matrix.form != rectangular && matrix.form != columnsByNumber)
       throw DeckError(where + " holds loads and has IFO = " + std::to_string(matrix.form) +
@@ -237,7 +237,7 @@ class DmigReader {
       if (!field.text.empty() && !fortranNumber(field.text, true, x[i]))
         failAt(field, "a coordinate with a decimal point");
     }
-    // coordinates in another frame (CP) are not those of the part
+    // coordinates in another frame (CP) are not in the frame of the part
     if (fields[1].text.empty() || fields[1].text == "0") part_.positions[number] = x;
   }
 

@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::int64_t largestNumber = 2147483647;
 
-/// The first line that is not empty, cut where it is too long for a line of text.
+/// The first nonempty line, shortened if it is too long for a line of text.
 std::string openingOf(const std::string& path) {
   try {
     InputFile in(path);
     for (std::string text; in.line(text, longestLine);)
       if (!trim(text).empty()) return text;
   } catch (const FileError&) {
-    // no text: the message comes from the reader that is chosen
+    // not a text; the selected reader reports that
   }
   return "";
 }
@@ -117,7 +117,7 @@ class ForeignSource : public PartSource {
     return out;
   }
 
-  /// Rows in the order of the labels.
+  /// Collects the dofs in the order of their labels, as rows.
   void collectDofs() {
     for (const char* needed : {"mass", "stiffness"})
       if (matricesOf(needed).empty())
@@ -146,7 +146,7 @@ class ForeignSource : public PartSource {
                           ", which neither mass nor stiffness has.");
   }
 
-  /// As many as the largest number that occurs, so that position and number agree.
+  /// As many components as the largest number, so that position and number agree.
   void collectComponents() {
     int largest = 0;
     bool scalar = false;
@@ -249,7 +249,7 @@ std::int64_t wholeNumber(const std::string& text) {
 }
 
 bool fortranNumber(const std::string& text, bool point, double& value) {
-  // mantissa, then E or D with a signed number, or a sign and a number
+  // mantissa, then E or D with a signed number, or only a sign and a number
   std::string plain;
   bool exponent = false, digit = false;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Matrices of finite-element codes as parts: every format is a file of its own that registers
-/// itself. Rows and columns are ordered by their labels (point, component), never by position.
+/// Matrices of finite-element codes as parts. Every format is a separate file that registers
+/// itself. Rows and columns are identified by their labels (point, component), never by position.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@
 
 namespace tooljoint::parts {
 
-/// What a square matrix of a part is.
+/// Meaning of a square matrix of a part.
 enum class Quantity { Stiffness, Mass, Damping };
 
-/// A dof as finite-element codes label it.
+/// A dof with the labels of finite-element codes.
 struct PointDof {
   std::int64_t point = 0;  ///< grid point or scalar point, from 1
   int component = 0;       ///< 1 to 6 of a grid point, 0 of a scalar point
@@ -44,7 +44,7 @@ struct LabelledEntry {
 struct LabelledMatrix {
   Quantity quantity = Quantity::Stiffness;
   std::string name;   ///< name of the term in the part
-  std::string where;  ///< file, and line or name in it, for messages
+  std::string where;  ///< file, and line or name in the file, for messages
   std::vector<LabelledEntry> entries;
 };
 
@@ -55,57 +55,58 @@ struct LabelledLoad {
   std::map<PointDof, double> forces;
 };
 
-/// What the files of another code hold.
+/// Content of the files of another code.
 struct LabelledPart {
   std::string file;  ///< for messages
   std::vector<LabelledMatrix> matrices;
   std::vector<LabelledLoad> loads;
-  std::set<PointDof> held;                    ///< dofs the other code holds: left out of the part
-  std::map<std::int64_t, Vector3> positions;  ///< of points, where the files give them [m]
+  std::set<PointDof> held;                    ///< dofs held in the other code: omitted from the
+                                              ///< part
+  std::map<std::int64_t, Vector3> positions;  ///< of points, if the files give them [m]
 };
 
-/// The files of a part: one that is named alone, or each by what it holds.
+/// The files of a part: a single one, or each by its content.
 struct PartFiles {
-  std::string whole;  ///< "" when the files are named one by one
+  std::string whole;  ///< "" if the files are named separately
   std::map<std::string, std::string>
       named;  ///< "stiffness", "mass", "damping", "loads", "mapping": file
   std::string main() const;
 };
 
-/// One format. Readers throw DeckError naming file, line, field, what was found and what is
-/// expected.
+/// One format. Readers throw DeckError with file, line, field, text found and text expected.
 class PartFormat {
  public:
   virtual ~PartFormat() = default;
   /// Lower case, with the dot.
   virtual std::vector<std::string> extensions() const = 0;
-  /// By the first bytes of a file whose extension says nothing.
+  /// Recognises a file with another extension by its first bytes.
   virtual bool recognises(const std::string& opening) const = 0;
   virtual LabelledPart read(const PartFiles& files) const = 0;
-  /// The files beside this one that are read with it unless a part.json names others: what the
-  /// part is depends on their content too. None by default.
+  /// Files in the same folder that are read with this one unless a part.json names others; the part
+  /// depends on their content too. None by default.
   virtual std::vector<std::string> companions(const std::string& path) const;
 };
 
 /// Formats by name.
 using PartFormats = deck::Registry<PartFormat>;
 
-/// The format whose extension the name of this file has; nullptr when none has.
+/// The format for the extension of this file; nullptr if there is none.
 std::unique_ptr<PartFormat> partFormatByExtension(const std::string& path);
-/// The format of a file by its extension, else by its first bytes; nullptr when it is of none.
+/// The format of a file by its extension, otherwise by its first bytes; nullptr if there is none.
 std::unique_ptr<PartFormat> partFormatOf(const std::string& path);
 
 /// Files of a format as a source of part values: components, dofs, mass, stiffness, damping, loads
-/// and positions. Components are u, v, w, theta_x, theta_y, theta_z (1 to 6) up to the largest that
-/// occurs, and s (of scalar points) where there are some. DeckError for a part without mass or
-/// stiffness, a load on a dof without either, and a point that is a grid point and a scalar point.
+/// and positions. Components are u, v, w, theta_x, theta_y, theta_z (1 to 6) up to the largest
+/// existing one, and s (of scalar points), if any. DeckError for a part without mass or stiffness,
+/// a load on a dof with neither, and a point that is both a grid point and a scalar point.
 std::unique_ptr<PartSource> openForeignPart(const PartFormat& format, const PartFiles& files);
 
-/// A part.json whose entry "matrices" names files of another code: their values together with
-/// those of the JSON file, which may not give them as well. `json` itself without that entry.
+/// The values of a part.json whose entry "matrices" names files of another code, combined with the
+/// values of these files, which the JSON file must not give as well. `json` itself without that
+/// entry.
 std::unique_ptr<PartSource> withForeignMatrices(std::unique_ptr<PartSource> json);
 
-/// Longest line [bytes] that readers take for one of a text file.
+/// Longest line [bytes] that readers accept in a text file.
 constexpr std::size_t longestLine = 1024;
 /// Names of the components 1 to 6 of a grid point.
 const std::vector<std::string>& gridComponents();
@@ -114,8 +115,8 @@ constexpr const char* scalarComponent = "s";
 
 /// A whole number without sign and blanks; -1 for any other text or one above 2^31 - 1.
 std::int64_t wholeNumber(const std::string& text);
-/// A finite number as Fortran writes it: exponents E, D, or a sign alone (1.5+3). With `point` a
-/// text without a decimal point is refused. False when the text is none.
+/// A finite number in Fortran notation: exponents E, D, or only a sign (1.5+3). With `point` a text
+/// without a decimal point is rejected. False if the text is not a number.
 bool fortranNumber(const std::string& text, bool point, double& value);
 
 }  // namespace tooljoint::parts

@@ -10,26 +10,27 @@
 
 namespace tooljoint::reduction {
 
-/// The basis of the constraint modes of `part` and the kept ones of `vectors`, with a row for each
-/// of them.
+/// The basis of the constraint modes of `part` and the kept ones of `vectors`, with a report row
+/// for each of them.
 Basis fixedInterfaceBasis(const PartView& part, const InteriorVectors& vectors);
 
 /// The basis of the constraint modes of `part` and the `count` lowest Ritz vectors in the span of
 /// the columns of X (interior x columns), which need be neither orthonormal nor independent; `kind`
-/// is said of them in tables.
+/// is their name in tables.
 Basis subspaceBasis(const PartView& part, const Matrix& X, int count, const std::string& kind);
 
-/// Sets partition, Phi, eigenvalues and kinds of `basis`; the rest is left as it is. \param psi
-/// dofs of the part x boundary dofs
+/// Sets partition, Phi, eigenvalues and kinds of `basis`; the rest is unchanged.
+/// \param psi  dofs of the part x boundary dofs
 void setVectors(const Partition& partition, const Sparse& psi, const InteriorVectors& vectors,
                 Basis& basis);
 
-/// A row for every constraint mode. `why` is for those whose dof is neither on the interface
+/// Adds a report row for every constraint mode. `why` is for dofs that are neither on the interface
 /// nor retained by the part.
 void addConstraintRows(const PartView& part, const Partition& partition, const Vector& residuals,
                        Basis& basis, const std::string& why = "retained dof");
 
-/// A row for every vector, kept or not; candidates, `complete`, method and remarks of `basis`.
+/// Adds a row for every vector, kept or not; sets candidates, `complete`, method and remarks of
+/// `basis`.
 void report(const InteriorVectors& vectors, Basis& basis);
 
 }  // namespace tooljoint::reduction

@@ -26,14 +26,14 @@ namespace {
 /// vectors; a lightly damped mode has one independent part.
 constexpr double independent = 1e-6;
 
-/// The quadratic pencil of one interior block and the vectors taken of it.
+/// The quadratic pencil of one interior block and the vectors taken from it.
 struct DampedBlock {
   const InteriorBlock* block;
   Sparse C, K;
   std::unique_ptr<OrthonormalSet> set = {};
-  Matrix floating = {};  ///< zero-energy modes; computed when it floats
+  Matrix floating = {};  ///< zero-energy modes; computed if the block floats
 
-  /// Its modes are real: no damping, gyroscopic or circulatory terms.
+  /// True if its modes are real: no damping, gyroscopic or circulatory terms.
   bool conservative() const { return C.norm() == 0.0 && nearlySymmetric(K, 1e-13); }
 };
 
@@ -45,8 +45,8 @@ struct ComplexMode {
   double residual = 0;
 };
 
-/// Re and Im of e^(i alpha) phi, longer one first, with alpha such that they are M-orthogonal (phi'
-/// M phi real without conjugate): then Im is as short as it can be.
+/// Re and Im of e^(i alpha) phi, the longer one first. With this alpha they are M-orthogonal (phi'
+/// M phi real without conjugate), and Im is as short as possible.
 Matrix halves(const Eigen::VectorXcd& phi, const Sparse& M) {
   Matrix parts(phi.size(), 2);
   parts << phi.real(), phi.imag();
@@ -67,8 +67,8 @@ class ComplexCraigBampton : public ReductionMethod {
     const int interior = sizeOf(part.partition().interior);
     std::vector<DampedBlock> blocks = makeBlocks(part);
     Taken taken;
-    // Modes come by |s|; each gives one vector or two, so that as many as the requested vectors,
-    // and two to see the cut, are enough or all.
+    // Modes are sorted by |s| and give one or two vectors each. As many modes as requested vectors,
+    // plus two beyond the cut, are therefore enough, or all.
     for (int perBlock = firstCount(blocks, request, interior);;
          perBlock = std::min(2 * perBlock, interior)) {
       taken = take(part, blocks, compute(part, blocks, perBlock), request);
@@ -120,7 +120,7 @@ class ComplexCraigBampton : public ReductionMethod {
     return blocks;
   }
 
-  /// Without a mass a damped block has modes that are no vibrations, which span no basis.
+  /// Without mass a damped block has modes that do not vibrate and span no basis.
   static void requireMass(const PartView& part, const InteriorBlock& b) {
     if (!linalg::hasSingularMass(b.mass)) return;
     Eigen::Index least = 0;
@@ -146,7 +146,7 @@ class ComplexCraigBampton : public ReductionMethod {
     return std::min(count, interior);
   }
 
-  /// Up to `count` modes of every block (all of them where that is its size), by |s|.
+  /// Up to `count` modes of every block (all of them if the block is not larger), by |s|.
   static std::vector<ComplexMode> compute(const PartView& part, std::vector<DampedBlock>& blocks,
                                           int count) {
     std::vector<ComplexMode> modes;
@@ -183,7 +183,7 @@ class ComplexCraigBampton : public ReductionMethod {
         modes.push_back({found.values[k], &damped, found.vectors.col(k), found.residuals[k]});
   }
 
-  /// Modes by |s| until their parts fill the request.
+  /// Takes modes by |s| until their parts fill the request.
   Taken take(const PartView& part, std::vector<DampedBlock>& blocks,
              const std::vector<ComplexMode>& modes, const ModeRequest& request) const {
     Taken taken;
@@ -196,7 +196,7 @@ class ComplexCraigBampton : public ReductionMethod {
     }
     Vector squares(sizeOf(modes));
     for (int k = 0; k < sizeOf(modes); ++k) squares[k] = std::norm(modes[at(k)].value);
-    std::size_t last = modes.size();  // one past the last mode taken
+    std::size_t last = modes.size();  // one past the last mode used
     for (std::size_t k = 0; k < last; ++k) {
       const bool full =
           (request.kind == ModeRequest::Kind::Count && vectors >= request.count) ||
@@ -216,7 +216,7 @@ class ComplexCraigBampton : public ReductionMethod {
     return taken;
   }
 
-  /// Number of the halves of a mode that are new; one shorter than `tolerance` beside the other is
+  /// Number of new halves of a mode; a half shorter than `tolerance` relative to the other is
   /// rounding.
   int addHalves(const ComplexMode& mode) const {
     OrthonormalSet& set = *mode.home->set;

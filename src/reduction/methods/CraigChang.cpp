@@ -13,8 +13,8 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// D = Psi Psi_b^-1 (u_b - Phi_b p) + Phi p, everything projected: the same space as Rubin's, the
-/// modal coordinates being the amplitudes of the free-interface modes.
+/// D = Psi Psi_b^-1 (u_b - Phi_b p) + Phi p, everything projected: the same space as Rubin's; the
+/// modal coordinates are the amplitudes of the free-interface modes.
 class CraigChang : public ReductionMethod {
  public:
   Basis build(const PartView& part, const ModeRequest& request) const override {

@@ -13,17 +13,18 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Of the static answer to a force: less that the modes do not hold of it is rounding, and no
-/// flexibility of its own.
+/// If the modes represent the static response to a force up to this fraction, the remainder is
+/// rounding and no residual flexibility.
 constexpr double nothingLeft = 1e-12;
 
-/// D = Phi p + Psi g, Psi the residual flexibility of the interface dofs; with g = C' lambda
-/// (coupling::Assembly::Dual)
+/// D = Phi p + Psi g, where Psi is the residual flexibility of the interface dofs; with g = C'
+/// lambda (coupling::Assembly::Dual)
 ///
 ///     [I 0; 0 C M_r C'] (p, lambda)'' + [Lambda  -Phi_b' C'; -C Phi_b  -C F_r C'] (p, lambda) =
-///     ...,   F_r = Psi_b, M_r = Psi' M Psi,
+///     ... F_r = Psi_b, M_r = Psi' M Psi,
 ///
-/// for symmetric parts; every matrix is projected full, on Phi and Psi of the symmetric part of K.
+/// for symmetric parts; every matrix is projected completely, on Phi and Psi of the symmetric part
+/// of K.
 class DualCraigBampton : public ReductionMethod {
  public:
   explicit DualCraigBampton(const Teuchos::ParameterList& list)
@@ -32,8 +33,8 @@ class DualCraigBampton : public ReductionMethod {
   MethodTraits traits() const override { return {false, true, false, false}; }
 
   Basis build(const PartView& part, const ModeRequest& request) const override {
-    // Phi and Psi of the symmetric part: then Phi' K Psi is what skew stiffness makes of it,
-    // little, and rigid-body modes are those of the elastic part.
+    // Phi and Psi use the symmetric part of K: Phi' K Psi then comes only from the skew stiffness
+    // and is small, and rigid-body modes are those of the elastic part.
     const auto& interface = part.part().interface;
     FreeInterfaceBasis free =
         freeInterfaceBasis(part.withBoundary({}, part.part().retained, true), request);
@@ -58,8 +59,8 @@ class DualCraigBampton : public ReductionMethod {
   }
 
  private:
-  /// Responses to unit forces on the interface with fixed retained dofs, less what the modal
-  /// columns W hold of them: (1 - W (W' K W)^-1 W' K) K_II^-1 B.
+  /// Responses to unit forces on the interface with fixed retained dofs, minus their part in the
+  /// span of the modal columns W: (1 - W (W' K W)^-1 W' K) K_II^-1 B.
   static Matrix residualAttachments(const PartView& part, const FreeInterfaceBasis& free) {
     const auto& interior = free.basis.partition.interior;
     const auto& interface = part.part().interface;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Craig-Bampton with the residual flexibility of the modes left out: J.-G. Kim, P.-S. Lee, An
+/// Craig-Bampton with the residual flexibility of the dropped modes: J.-G. Kim, P.-S. Lee, An
 /// enhanced Craig-Bampton method, Int. J. Numer. Meth. Engng 103 (2015) 79-93. With F = K_II^-1 -
 /// Phi_D Lambda^-1 Phi_D' and the inertia of the constraint modes L = M_IC + M_II psi, the dropped
 /// modes respond with x_I = lambda F L u_C to first order in lambda; O'Callahan's step replaces
@@ -50,10 +50,10 @@ class EnhancedCraigBampton : public ReductionMethod {
     return changed;
   }
 
-  /// The coordinates eta of W depend on the others z: their modal equation (Lambda_W - lambda) eta
-  /// = lambda W' L u_C to first order in lambda, with lambda u_C = L_C M^-1 K z,
+  /// The coordinates eta of W depend on the others z: their modal equation is (Lambda_W - lambda)
+  /// eta = lambda W' L u_C to first order in lambda, with lambda u_C = L_C M^-1 K z,
   ///
-  ///     eta = Lambda_W^-1 W' L L_C M^-1 K z,   which is W' (F L) L_C M^-1 K z.
+  ///     eta = Lambda_W^-1 W' L L_C M^-1 K z,   which equals W' (F L) L_C M^-1 K z.
   DependentCoordinates dependentCoordinates(const model::SecondOrderModel& coupled,
                                             const std::vector<Sparse>& maps,
                                             const std::vector<PartView>& parts,
@@ -97,8 +97,8 @@ class EnhancedCraigBampton : public ReductionMethod {
   }
 
  private:
-  /// With the terms that have a law of time, and the tangents of springs and other point laws: they
-  /// hold back the boundary dofs as much as the rest does.
+  /// Includes the terms with a law of time, and the tangents of springs and other point laws: they
+  /// restrain the boundary dofs too.
   static Sparse stiffnessAtStart(const model::SecondOrderModel& model) {
     return model.stiffnessAt(0.0) +
            model.pointStiffness(0.0, model.initialDisplacement, model.initialVelocity);
@@ -111,7 +111,7 @@ class EnhancedCraigBampton : public ReductionMethod {
     Matrix X = part.solveSymmetricInterior(L);
     for (Eigen::Index k = 0; k < V.cols(); ++k)
       X -= V.col(k) * ((V.col(k).transpose() * L) / basis.eigenvalues[k]);
-    // F L by columns that are large beside what it was taken from: the rest is rounding.
+    // columns of F L that are large relative to their terms; the others are rounding
     std::vector<int> real;
     for (int j = 0; j < X.cols(); ++j) {
       double scale = 0;

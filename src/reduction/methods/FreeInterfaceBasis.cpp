@@ -9,8 +9,8 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Least share of a combination of modes in motions with held boundary dofs for it to be a
-/// coordinate.
+/// A combination of modes becomes a coordinate only if its share in motions with held boundary dofs
+/// is at least this.
 constexpr double leastShare = 0.1;
 
 }  // namespace
@@ -46,7 +46,7 @@ Matrix toModeAmplitudes(const PartView& part, FreeInterfaceBasis& free) {
   while (rank < svd.values.size() && svd.values[rank] >= leastShare) ++rank;
   Matrix changed = vectors, p = Matrix::Zero(modes, boundary + ritz);
   if (rank == modes &&
-      rank == ritz) {  // p are the amplitudes of the modes themselves; decoupled ones stay apart
+      rank == ritz) {  // p are the amplitudes of the modes; decoupled modes stay decoupled
     changed.rightCols(ritz) = linalg::DenseLu(AD.transpose())
                                   .solve(Matrix(vectors.rightCols(ritz).transpose()))
                                   .transpose();
@@ -72,7 +72,7 @@ Matrix toModeAmplitudes(const PartView& part, FreeInterfaceBasis& free) {
                             " modes span residual flexibility for " + std::to_string(rank) +
                             " modal amplitudes only: the other coordinates are Ritz modes");
   }
-  // Rows of boundary dofs are the identity and zero, to the last digit.
+  // Rows of boundary dofs are exactly the identity and zero.
   for (int j = 0; j < boundary; ++j) {
     changed.row(basis.partition.boundary[at(j)]).setZero();
     changed(basis.partition.boundary[at(j)], j) = 1.0;

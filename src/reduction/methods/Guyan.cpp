@@ -12,8 +12,8 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// D_I = -K_II^-1 K_IC D_C; with requested modes, as many interior dofs become masters: kept
-/// like retained ones.
+/// D_I = -K_II^-1 K_IC D_C. With requested modes the same number of interior dofs become masters
+/// and are kept like retained dofs.
 class Guyan : public ReductionMethod {
  public:
   explicit Guyan(const Teuchos::ParameterList& list)

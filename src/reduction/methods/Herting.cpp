@@ -48,7 +48,7 @@ class Herting : public ReductionMethod {
   }
 
  private:
-  /// Fixed-interface modes beside the inertia-relief vectors of their free block.
+  /// Adds fixed-interface modes to the inertia-relief vectors of their free block.
   static void addTo(std::vector<VectorGroup>& groups, const InteriorVectors& fixed, int size) {
     for (int k = 0; k < fixed.kept; ++k) {
       const int first = fixed.groups[at(fixed.vectors[at(k)].group)].front();

@@ -19,9 +19,9 @@ namespace tooljoint::reduction {
 namespace {
 
 using constants::twoPi;
-/// A load vector of which less than this part is new is linearly dependent.
+/// A load vector with a smaller independent fraction is linearly dependent.
 constexpr double dependent = 1e-8;
-/// A frequency below this fraction of the largest diagonal one is a rigid body's.
+/// A frequency below this fraction of the largest diagonal one belongs to a rigid-body mode.
 constexpr double rigid = 1e-7;
 
 linalg::EigenPairs modesOf(const Sparse& K, const Sparse& M, const InterfaceOptions& chosen,
@@ -33,8 +33,8 @@ linalg::EigenPairs modesOf(const Sparse& K, const Sparse& M, const InterfaceOpti
   return linalg::lowestModes(K, M, std::min(chosen.modes, static_cast<int>(K.rows())), options);
 }
 
-/// K^-1 b. A model with rigid-body modes has no static response; it is then supported weakly
-/// by its own mass.
+/// K^-1 b. A model with rigid-body modes has no static response; it is then supported weakly in
+/// proportion to its mass.
 Matrix staticAnswer(const InterfaceProblem& problem, const Matrix& b) {
   double scale = 0;
   for (int i = 0; i < problem.stiffness.rows(); ++i)
@@ -47,8 +47,8 @@ Matrix staticAnswer(const InterfaceProblem& problem, const Matrix& b) {
   return solver.solve(b);
 }
 
-/// Modes of groups of joined dofs, the other groups fixed: all dofs together, or interface by
-/// interface.
+/// Modes of groups of joined dofs with the other groups fixed: all dofs together, or each interface
+/// by itself.
 class Characteristic final : public InterfaceBasis {
  public:
   Characteristic(const InterfaceOptions& options, bool keepPointLaws, bool together)
@@ -76,7 +76,7 @@ class Characteristic final : public InterfaceBasis {
   }
 
  private:
-  /// Modes of K, M on some dofs and what `more` adds to them; with their Rayleigh quotients.
+  /// Adds modes of K, M on some dofs and the columns `more`, with their Rayleigh quotients.
   void addModes(const Sparse& K, const Sparse& M, const Matrix& more, const linalg::DofNamer& name,
                 const std::vector<int>& dofs, InterfaceVectors& out) const {
     const auto pairs = modesOf(symmetricPart(K), M, options_, name);

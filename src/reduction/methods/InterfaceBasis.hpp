@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Reduction of the dofs at which parts are joined. A variant is one file that adds itself to
+/// Reduction of the dofs at which parts are joined. A variant is one file that registers itself in
 /// InterfaceRegistry.
 #pragma once
 
@@ -18,12 +18,12 @@ class ParameterList;
 
 namespace tooljoint::reduction {
 
-/// The coupled model in the joined dofs that may be reduced, all others fixed.
+/// The coupled model restricted to the joined dofs that may be reduced; all others are fixed.
 struct InterfaceProblem {
   Sparse stiffness;            ///< constant, full and unsymmetric
   Sparse mass;                 ///< symmetric
-  std::vector<int> interface;  ///< per dof the interface it belongs to, 0-based: the dofs that join
-                               ///< the same parts
+  std::vector<int> interface;  ///< per dof its interface, 0-based: the dofs that join the same
+                               ///< parts
   int interfaces = 0;
   Sparse coupling;  ///< stiffness towards the other coordinates, dofs x others
   Matrix loads;     ///< constant load vectors, dofs x loads
@@ -40,9 +40,9 @@ struct InterfaceVectors {
 
 /// Options of all variants.
 struct InterfaceOptions {
-  int modes = -1;  ///< in all, or of each interface; -1: by cut-off frequency
+  int modes = -1;  ///< in total, or per interface; -1: by cut-off frequency
   double cutOffHz = 0;
-  bool loadVectors = true;  ///< the static response to every load is among the vectors
+  bool loadVectors = true;  ///< include the static response to every load
 };
 
 class InterfaceBasis {
@@ -51,7 +51,7 @@ class InterfaceBasis {
   /// Throws ModelError when the mass of the interface is singular, ConvergenceError of the
   /// eigensolver.
   virtual InterfaceVectors build(const InterfaceProblem& problem) const = 0;
-  /// Whether dofs with point laws stay as they are.
+  /// True if dofs with point laws remain unchanged.
   virtual bool keepsPointLaws() const { return true; }
 };
 
@@ -61,7 +61,7 @@ using InterfaceRegistry = deck::Registry<InterfaceBasis, const Teuchos::Paramete
 /// (M. P. Castanier, Y.-C. Tan, C. Pierre, AIAA Journal 39 (2001) 1182-1187).
 std::unique_ptr<InterfaceBasis> systemInterfaceModes(const InterfaceOptions& options,
                                                      bool keepPointLaws = true);
-/// The same for each interface by itself, the others held, which keeps the model sparse (S.-K.
+/// The same for each interface by itself, with the others held, which keeps the model sparse (S.-K.
 /// Hong, B. I. Epureanu, M. P. Castanier, Mech. Syst. Signal Process. 37 (2013) 403-421; D.
 /// Krattiger et al., Mech. Syst. Signal Process. 114 (2019) 579-603).
 std::unique_ptr<InterfaceBasis> localInterfaceModes(const InterfaceOptions& options,

@@ -10,12 +10,12 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// The coordinates of Craig and Chang; inertia and damping act on Phi p alone:
+/// The coordinates of Craig and Chang; inertia and damping act on Phi p only:
 ///
-///     M = [0 .; . I],   K = [G^-1  -G^-1 Phi_b; .  Lambda + Phi_b' G^-1 Phi_b],   G = Psi_b the
-///     residual flexibility
+///     M = [0 .; . I],   K = [G^-1  -G^-1 Phi_b; .  Lambda + Phi_b' G^-1 Phi_b]
 ///
-/// for symmetric parts; in general C = [0 .; . Phi' C Phi] and K is projected full.
+/// with the residual flexibility G = Psi_b, for symmetric parts; in general C = [0 .; . Phi' C Phi]
+/// and K is projected completely.
 class MacNeal : public ReductionMethod {
  public:
   MethodTraits traits() const override { return {false, false, false, false}; }

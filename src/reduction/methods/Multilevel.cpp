@@ -23,10 +23,10 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Dofs of a substructure when the deck does not give their number.
+/// Dofs of a substructure if the deck does not give their number.
 constexpr int dofsOfAPart = 8000;
 
-/// Number of the node of every interior dof; coordinates that belong to no node are alone.
+/// Node number of every interior dof; a coordinate without a node forms its own group.
 std::vector<int> nodesOf(const PartView& part) {
   std::map<std::int64_t, int> numbers;
   std::vector<int> groups;

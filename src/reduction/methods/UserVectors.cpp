@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Constraint modes and a user's own vectors from Matrix Market files. Any vectors x of a part do:
-/// with x - Phi_C x_C in place of x the boundary dofs stay what they are, and constraint modes and
-/// vectors span the same space. The vectors become Ritz vectors of their span (W. Ritz 1909; E. L.
-/// Wilson, M.-W. Yuan, J. M. Dickens, Dynamic analysis by direct superposition of Ritz vectors,
-/// Earthquake Engng Struct. Dyn. 10 (1982) 813-821).
+/// Constraint modes and a user's own vectors from Matrix Market files. Any vectors x of a part are
+/// allowed: x is replaced by x - Phi_C x_C, which does not move the boundary dofs and leaves the
+/// span of constraint modes and vectors unchanged. The vectors become Ritz vectors of their span
+/// (W. Ritz 1909; E. L. Wilson, M.-W. Yuan, J. M. Dickens, Dynamic analysis by direct superposition
+/// of Ritz vectors, Earthquake Engng Struct. Dyn. 10 (1982) 813-821).
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
 #include <string>
@@ -42,7 +42,7 @@ class UserVectors : public ReductionMethod {
                                                              : fixedInterfaceModes(part, request));
   }
 
-  /// Changes nothing; sees all parts, and refuses names that are none of theirs.
+  /// Changes nothing; rejects names that belong to none of the parts.
   bool augment(const model::SecondOrderModel&, const std::vector<std::vector<int>>&,
                const std::vector<PartView>& parts, std::vector<Basis>&) const override {
     std::vector<std::string> names;
@@ -51,7 +51,7 @@ class UserVectors : public ReductionMethod {
     return false;
   }
 
-  /// The names, and every file that will be needed: that it is there, can be read and has a row for
+  /// Checks the names, and for every required file that it exists, can be read and has a row for
   /// every dof.
   void checkInput(const std::vector<PartOutline>& parts) const override {
     std::vector<std::string> names;
@@ -68,7 +68,7 @@ class UserVectors : public ReductionMethod {
     const auto& interior = part.partition().interior;
     const std::string& name = part.part().name;
     const std::string file = fileOf(name);
-    // A part without interior dofs has nothing to give vectors for.
+    // A part without interior dofs needs no vectors.
     const int dofs = part.model().size();
     const Matrix given = interior.empty() ? Matrix(dofs, 0) : read(file, name, dofs);
     const bool counted = request.kind == ModeRequest::Kind::Count;
@@ -143,7 +143,7 @@ class UserVectors : public ReductionMethod {
     return vectors;
   }
 
-  /// x_I - psi x_C of every column, as far as it is new; the columns that are not.
+  /// Adds the new part of x_I - psi x_C of every column; returns the columns without a new part.
   std::vector<int> collect(const Matrix& given, const PartView& part, const std::string& file,
                            OrthonormalSet& set) const {
     const Partition& p = part.partition();
@@ -151,7 +151,7 @@ class UserVectors : public ReductionMethod {
     std::vector<int> dropped;
     for (int j = 0; j < given.cols(); ++j) {
       const Vector vector = given.col(j), rest = vector - psi * Vector(vector(p.boundary));
-      // A vector that is constraint modes alone leaves rounding.
+      // A vector that consists of constraint modes leaves only rounding.
       const Vector inner = rest(p.interior), before = vector(p.interior);
       const bool constrained = set.norm(inner) <= independence_ * set.norm(before);
       if (!constrained && set.add(inner)) continue;
@@ -166,7 +166,7 @@ class UserVectors : public ReductionMethod {
     return dropped;
   }
 
-  bool drop_;  ///< dependent vectors, instead of refusing them
+  bool drop_;  ///< remove dependent vectors instead of rejecting them
   double independence_;
   std::string file_;
   std::vector<std::string> parts_;  ///< empty: all

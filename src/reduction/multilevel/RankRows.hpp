@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Long vectors of which each rank has some rows.
+/// Long vectors whose rows are distributed over the ranks.
 #pragma once
 
 #include "common/Types.hpp"
 
 namespace tooljoint::reduction {
 
-/// Sum of the matrices of all ranks, in their order; the same on each. Collective.
+/// Sum of the matrices of all ranks, in rank order; the same on each. Collective.
 Matrix sumOverRanks(const Matrix& mine);
 
 /// Consecutive rows of vectors of `size` rows for each rank.

@@ -12,9 +12,9 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Loads of the ranks may differ by this before a subtree is divided further.
+/// A subtree is divided further if the loads of the ranks differ by more than this factor.
 constexpr double balanced = 1.15;
-/// Subtrees for each rank at most.
+/// Largest number of subtrees per rank.
 constexpr int mostSubtrees = 4;
 
 linalg::Graph graphOf(const Sparse& K, const Sparse& M, const std::vector<int>& groups) {
@@ -40,7 +40,7 @@ linalg::Graph graphOf(const Sparse& K, const Sparse& M, const std::vector<int>& 
   return graph;
 }
 
-/// As numbers in one list, for the ranks.
+/// The dissection as one list of numbers, for the communication between ranks.
 std::vector<int> flat(const linalg::Dissection& cut) {
   std::vector<int> numbers{cut.pieces()};
   for (int i = 0; i < cut.pieces(); ++i) {
@@ -89,7 +89,7 @@ SubstructureTree treeOf(const linalg::Dissection& cut, const std::vector<int>& g
   return tree;
 }
 
-/// Neighbours of a piece and boundaries of its children, but for its own dofs.
+/// Boundary of each piece: its neighbours and the boundaries of its children, without its own dofs.
 void findBoundaries(const Sparse& K, const Sparse& M, SubstructureTree& tree) {
   std::vector<int> seen(at(tree.dofs()), -1);
   for (int i = 0; i < sizeOf(tree.pieces); ++i) {
@@ -140,7 +140,7 @@ void shareOut(SubstructureTree& tree, int ranks) {
   }
   for (auto& piece : tree.pieces) piece.owner = SubstructureTree::everyRank;
   for (int k = 0; k < sizeOf(roots); ++k) tree.pieces[at(roots[at(k)])].owner = owners[at(k)];
-  for (int i = count - 1; i >= 0; --i) {  // of a subtree, all
+  for (int i = count - 1; i >= 0; --i) {  // assigns whole subtrees
     auto& piece = tree.pieces[at(i)];
     if (piece.parent >= 0 && tree.pieces[at(piece.parent)].owner != SubstructureTree::everyRank)
       piece.owner = tree.pieces[at(piece.parent)].owner;

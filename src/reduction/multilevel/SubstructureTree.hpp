@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A part cut into substructures and the separators between them, as a tree.
+/// A part divided into substructures and the separators between them, as a tree.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace tooljoint::reduction {
 
-/// A substructure (leaf) or a separator. All dofs are numbered as the matrices that were cut.
+/// A substructure (leaf) or a separator. Dofs are numbered as in the original matrices.
 struct TreePiece {
   std::vector<int> dofs;      ///< increasing
-  std::vector<int> boundary;  ///< dofs of ancestors that its subtree is coupled with, in the order
-                              ///< of elimination
+  std::vector<int> boundary;  ///< dofs of ancestors coupled with its subtree, in the order of
+                              ///< elimination
   int parent = -1;
   std::vector<int> children;
   std::vector<int> path;  ///< from the root to this piece
   bool leaf = false;
-  int owner = 0;  ///< the rank that works on it; everyRank: all of them do
+  int owner = 0;  ///< the rank that works on it; everyRank: all ranks
 };
 
 struct SubstructureTree {
@@ -31,14 +31,14 @@ struct SubstructureTree {
   int dofs() const { return sizeOf(pieceOf); }
   int leaves() const;
   int separatorDofs() const;
-  /// This rank works on the piece.
+  /// True if this rank works on the piece.
   bool mine(int piece) const;
 };
 
-/// Cuts the graph of K and M into `parts` leaves, fewer where it cannot be cut any more; dofs of
-/// one group stay together. Subtrees are shared out to the ranks by their dofs, and the pieces
-/// above them belong to every rank. Every rank passes the same and gets the same. \param groups
-/// number of the group of every dof, 0 to the number of groups - 1
+/// Divides the graph of K and M into `parts` leaves, fewer if it cannot be divided further; dofs of
+/// one group stay together. Subtrees are distributed to the ranks by their number of dofs; the
+/// pieces above them belong to every rank. Every rank passes the same and gets the same. \param
+/// groups  group number of every dof, 0 to the number of groups - 1
 SubstructureTree cutIntoTree(const Sparse& K, const Sparse& M, const std::vector<int>& groups,
                              int parts);
 

@@ -11,15 +11,15 @@
 
 namespace tooljoint::reduction {
 
-/// What a subtree adds to the equations of its boundary: to K + shift M, and its derivative.
+/// Contribution of a subtree to the equations of its boundary: to K + shift M, and its derivative.
 struct TreeFactor::Update {
   Matrix stiffness, mass;
 };
 
 namespace {
 
-/// A(dofs, [dofs boundary]) + factor B(..) with empty rows for the boundary: of a leaf, the rows
-/// and, mirrored, the columns of its dofs; what the boundary has of its own is left to the
+/// A(dofs, [dofs boundary]) + factor B(..) with empty rows for the boundary. Contains the rows and,
+/// mirrored, the columns of the dofs of a leaf; the entries within the boundary belong to the
 /// ancestors.
 Sparse bordered(const Sparse& jj, const Sparse& jb) {
   const auto inner = static_cast<int>(jj.rows()), rest = static_cast<int>(jb.cols());
@@ -53,7 +53,7 @@ struct Front {
       for (int i = 0; i < sizeOf(to); ++i) add(to[at(i)], to[at(j)], update(i, j));
   }
 
-  /// F_jj = L L', and in place F_jb to L^-1 F_jb, F_bb to the Schur complement. False: F_jj is not
+  /// F_jj = L L'; replaces F_jb by L^-1 F_jb and F_bb by the Schur complement. False if F_jj is not
   /// positive definite.
   bool condense(linalg::DenseCholesky& factor) {
     if (!factor.factor(std::move(jj))) return false;
@@ -109,8 +109,8 @@ bool TreeFactor::eliminate(int number, const Sparse& K, const Sparse& M, double 
                     : eliminateSeparator(number, K, M, step, updates);
 }
 
-/// S(tau) and S(tau + step) take factors with the rows of the boundary, which end here: solutions
-/// need K_jj alone, whose factors are less than half as large.
+/// S(tau) and S(tau + step) need factors with the rows of the boundary, which are freed here.
+/// Solutions need only K_jj, whose factors are less than half as large.
 bool TreeFactor::eliminateLeaf(int number, const Sparse& K, double step, Update& update) {
   const auto& piece = tree_->pieces[at(number)];
   EliminatedPiece& done = pieces_[at(number)];
@@ -229,7 +229,7 @@ void TreeFactor::backward(int number, Matrix& X) const {
 Matrix TreeFactor::solve(const Matrix& B) const {
   const Stage stage("solution by substructures");
   const int count = sizeOf(pieces_);
-  std::vector<int> above;  // dofs of the pieces of every rank
+  std::vector<int> above;  // dofs of the pieces of all ranks
   for (const auto& piece : tree_->pieces)
     if (piece.owner == SubstructureTree::everyRank)
       above.insert(above.end(), piece.dofs.begin(), piece.dofs.end());

@@ -14,8 +14,8 @@
 
 namespace tooljoint::reduction {
 
-/// A piece of the tree after the elimination of its subtree; with dofs j of the piece, b of its
-/// boundary, and K the Schur complement of its subtree.
+/// A piece of the tree after the elimination of its subtree, with the dofs j of the piece, its
+/// boundary b, and the Schur complement K of its subtree.
 struct EliminatedPiece {
   linalg::PartialFactor sparse;  ///< of K_jj of a leaf
   Sparse coupling;               ///< K_jb of a leaf
@@ -25,25 +25,26 @@ struct EliminatedPiece {
   Sparse mass, massCoupling;     ///< M_jj, M_jb of the part
 };
 
-/// The elimination is shared out as the tree says. Collective: every rank passes the same.
+/// The elimination is distributed according to the tree. Collective: every rank passes the same.
 class TreeFactor {
  public:
   /// Eliminates K + shift M, and K + (shift + step) M for the condensed masses, by a difference of
-  /// Schur complements. K and M are symmetric, and K outlives this. ModelError for what MUMPS
-  /// refuses.
+  /// Schur complements. K and M are symmetric, and K must outlive this object. ModelError for
+  /// errors of MUMPS.
   TreeFactor(std::shared_ptr<const SubstructureTree> tree, const Sparse& K, const Sparse& M,
              double shift, double step);
 
-  /// K + shift M is positive definite to working precision; nothing else may be called otherwise.
+  /// True if K + shift M is positive definite to working precision; otherwise nothing else may be
+  /// called.
   bool definite() const { return definite_; }
   double shift() const { return shift_; }
   const SubstructureTree& tree() const { return *tree_; }
-  /// Of a piece of this rank.
+  /// A piece of this rank.
   const EliminatedPiece& piece(int number) const { return pieces_[at(number)]; }
 
   /// K_jj^-1 B of a piece of this rank.
   Matrix solvePiece(int number, const Matrix& B) const;
-  /// K_jj of a piece of this rank.
+  /// K_jj of a piece of this rank, dense.
   Matrix denseStiffness(int number) const;
   /// -K_jj^-1 K_jb X_b of a piece of this rank: its static shape for a motion of its boundary.
   Matrix staticShape(int number, const Matrix& boundary) const;
@@ -51,7 +52,8 @@ class TreeFactor {
   /// (K + shift M)^-1 B; every rank passes and gets all rows. Collective.
   Matrix solve(const Matrix& B) const;
 
-  /// Rows of X at the dofs of a piece, from those ranks that own them, for all ranks. Collective.
+  /// Sends the rows of X at the dofs of a piece from the ranks that own them to all ranks.
+  /// Collective.
   void gather(Matrix& X) const;
 
  private:

@@ -21,23 +21,24 @@ namespace tooljoint::reduction {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Shift, and its step for condensed masses, as a part of the stiffness over mass of one dof: far
-/// above rounding, far below the modes of a part of many dofs.
+/// Shift, and its step for condensed masses, as a fraction of the stiffness over mass of one dof:
+/// far above rounding, far below the modes of a part with many dofs.
 constexpr double smallShift = 1e-10, shiftStep = 1e-9;
-/// Of a part with negative eigenvalues the shift grows by this factor until K + shift M is
+/// For a part with negative eigenvalues the shift grows by this factor until K + shift M is
 /// definite.
 constexpr double shiftGrowth = 100.0;
-/// Modes beyond those wanted: they show where a pair ends, and the last of a block converge last.
+/// Guard modes beyond the wanted ones: they show where a pair ends, and the last modes of a block
+/// converge last.
 constexpr int leastGuard = 8, guardShare = 4;
-/// Modes of a piece for the first guess of the frequency range.
+/// Number of modes per piece for the first estimate of the frequency range.
 constexpr int firstModes = 6;
-/// An eigenvalue below this part of the shift is that of a rigid body.
+/// An eigenvalue below this fraction of the shift belongs to a rigid-body mode.
 constexpr double rigid = 1e-3;
-/// Least 1 - lambda / lambda_c in an estimate.
+/// Smallest 1 - lambda / lambda_c in an estimate.
 constexpr double leastRoom = 0.02;
-/// A mode whose error is below this part of the accuracy is not corrected further.
+/// A mode with an error below this fraction of the accuracy is not corrected further.
 constexpr double settled = 1e-2;
-/// What is left of a correction of unit mass when it is in the span already.
+/// A correction of unit mass with a smaller remainder is already in the span.
 constexpr double dependent = 1e-7;
 
 /// Median of K_ii / M_ii, over dofs with mass.
@@ -52,13 +53,13 @@ double stiffnessOverMass(const Sparse& K, const Sparse& M) {
   return *middle;
 }
 
-/// Vectors with their products, the rows of this rank, and their Ritz values.
+/// Vectors with their products, rows of this rank, and their Ritz values.
 struct Block {
   Matrix X, KX, MX;
   Vector values;
 };
 
-/// Rayleigh-Ritz steps; sums over all rows go over the ranks.
+/// Rayleigh-Ritz steps; sums over all rows are summed over the ranks.
 class RitzSteps {
  public:
   RitzSteps(const Sparse& K, const Sparse& M) : K_(K), M_(M), rows_(K.rows()) {}
@@ -85,7 +86,7 @@ class RitzSteps {
     turn(block, pairs.vectors.leftCols(count));
   }
 
-  /// Adds what is new in Z to mass-orthonormal vectors.
+  /// Adds the new part of Z to mass-orthonormal vectors.
   void append(Block& block, const Matrix& Z) const {
     Block more = productsOf(Z);
     for (int pass = 0; pass < 2; ++pass) {
@@ -125,7 +126,7 @@ class RitzSteps {
   RankRows rows_;
 };
 
-/// The subspace of the request, and its cut-off [lambda].
+/// Chooses the subspace for the request; returns its cut-off [lambda].
 double choose(const ModeRequest& request, int needed, const TreeModesOptions& options,
               const TreeFactor& factor, TreeSubspace& subspace) {
   using Kind = ModeRequest::Kind;
@@ -146,7 +147,7 @@ double choose(const ModeRequest& request, int needed, const TreeModesOptions& op
     if (found.size() == 0) return infinity;
     highest = std::max(0.0, found[found.size() - 1] - shift);
   }
-  // Rigid bodies are at `shift`.
+  // Rigid-body modes are at `shift`.
   double cut = std::max(options.cutOffFactor * options.cutOffFactor * highest, 10.0 * shift);
   for (subspace.takeBelow(cut + shift);
        request.kind == Kind::Count && subspace.size() < needed && !subspace.complete();)
@@ -155,7 +156,7 @@ double choose(const ModeRequest& request, int needed, const TreeModesOptions& op
 }
 
 /// Estimated relative errors of the frequencies, and Z = (K + shift M)^-1 (K - lambda M) X.
-/// \param missing eigenvalue below which no mode is missing
+/// \param missing  no mode with a smaller eigenvalue is missing
 Vector estimate(const Block& block, const RankRows& rows, const TreeFactor& factor, double missing,
                 Matrix& Z) {
   const Matrix R = block.KX - block.MX * block.values.asDiagonal();
@@ -212,7 +213,7 @@ TreeModes treeModes(const Sparse& K, const Sparse& M, const TreeFactor& factor,
   modes.complete = subspace.complete() && found.complete;
   modes.coordinates = subspace.size();
   modes.cutOff = std::sqrt(cut);
-  if (found.values.size() == 0) {  // no dof has mass, or none of the pieces a mode so low
+  if (found.values.size() == 0) {  // no dof has mass, or no piece has such a low mode
     modes.vectors.resize(n, 0);
     return modes;
   }
@@ -225,7 +226,7 @@ TreeModes treeModes(const Sparse& K, const Sparse& M, const TreeFactor& factor,
   for (;; ++modes.corrections) {
     stopIfInterrupted();
     Matrix Z;
-    // A correction leaves what lies just above the block.
+    // after a correction only modes just above the block are missing
     const double missing = modes.corrections == 0 || modes.complete ? cut : block.values[count - 1];
     modes.errors = estimate(block, steps.rows(), factor, missing, Z);
     modes.wanted = static_cast<int>(count);

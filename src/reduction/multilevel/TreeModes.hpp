@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Lowest modes of a part by its tree of substructures, with the estimated error of each.
+/// Lowest modes of a part from its tree of substructures, with the estimated error of each.
 #pragma once
 
 #include <memory>
@@ -12,25 +12,26 @@ namespace tooljoint::reduction {
 
 struct TreeModesOptions {
   double cutOffFactor = 0;  ///< substructures have their modes up to this multiple of the highest
-                            ///< frequency that is wanted
-  double accuracy = 0;      ///< estimated relative error of a frequency that needs no correction
-  int corrections = 0;      ///< corrections at most
+                            ///< wanted frequency
+  double accuracy = 0;      ///< estimated relative error up to which a frequency needs no
+                            ///< correction
+  int corrections = 0;      ///< largest number of corrections
 };
 
 struct TreeModes {
-  Vector values;          ///< omega^2 [1/s^2], increasing; Rayleigh quotients, hence too high
+  Vector values;          ///< omega^2 [1/s^2], increasing; Rayleigh quotients, hence upper bounds
   Matrix vectors;         ///< dofs x modes, phi' M phi = 1
-  Vector errors;          ///< estimated relative error of each frequency; 0 of a rigid body
-  int wanted = 0;         ///< the first so many answer the request but for whole pairs
-  bool complete = false;  ///< all modes there are
+  Vector errors;          ///< estimated relative error of each frequency; 0 for a rigid-body mode
+  int wanted = 0;         ///< number of leading modes for the request, before completing pairs
+  bool complete = false;  ///< all modes of the part
   int coordinates = 0;    ///< of the coupled substructures
-  double cutOff = 0;      ///< of the substructures [rad/s]; infinite when they have all modes
-  int corrections = 0;    ///< that were made
+  double cutOff = 0;      ///< of the substructures [rad/s]; infinite if they have all modes
+  int corrections = 0;    ///< number of corrections made
 };
 
-/// Eliminates the part for its modes: with a shift far below them, so that parts that float or
-/// hang on a hinge are no exception, or further down for an indefinite K. Collective. ModelError
-/// when no shift makes K + shift M definite: M is indefinite, or K and M are singular together.
+/// Eliminates the part for its modes. The shift is far below the modes, so that parts that float or
+/// hang on a hinge need no special case, or lower for an indefinite K. Collective. ModelError if no
+/// shift makes K + shift M definite: M is indefinite, or K and M are singular together.
 std::shared_ptr<const TreeFactor> eliminate(std::shared_ptr<const SubstructureTree> tree,
                                             const Sparse& K, const Sparse& M);
 
@@ -39,8 +40,8 @@ std::shared_ptr<const TreeFactor> eliminate(std::shared_ptr<const SubstructureTr
 ///
 ///     lambda - lambda_exact <= r'z / (x'Mx (1 - lambda / lambda_c)),
 ///
-/// if the error lies in modes above lambda_c: the cut-off of the substructures, and of modes that
-/// were corrected the highest of the block. A correction is a Rayleigh-Ritz step on all x and z.
+/// if the error lies in modes above lambda_c: the cut-off of the substructures or, for corrected
+/// modes, the highest eigenvalue of the block. A correction is a Rayleigh-Ritz step on all x and z.
 /// Collective; every rank gets the same.
 TreeModes treeModes(const Sparse& K, const Sparse& M, const TreeFactor& factor,
                     const ModeRequest& request, const TreeModesOptions& options);

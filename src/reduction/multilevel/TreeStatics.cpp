@@ -12,10 +12,10 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Columns of a block: a few vectors of the part for each.
+/// Columns per block: needs a few vectors of the part for each.
 constexpr int blockOfColumns = 64;
-/// Error in the norm of energy where the iteration ends, and the most that is accepted when
-/// rounding stops it earlier.
+/// Error in the energy norm at which the iteration ends, and the largest accepted one if rounding
+/// stops it earlier.
 constexpr double enough = 1e-12, accepted = 1e-7;
 constexpr int mostIterations = 60;
 
@@ -23,9 +23,9 @@ Vector dots(const Matrix& A, const Matrix& B) {
   return A.cwiseProduct(B).colwise().sum().transpose();
 }
 
-/// K X = B; the largest error of its columns, |X - K^-1 B|_K / |X|_K. The factors are positive
-/// definite; a K that is not (a buckled interior) has few directions of negative curvature, and
-/// costs an iteration more for each.
+/// Solves K X = B; returns the largest error of its columns, |X - K^-1 B|_K / |X|_K. The factors
+/// are positive definite. If K is not (a buckled interior), it has few directions of negative
+/// curvature, each of which costs one more iteration.
 double solve(const Sparse& K, const TreeFactor& factor, const Matrix& B, Matrix& X) {
   X = factor.solve(B);
   Matrix R = B - K * X;
@@ -39,7 +39,7 @@ double solve(const Sparse& K, const TreeFactor& factor, const Matrix& B, Matrix&
     for (Eigen::Index j = 0; j < rho.size(); ++j)
       if (energy[j] != 0.0) {
         const double each = std::sqrt(std::abs(rho[j]) / energy[j]);
-        if (!(each <= error)) error = each;  // also one that is no number
+        if (!(each <= error)) error = each;  // true also if `each` is not a number
       }
     if (error < best) best = error, found = X;
     if (error <= enough || (best <= accepted && error > 10.0 * best)) break;
@@ -70,7 +70,7 @@ double largestRowSum(const Sparse& K) {
   return norm;
 }
 
-/// [1; phi] by rows.
+/// [1; phi], row by row.
 Sparse withIdentity(const Partition& p, const Matrix& phi) {
   const int boundary = sizeOf(p.boundary);
   std::vector<int> interiorRow(at(p.size), -1), boundaryRow(at(p.size), -1);

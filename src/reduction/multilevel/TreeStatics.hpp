@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Static responses of a part that was cut into substructures.
+/// Static responses of a part divided into substructures.
 #pragma once
 
 #include "reduction/multilevel/TreeFactor.hpp"
@@ -8,8 +8,8 @@
 
 namespace tooljoint::reduction {
 
-/// phi_C = -K_II^-1 K_IC with the symmetric K itself, without the shift of the factors: conjugate
-/// gradients with the factors as preconditioner, in blocks of columns. Collective. ModelError when
+/// phi_C = -K_II^-1 K_IC with the symmetric K, without the shift of the factors: conjugate
+/// gradients with the factors as preconditioner, in blocks of columns. Collective. ModelError if
 /// the interior is a mechanism although the boundary dofs are held.
 ConstraintModes treeConstraintModes(const PartView& part, const TreeFactor& factor);
 

@@ -17,7 +17,7 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Accuracy of the modes of the pieces, of the Ritz vectors of their span.
+/// Relative accuracy of the modes of the pieces, and of the Ritz vectors of their span.
 constexpr double ofPieces = 1e-5, ofSpan = 1e-11;
 
 linalg::InversePencil pencilOf(const TreeFactor& factor, int number) {
@@ -97,7 +97,7 @@ void TreeSubspace::number() {
   complete_ = all;
 }
 
-/// Columns of the ancestors of a piece, from the root.
+/// Columns of the ancestors of a piece, starting at the root.
 std::vector<int> TreeSubspace::columnsAbove(int piece) const {
   std::vector<int> columns;
   for (int i : factor_.tree().pieces[at(piece)].path)
@@ -106,8 +106,8 @@ std::vector<int> TreeSubspace::columnsAbove(int piece) const {
   return columns;
 }
 
-/// Rows of the boundary of a piece in the columns of its ancestors: those of an ancestor are the
-/// first ones of all pieces below it.
+/// Rows of the boundary of a piece in the columns of its ancestors; those of an ancestor are the
+/// first columns of all pieces below it.
 Matrix TreeSubspace::onBoundary(int piece, const std::vector<Matrix>& shapes,
                                 Eigen::Index columns) const {
   const auto& tree = factor_.tree();

@@ -13,18 +13,18 @@
 namespace tooljoint::reduction {
 
 /// Columns T of the subspace by piece; T' (K + shift M) T = 1 because the elimination decouples the
-/// pieces. Collective, all of it.
+/// pieces. All functions are collective.
 class TreeSubspace {
  public:
   explicit TreeSubspace(const TreeFactor& factor);
 
-  /// In each piece the lowest `count` modes.
+  /// Takes the lowest `count` modes of each piece.
   void takeLowest(int count);
-  /// In each piece all modes with lambda + shift below `bound`.
+  /// Takes all modes of each piece with lambda + shift below `bound`.
   void takeBelow(double bound);
 
   int size() const { return size_; }
-  /// Every piece has all of its modes.
+  /// True if every piece has all of its modes.
   bool complete() const { return complete_; }
   /// Ritz vectors y of T'MT y = y / (lambda + shift), y'y = 1.
   linalg::RitzVectors ritz(const linalg::RitzRequest& request) const;

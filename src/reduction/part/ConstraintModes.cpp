@@ -17,7 +17,7 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Shapes solved for at a time: what stands beside the result is that of so many columns.
+/// Number of shapes solved at a time; limits the memory in addition to the result.
 constexpr int columnsAtATime = 64;
 
 }  // namespace
@@ -58,7 +58,7 @@ ConstraintModes constraintModes(const PartView& part) {
   ConstraintModeBuilder modes(part.partition());
   for (int i = 0; i < part.blocks(); ++i) {
     const InteriorBlock& b = part.interiorBlock(i);
-    if (b.floats()) continue;  // no motion of a boundary dof reaches it
+    if (b.floats()) continue;  // motions of the boundary do not reach it
     for (std::size_t first = 0; first < b.touched.size(); first += columnsAtATime) {
       const auto begin = b.touched.begin() + static_cast<std::ptrdiff_t>(first);
       const std::vector<int> touched(

@@ -12,21 +12,21 @@ namespace tooljoint::reduction {
 
 class PartView;
 
-/// phi_C = -K_II^-1 K_IC (Nguyen et al. 2020, (33)), with the full, unsymmetric K: then the reduced
-/// part answers loads on boundary dofs exactly as the full part does, whatever the torque or the
-/// circulatory forces in K.
+/// phi_C = -K_II^-1 K_IC (Nguyen et al. 2020, (33)), with the full, unsymmetric K: the response of
+/// the reduced part to loads on boundary dofs is then exact, with any torque or circulatory forces
+/// in K.
 struct ConstraintModes {
   Sparse vectors;    ///< dofs of the part x boundary dofs: [1; phi_C], structural zeros absent
   Vector residuals;  ///< per boundary dof: |K_II phi + K_IC| / (|K_II| |phi| + |K_IC|)
 };
 
-/// Collects constraint modes, any interior dofs at a time.
+/// Assembles constraint modes, for any subset of interior dofs at a time.
 class ConstraintModeBuilder {
  public:
   explicit ConstraintModeBuilder(const Partition& partition);
-  /// Takes `phi`, a solution of K_II phi = -K_IC for the interior dofs at the positions `inner` and
-  /// the boundary dofs with the indices `touched`. Blocks with the same `inner` follow each other
-  /// in the order of their boundary dofs.
+  /// Adds `phi`, a solution of K_II phi = -K_IC for the interior dofs at the positions `inner` and
+  /// the boundary dofs with the indices `touched`. Blocks with the same `inner` must follow each
+  /// other in the order of their boundary dofs.
   void add(const Sparse& KII, const Matrix& KIC, Matrix phi, const std::vector<int>& inner,
            const std::vector<int>& touched);
   ConstraintModes result() const;
@@ -41,8 +41,8 @@ class ConstraintModeBuilder {
   Vector residuals_;
 };
 
-/// Block by block; PartView::constraintModes has them. Throws ModelError naming the dof when the
-/// interior is a mechanism although the boundary dofs are held.
+/// Computed block by block; available as PartView::constraintModes. Throws ModelError with the dof
+/// when the interior is a mechanism although the boundary dofs are held.
 ConstraintModes constraintModes(const PartView& part);
 
 }  // namespace tooljoint::reduction

@@ -17,13 +17,13 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// A rigid-body mode of which the boundary dofs carry less than this share (in the root of the
-/// mass) does not move them.
+/// A rigid-body mode does not move the boundary dofs if their share in it (in the root of the mass)
+/// is smaller than this.
 constexpr double notMoved = 1e-6;
-/// Energy below this part of |phi|' |K| |phi| is rounding.
+/// Energy below this fraction of |phi|' |K| |phi| is rounding.
 constexpr double zeroEnergy = 1e-12;
-/// A rigid body has six ways to float; a block may be a body with joints inside, so more are
-/// computed when these are not all.
+/// A rigid body has six floating modes. A block may also be a body with internal joints, so more
+/// are computed if six are not all.
 constexpr int floatingCandidates = 8;
 
 }  // namespace
@@ -66,8 +66,8 @@ InteriorStatics::InteriorStatics(const PartView& part, const InteriorVectors& mo
   if (mechanisms_.cols() > 0) factor();
 }
 
-/// Combinations of the rigid-body modes of each free block that are zero on its boundary dofs:
-/// right singular vectors of the boundary rows.
+/// Combinations of the rigid-body modes of each free block that vanish on its boundary dofs: right
+/// singular vectors of the boundary rows.
 void InteriorStatics::findMechanisms(const InteriorVectors& modes) {
   const Partition& p = part_.partition();
   const Vector mass = part_.mass().diagonal();
@@ -106,7 +106,7 @@ void InteriorStatics::factor() {
   };
   try {
     solver_ = std::make_unique<linalg::DirectSolver>(bordered(K, MN, MN), name);
-    // N to the accuracy of K_II: the modes have that of the eigensolver
+    // improves N from the accuracy of the eigensolver to that of K_II
     mechanisms_ -= solve(K * mechanisms_);
     const Eigen::LLT<Matrix> gram(mechanisms_.transpose() * (M * mechanisms_));
     mechanisms_ = gram.matrixU().solve<Eigen::OnTheRight>(mechanisms_).eval();

@@ -14,15 +14,15 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Where more than this fraction of the entries left is not zero, dense matrices are faster.
+/// Dense matrices are faster above this fraction of nonzero entries.
 constexpr double denseFill = 0.2;
-/// Pivots whose updates of the dense matrices are made together, by matrix products.
+/// Number of pivots whose updates of the dense matrices are combined into matrix products.
 constexpr Eigen::Index together = 48;
 
 double ratioOf(double k, double m) { return m <= 0 ? std::numeric_limits<double>::max() : k / m; }
 
-/// Dofs in the order in which they are condensed, and their ratios made increasing towards the
-/// first.
+/// Dofs in the order of condensation, with their ratios made monotonic (increasing towards the
+/// first).
 struct Order {
   std::vector<int> dofs;
   std::vector<double> ratios;
@@ -70,8 +70,7 @@ class SparseCondensation {
     return it != rows_[at(i)].end() && it->dof == i ? *it : Entry{i, 0, 0};
   }
 
-  /// Returns the neighbours of e. A dof whose stiffness is not positive is left out and changes
-  /// nothing.
+  /// Returns the neighbours of e. A dof without positive stiffness is removed and changes nothing.
   std::vector<int> eliminate(int e) {
     const Row pivotRow = std::exchange(rows_[at(e)], {});
     --left_;
@@ -128,8 +127,8 @@ class SparseCondensation {
 };
 
 /// The same with dense matrices. With y = m_e + (m_ee / 2) t an elimination is K -= k_e k_e' /
-/// k_ee, M += t y' + y t'; the diagonals are kept up to date, a row is brought up to date when it
-/// becomes the pivot, and the matrices after a number of pivots.
+/// k_ee, M += t y' + y t'. Diagonals are always up to date, a row is updated when it becomes the
+/// pivot, and the matrices after a number of pivots.
 class DenseCondensation {
  public:
   DenseCondensation(const SparseCondensation& rows, std::vector<int> dofs)
@@ -185,7 +184,7 @@ class DenseCondensation {
     ++pending_;
   }
 
-  /// Makes the pending updates and leaves out what is condensed.
+  /// Applies the pending updates and removes the condensed dofs.
   void update() {
     K_.noalias() -= A_ * A_.transpose();
     M_.noalias() += T_ * Y_.transpose();
@@ -198,7 +197,7 @@ class DenseCondensation {
       const auto to = static_cast<Eigen::Index>(j);
       dofs.push_back(dof(keep[j]));
       for (std::size_t i = 0; i < keep.size();
-           ++i) {  // both indices decrease: nothing is overwritten before it is read
+           ++i) {  // keep[i] >= i: nothing is overwritten before it is read
         K_(static_cast<Eigen::Index>(i), to) = K_(keep[i], keep[j]);
         M_(static_cast<Eigen::Index>(i), to) = M_(keep[i], keep[j]);
       }
@@ -234,7 +233,7 @@ class DenseCondensation {
 MasterRanking rankMasters(const PartView& part) {
   const Stage stage("choice of masters");
   const auto& interior = part.partition().interior;
-  // Boundary dofs are never condensed, and their rows change nothing among the others.
+  // Boundary dofs are never condensed, and their rows do not affect the others.
   SparseCondensation left(part.symmetricInteriorStiffness(), part.interiorMass());
   const auto ratio = [&](int i) {
     const auto entry = left.diagonal(i);

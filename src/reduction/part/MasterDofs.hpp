@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which interior dofs are worth keeping in a static condensation.
+/// Ranking of interior dofs for a static condensation.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace tooljoint::reduction {
 
-/// Interior dofs in the order in which they should be kept, and for each the ratio k_ii / m_ii
-/// [rad^2/s^2] it had when it was eliminated.
+/// Interior dofs in the order of preference as masters, and for each the ratio k_ii / m_ii
+/// [rad^2/s^2] at its elimination.
 struct MasterRanking {
   std::vector<int> positions;  ///< of the part
   Vector ratios;               ///< increasing
@@ -18,10 +18,10 @@ struct MasterRanking {
 
 /// R. D. Henshell and J. H. Ong, Automatic masters for eigenvalue economization, Earthquake
 /// Engineering and Structural Dynamics 3 (1975) 375-383: the dof with the largest ratio k_ii / m_ii
-/// is condensed statically, the ratios are those of what is left, and so on; the last ones are the
-/// masters. Ratios are made increasing: each counts at most as much as the one eliminated after it
-/// lets it. Dofs without mass come first, dofs whose remaining stiffness is not positive last.
-/// With the symmetric part of the constant stiffness.
+/// is condensed statically, the ratios of the remaining dofs are updated, and so on; the last dofs
+/// are the masters. Ratios are made monotonic: each is limited by the ratios of the dofs eliminated
+/// before it. Dofs without mass are eliminated first, dofs without positive remaining stiffness
+/// last. Uses the symmetric part of the constant stiffness.
 MasterRanking rankMasters(const PartView& part);
 
 }  // namespace tooljoint::reduction

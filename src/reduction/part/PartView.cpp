@@ -24,26 +24,26 @@ class Lazy {
     if (!value_) value_.emplace(make());
     return *value_;
   }
-  /// Computed before.
+  /// The value computed before.
   const T& value() const { return *value_; }
 
  private:
   std::optional<T> value_;
 };
 
-/// A stiffness whose skew part is below this, relative to its diagonal, is symmetric but for the
-/// rounding of its assembly.
+/// A stiffness whose skew part is below this, relative to its diagonal, is symmetric apart from
+/// rounding in its assembly.
 constexpr double roundingOfAssembly = 1e-14;
 
 }  // namespace
 
-/// What views of one part with different boundaries share.
+/// Data shared by views of one part with different boundaries.
 struct PartView::Stiffness {
   Lazy<model::SharedSparse> full, symmetric;
   Lazy<bool> isSymmetric;
 };
 
-/// Factors of a block; of one that floats, with its zero-energy modes as a border.
+/// Factors of a block; for a floating block with its zero-energy modes as a border.
 struct PartView::Factor {
   linalg::DirectSolver solver;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a reduction method needs of a part: how its dofs are sorted, its stiffness, the blocks of
-/// its interior and their factors, its constraint modes.
+/// Data of a part for reduction methods: its partition, its stiffness, the blocks of its interior
+/// and their factors, its constraint modes.
 #pragma once
 
 #include <memory>
@@ -25,20 +25,21 @@ struct InteriorBlock {
   Sparse mass;
   linalg::DofNamer name;
   int size() const { return sizeOf(indices); }
-  /// It touches no boundary dof.
+  /// True if it touches no boundary dof.
   bool floats() const { return touched.empty(); }
 };
 
-/// A part whose derived quantities are computed on first use, each once; copies share them. The
-/// part must outlive all views. Each quantity may throw the errors of checkPart on first use.
+/// A part whose derived quantities are computed once, on first use; copies share them. The part
+/// must outlive all views. Each quantity may throw the errors of checkPart on first use.
 class PartView {
  public:
   PartView(const model::Substructure& part);
 
-  /// The same part with another boundary; `symmetric`: with the symmetric part of its stiffness.
+  /// The same part with another boundary; with `symmetric` the symmetric part of its stiffness is
+  /// used.
   PartView withBoundary(std::vector<int> interface, std::vector<int> retained,
                         bool symmetric = false) const;
-  /// The same part with no boundary: nothing is held.
+  /// The same part without boundary: no dof is held.
   const PartView& unsupported() const;
 
   const model::Substructure& part() const { return *part_; }
@@ -48,7 +49,7 @@ class PartView {
   /// `Part "name", what: `, the beginning of messages; without `what`, `Part "name": `.
   std::string who(const std::string& what = {}) const;
   /// Throws the error with who() in front: a ConvergenceError as such, every other failure as
-  /// ModelError. An interruption stays what it is.
+  /// ModelError. An interruption is not changed.
   [[noreturn]] void fail(const std::string& what, const Error& error) const;
 
   const Partition& partition() const;
@@ -68,19 +69,18 @@ class PartView {
   /// Dofs of the part of every interior block.
   std::vector<std::vector<int>> blockPositions() const;
 
-  /// K_II^-1 f for the columns f of `loads` (interior x columns), block by block. Loads on blocks
-  /// that float are balanced by their inertia, [K  M N; N' M  0] (x, mu) = (f, 0) with the
-  /// zero-energy modes N. ModelError, naming the dof, when the interior is a mechanism although the
-  /// boundary is held.
+  /// K_II^-1 f for the columns f of `loads` (interior x columns), block by block. Inertia balances
+  /// loads on floating blocks, [K  M N; N' M  0] (x, mu) = (f, 0) with the zero-energy modes N.
+  /// ModelError with the dof if the interior is a mechanism although the boundary is held.
   Matrix solveInterior(const Matrix& loads) const;
   /// The same with sym(K)_II; a symmetric K_II is factored once for both.
   Matrix solveSymmetricInterior(const Matrix& loads) const;
-  /// The same of one block, rows of the block x columns.
+  /// The same for one block, rows of the block x columns.
   Matrix solveBlock(int number, const Matrix& loads) const;
-  /// The factors of sym(K)_II of a block, for others to use, where they are worth sharing: of a
-  /// large one (linalg::suitsMumps) that is held. Null otherwise.
+  /// The factors of sym(K)_II of a large (linalg::suitsMumps), held block, for use by others. Null
+  /// for other blocks.
   const linalg::DirectSolver* sharedFactors(int number) const;
-  /// Gives back the memory of such factors; a later use computes them again.
+  /// Frees the memory of these factors; a later use computes them again.
   void releaseFactors() const;
 
   const ConstraintModes& constraintModes() const;

@@ -50,7 +50,7 @@ void checkPositions(const model::Substructure& part, const std::vector<int>& pos
   }
 }
 
-/// Index of every dof in a list of positions, -1 where it is not in it.
+/// Index of every dof in a list of positions, -1 if it is not in the list.
 std::vector<int> inverse(const std::vector<int>& positions, int size) {
   std::vector<int> index(at(size), -1);
   for (int i = 0; i < sizeOf(positions); ++i) index[at(positions[at(i)])] = i;

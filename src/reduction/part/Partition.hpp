@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How the dofs of one part are sorted for reduction: interface, retained, interior; and which
-/// interior dofs are coupled with each other.
+/// Partition of the dofs of one part for reduction: interface, retained, interior; and the coupling
+/// of interior dofs.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,9 @@
 namespace tooljoint::reduction {
 
 /// Positions of the dofs of a part. The boundary (C) is the interface followed by the retained
-/// dofs; interior dofs (I) fall into blocks that neither mass nor stiffness couples with each
-/// other. Every block is a small problem of its own, and where a block does not touch a boundary
-/// dof, the basis is structurally zero.
+/// dofs. Interior dofs (I) are divided into blocks that are coupled neither by mass nor by
+/// stiffness. Every block is a separate small problem; if it does not touch a boundary dof, the
+/// basis is structurally zero there.
 struct Partition {
   int size = 0;
   std::vector<int> interface;  ///< increasing
@@ -24,7 +24,7 @@ struct Partition {
   std::vector<std::vector<int>>
       blocks;  ///< indices into `interior`, each increasing, ordered by their first index
   std::vector<std::vector<int>>
-      touched;  ///< per block: indices into `boundary` of the dofs it touches, increasing
+      touched;  ///< per block: indices into `boundary` of the dofs coupled with it, increasing
 };
 
 /// Throws ModelError, naming the part and the dof, when the model is inconsistent, its mass is not
@@ -34,19 +34,19 @@ void checkPart(const model::Substructure& part);
 /// Sorts the dofs of `part`. Errors of checkPart.
 Partition partition(const model::Substructure& part);
 
-/// Sorts the dofs of a part with this boundary, without checks. \param K constantStiffness
+/// Sorts the dofs of a part with this boundary, without checks.
+/// \param K  constantStiffness
 Partition partition(const model::SecondOrderModel& model, const Sparse& K,
                     const std::vector<int>& interface, const std::vector<int>& retained);
 
-/// Sum of the stiffness terms whose law is "1": the stiffness the basis is computed with. Full and
-/// unsymmetric.
+/// Sum of the stiffness terms with the law "1": the stiffness for the basis, full and unsymmetric.
 Sparse constantStiffness(const model::SecondOrderModel& model);
 
 /// (A + A') / 2.
 Sparse symmetricPart(const Sparse& A);
 
 /// True when |a_ij - a_ji| <= tolerance sqrt(|a_ii a_jj|) for all entries (rows without diagonal:
-/// measured by the largest entry).
+/// relative to the largest entry).
 bool nearlySymmetric(const Sparse& A, double tolerance);
 
 /// Largest |a_ij|; 0 without entries.
@@ -55,7 +55,7 @@ double largestEntry(const Sparse& A);
 /// A(rows, columns) as a new sparse matrix; both lists without repetition.
 Sparse block(const Sparse& A, const std::vector<int>& rows, const std::vector<int>& columns);
 
-/// A_II; A itself where there is no boundary.
+/// A_II; A itself if there is no boundary.
 model::SharedSparse interiorOf(const Partition& partition, const model::SharedSparse& A);
 
 }  // namespace tooljoint::reduction

@@ -24,17 +24,17 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Energy below this fraction of |phi|' |K| |phi| is no energy: the rounding of a sum of that size,
-/// with room.
+/// Energy below this fraction of |phi|' |K| |phi| is zero: the rounding of a sum of that size, with
+/// a margin.
 constexpr double zeroEnergy = 1e-12;
 /// Number of modes of the unreduced part checked for zero energy: the six of a rigid body, and
 /// two more.
 constexpr int zeroEnergyCandidates = 8;
 
-/// Shapes recovered at a time, so that a check needs little memory beside the basis.
+/// Number of shapes recovered at a time; limits the memory of a check.
 constexpr int shapesAtATime = 2 * zeroEnergyCandidates;
 
-/// Mass-normalised shapes phi with omega^2 = phi' K phi.
+/// Counts zero-energy modes among mass-normalised shapes phi with omega^2 = phi' K phi.
 int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenvalues) {
   const Vector size =
       shapes.cwiseAbs().cwiseProduct(linalg::absoluteProduct(K, shapes)).colwise().sum();
@@ -45,7 +45,7 @@ Matrix times(const Sparse& Phi, const Matrix& q) {
   return isLargeAndFull(Phi) ? timesByRows(Phi, q) : Matrix(Phi * q);
 }
 
-/// The same of the shapes Phi [q; 0], those of least omega^2 first, until some have none.
+/// The same for the shapes Phi [q; 0], by increasing omega^2, until a group has none.
 int countZeroEnergy(const Sparse& K, const Sparse& Phi, const Matrix& q,
                     const Vector& eigenvalues) {
   std::vector<int> order = range(q.cols());
@@ -66,9 +66,9 @@ int countZeroEnergy(const Sparse& K, const Sparse& Phi, const Matrix& q,
   return found;
 }
 
-/// Zero-energy modes of the whole part. Of a large one by counts of eigenvalues: those between
-/// -omega^2 and omega^2 with an omega^2 that is no energy for a motion of equal displacements,
-/// u' |K| u / u' M u summed over the dofs.
+/// Zero-energy modes of the whole part. For a large part the number of eigenvalues between -omega^2
+/// and omega^2, where omega^2 corresponds to zero energy for a motion with equal displacements, u'
+/// |K| u / u' M u summed over the dofs.
 int zeroEnergyOfWhole(const PartView& part) {
   const Sparse &K = part.symmetricStiffness(), &M = part.mass();
   if (!linalg::suitsMumps(K) || linalg::hasMasslessMotion(M)) {
@@ -99,7 +99,7 @@ Matrix scaledGram(const Sparse& Phi) {
 
 void checkRank(const Basis& basis, BasisReport& report) {
   const Stage stage("check of the rank");
-  // Without residual flexibility, which may be nothing.
+  // without residual flexibility, which may be zero
   const Eigen::Index size = basis.vectors.cols() - basis.forces();
   if (size == 0) {
     report.rank = 0;
@@ -122,7 +122,7 @@ std::vector<std::vector<int>> floatingBlocks(const PartView& part, const Basis& 
   return floating;
 }
 
-/// Adds `spring` to the diagonal at `dofs`; all of the diagonal is there afterwards.
+/// Adds `spring` to the diagonal at `dofs`; afterwards all diagonal entries exist.
 void addSprings(Sparse& K, const std::vector<int>& dofs, double spring) {
   Triplets ground;
   for (int i : dofs) ground.emplace_back(i, i, spring);
@@ -130,16 +130,16 @@ void addSprings(Sparse& K, const std::vector<int>& dofs, double spring) {
   K = Sparse(K + sparse(K.rows(), K.cols(), ground));
 }
 
-/// Mean stiffness of some dofs; 1 where they have none.
+/// Mean stiffness of some dofs; 1 if they have none.
 double meanStiffness(const Sparse& K, const std::vector<int>& dofs) {
   double mean = 0;
   for (int i : dofs) mean += std::abs(K.coeff(i, i)) / sizeOf(dofs);
   return mean == 0 ? 1 : mean;
 }
 
-/// Unit loads on some boundary dofs, full against reduced, both with the same springs to ground on
-/// all boundary dofs (they change no constraint mode and support a free part). Blocks that touch
-/// no boundary dof do not move and are left out.
+/// Compares full and reduced responses to unit loads on some boundary dofs, with the same springs
+/// to ground on all boundary dofs (they change no constraint mode and support a free part). Blocks
+/// that touch no boundary dof do not move and are omitted.
 void checkStatics(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
                   BasisReport& report) {
   const Stage stage("check of the statics");
@@ -164,8 +164,7 @@ void checkStatics(const PartView& part, const Basis& basis, const ProjectedMatri
     full(j, column) = 1;
     small(j, column++) = 1;
   }
-  // Modes of blocks left out are not excited: give them any stiffness that keeps the reduced matrix
-  // regular.
+  // modes of omitted blocks are not excited; any stiffness keeps the reduced matrix regular
   for (Eigen::Index i = boundary; i < k.rows(); ++i)
     if (k.row(i).cwiseAbs().maxCoeff() == 0) k(i, i) = 1;
   Matrix exact;
@@ -186,8 +185,8 @@ void checkStatics(const PartView& part, const Basis& basis, const ProjectedMatri
   }
 }
 
-/// The same for interface forces as coordinates: unit loads f on interface dofs that stand on
-/// springs s, g = f - s u_b, with the rest a held against g:
+/// The same for interface forces as coordinates: unit loads f on interface dofs supported by
+/// springs s, g = f - s u_b, with the other coordinates a in equilibrium with g:
 ///
 ///     [k_aa  k_ag - B_a'; s B_a  1 + s B_g] (a, g) = (0, f),   u_b = B_a a + B_g g
 void checkDualStatics(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
@@ -197,7 +196,7 @@ void checkDualStatics(const PartView& part, const Basis& basis, const ProjectedM
   Sparse K = part.stiffness();
   const double spring = meanStiffness(K, basis.forceDofs);
   addSprings(K, basis.forceDofs, spring);
-  // Dofs uncoupled from the interface are free: a stiffness without effect on the loads fixes them.
+  // dofs uncoupled from the interface are free: a stiffness without effect on the loads fixes them
   for (const auto& dofs : floatingBlocks(part, basis)) addSprings(K, dofs, spring);
 
   const Matrix Phi = basis.vectors, k = reduced.constantStiffness;
@@ -223,13 +222,13 @@ void checkDualStatics(const PartView& part, const Basis& basis, const ProjectedM
   }
 }
 
-/// Some coordinates, or combinations of them, move no mass because dofs of the part have none.
-/// Where they all have mass, a singular reduced mass is that of dependent vectors.
+/// True if massless dofs of the part leave some coordinates, or combinations of them, without mass.
+/// If all dofs have mass, a singular reduced mass means dependent vectors.
 bool lacksMass(const PartView& part, const ProjectedMatrices& reduced) {
   return linalg::hasSingularMass(reduced.mass) && linalg::hasSingularMass(part.mass());
 }
 
-/// Modes of such a part; implicit schemes condense what moves no mass.
+/// Modes of such a part; implicit schemes condense the massless coordinates.
 linalg::EigenPairs modesWithoutMass(const PartView& part, const ProjectedMatrices& reduced) {
   try {
     return linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
@@ -245,7 +244,7 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
                       BasisReport& report) {
   const Stage stage("check of the frequencies");
   report.zeroEnergyFull = zeroEnergyOfWhole(part);
-  // Without forces on the interface: their coordinates are zero then.
+  // without forces on the interface, whose coordinates are then zero
   const Eigen::Index size = basis.vectors.cols() - basis.forces();
   const Matrix m = Matrix(reduced.mass).topLeftCorner(size, size);
   const Sparse& K = part.symmetricStiffness();

@@ -8,8 +8,8 @@
 
 namespace tooljoint::reduction {
 
-/// What RK4 needs of a step: omega dt <= 2.78 (2.83 without damping, Hairer and Wanner 1996, with
-/// some room).
+/// Stability limit of RK4: omega dt <= 2.78 (2.83 without damping, Hairer and Wanner 1996, with a
+/// margin).
 constexpr double rk4StabilityLimit = 2.78;
 
 /// Fills the checked part of `report`. Throws ModelError when the reduced mass is not positive

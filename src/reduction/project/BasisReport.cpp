@@ -14,7 +14,7 @@ using fmt::format;
 
 namespace {
 
-/// "12.34", "-" for what was not computed.
+/// "12.34", "-" for values that were not computed.
 std::string number(double value, const char* pattern) {
   return value < 0 ? "-" : format(fmt::runtime(pattern), value);
 }

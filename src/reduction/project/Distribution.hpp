@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which rank reduces which part, and how a reduced part travels between ranks.
+/// Assignment of parts to ranks, and exchange of reduced parts between ranks.
 #pragma once
 
 #include <string>
@@ -12,23 +12,24 @@
 
 namespace tooljoint::reduction {
 
-/// Everything the owner of a part computes. Loads, point rows and initial states are made from it
-/// on every rank.
+/// All data computed by the owner of a part. Every rank derives loads, point rows and initial
+/// states from them.
 struct ReducedCore {
   Basis basis;
   ProjectedMatrices matrices;
   BasisReport report;
 };
 
-/// Owner of each part: heaviest part first to the least loaded rank, ties to the lower index. The
-/// same on every rank.
+/// Owner of each part: heaviest part first to the least loaded rank; equal parts by lower index.
+/// The same on every rank.
 std::vector<int> assignOwners(const std::vector<int>& weights, int ranks);
 
-/// Parts on which all ranks work at once: those of more than 20,000 dofs (below, messages cost what
-/// the division wins) and of more than a rank's share of all dofs.
+/// Parts on which all ranks work together: those with more than 20,000 dofs (below, communication
+/// costs more than the division saves) and with more than a rank's share of all dofs.
 std::vector<char> dividedParts(const std::vector<int>& weights, int ranks);
 
-/// A core as bytes, and back. Both ends must be the same program on the same kind of machine.
+/// Converts a core to bytes, and back. Both ends must be the same program on the same kind of
+/// machine.
 std::string pack(const ReducedCore& core);
 ReducedCore unpack(const std::string& bytes);
 

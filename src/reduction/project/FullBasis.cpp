@@ -13,7 +13,7 @@ namespace {
 
 constexpr Eigen::Index manyRows = 2000, rowsAtATime = 512;
 
-/// to += factor times a row of Phi, or the absolute values of it.
+/// to += factor times a row of Phi, or times its absolute values.
 template <bool absolute = false>
 void addRow(const Sparse& Phi, Eigen::Index row, double factor, Eigen::Ref<Vector> to) {
   const int first = Phi.outerIndexPtr()[row], count = Phi.outerIndexPtr()[row + 1] - first;
@@ -29,7 +29,7 @@ void addRow(const Sparse& Phi, Eigen::Index row, double factor, Eigen::Ref<Vecto
     to[Phi.innerIndexPtr()[first + k]] += factor * (absolute ? std::abs(values[k]) : values[k]);
 }
 
-/// work(first, rows): consecutive rows of Phi as the columns of a matrix.
+/// Calls work(first, rows) with consecutive rows of Phi as the columns of a matrix.
 template <class Work>
 void forRows(const Sparse& Phi, const Work& work) {
   for (Eigen::Index first = 0; first < Phi.rows(); first += rowsAtATime) {

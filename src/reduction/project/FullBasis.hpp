@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Products with a large basis of which most entries are not zero, by dense kernels and some rows
-/// at a time: they need no second copy of it.
+/// Products with a large basis with mostly nonzero entries, by dense kernels and for some rows at a
+/// time, without a second copy of the basis.
 #pragma once
 
 #include "common/Types.hpp"
 
 namespace tooljoint::reduction {
 
-/// Share of entries from which dense columns are no longer than sparse ones.
+/// Fraction of entries above which dense columns need no more memory than sparse ones.
 inline constexpr double fullFrom = 0.1;
 
-/// So many rows and so many entries that the functions below are the better ones.
+/// True if the basis has enough rows and entries for the functions below.
 bool isLargeAndFull(const Sparse& Phi);
 
 /// Phi' A Phi.

@@ -23,15 +23,16 @@ bool sameIntegers(const int* a, const int* b, Eigen::Index n) {
   return n == 0 || std::memcmp(a, b, sizeof(int) * static_cast<std::size_t>(n)) == 0;
 }
 
-/// |x_k - y_k| <= room_k for all k < n; false where one of them is not a number.
+/// x_k - y_k| <= room_k for all k < n; false if one of them is not a number.
 bool near(const double* x, const double* y, const double* room, Eigen::Index n) {
   for (Eigen::Index k = 0; k < n; ++k)
     if (!(std::abs(x[k] - y[k]) <= room[k])) return false;
   return true;
 }
 
-/// A matrix others are compared with: a_ij ~ b_ij where |a_ij - b_ij| <= s_i s_j with s_i^2 =
-/// Substructure::rounding r_i, r the size of the rows: as strict for moments as for forces.
+/// A matrix for comparison with others: a_ij ~ b_ij if |a_ij - b_ij| <= s_i s_j with s_i^2 =
+/// Substructure::rounding r_i and the size r of the rows. This is equally strict for moments and
+/// forces.
 class MatrixPattern {
  public:
   MatrixPattern(const model::SharedSparse& a, Vector s) : a_(a), s_(std::move(s)) {
@@ -47,8 +48,8 @@ class MatrixPattern {
     const auto n = static_cast<int>(a_.rows());
     const int *ai = a_.outerIndexPtr(), *aj = a_.innerIndexPtr();
     const int *bi = b.outerIndexPtr(), *bj = b.innerIndexPtr();
-    // Runs of rows of the same structure at a time: all of them but where rounding left an exact
-    // zero.
+    // Compares runs of rows with equal structure at a time: all rows, except where rounding left an
+    // exact zero.
     for (int i = 0; i < n;) {
       int end = sameIntegers(ai + i, bi + i, n - i + 1) ? n : i;
       while (end < n && ai[end + 1] - ai[i] == bi[end + 1] - bi[i]) ++end;
@@ -69,7 +70,7 @@ class MatrixPattern {
     return m.rows() == s_.size() && m.cols() == s_.size();
   }
 
-  /// A row of matrices of different structure: entries one of them does not have are 0.
+  /// Compares a row of matrices with different structure: missing entries are 0.
   bool matchesRow(const model::SharedSparse& b, int i) const {
     model::SharedSparse::InnerIterator x(a_, i), y(b, i);
     while (x || y) {
@@ -87,8 +88,8 @@ class MatrixPattern {
   Vector room_;  ///< s_i s_j of every entry
 };
 
-/// A part others are compared with. Terms of one law are measured together: a geometric stiffness
-/// that is rounding beside the elastic one is rounding.
+/// A part for comparison with others. Terms of one law are compared on a common scale: a geometric
+/// stiffness that is rounding relative to the elastic one does not matter.
 class Pattern {
  public:
   explicit Pattern(const model::Substructure& part) : part_(part) {
@@ -145,8 +146,8 @@ class Pattern {
   std::vector<MatrixPattern> matrices_;  ///< the mass, the stiffness terms and the damping terms
 };
 
-/// Sum of the sizes of the entries of all stiffness terms (of the mass, without any): what differs
-/// here by more than rounding is not compared further.
+/// Sum of the magnitudes of the entries of all stiffness terms (of the mass, if there are none).
+/// Parts whose sums differ by more than rounding are not compared further.
 double signature(const model::SecondOrderModel& model) {
   const auto sum = [](const Sparse& a) {
     return a.nonZeros() > 0 ? Eigen::Map<const Vector>(a.valuePtr(), a.nonZeros()).cwiseAbs().sum()
@@ -168,7 +169,7 @@ std::vector<int> findIdenticalParts(const std::vector<model::Substructure>& part
     Pattern pattern;
   };
   std::multimap<double, First> firsts;  // by signature
-  const First* latest = nullptr;        // the first part of the one before
+  const First* latest = nullptr;        // the first part identical to the previous one
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto matches = [&](const First& first) {
       return requests[i] == requests[first.index] && first.pattern.matches(parts[i]);

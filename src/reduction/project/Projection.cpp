@@ -14,7 +14,7 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Defects up to this are rounding and are removed; larger ones are left and reported.
+/// Defects up to this are rounding and are removed; larger ones remain and are reported.
 constexpr double enforceBelow = 1e-10;
 /// Entries below this times |Phi|' |A| |Phi| are rounding of the projection itself.
 constexpr double roundingLevel = 1e-14;
@@ -22,7 +22,7 @@ constexpr double roundingLevel = 1e-14;
 double norm(const Sparse& A) { return A.norm(); }
 double product(const Sparse& A, const Sparse& B) { return A.cwiseProduct(B).sum(); }
 
-/// A = a M + b K to rounding, or nothing.
+/// A = a M + b K to rounding, or none.
 std::optional<std::pair<double, double>> rayleighCoefficients(const Sparse& A, const Sparse& M,
                                                               const Sparse& K) {
   const double size = norm(A);
@@ -34,7 +34,7 @@ std::optional<std::pair<double, double>> rayleighCoefficients(const Sparse& A, c
     if (norm(A - a * M) <= 1e-14 * size) return std::pair{a, 0.0};
     return std::nullopt;
   }
-  // Least squares in the unit matrices M / |M|, K / |K|.
+  // least squares in the unit matrices M / |M|, K / |K|
   const double c = product(M, K) / (mm * kk);
   const double am = product(A, M) / mm;
   const double ak = product(A, K) / kk;
@@ -48,7 +48,7 @@ std::optional<std::pair<double, double>> rayleighCoefficients(const Sparse& A, c
   return std::nullopt;
 }
 
-/// So many entries that dense columns are no longer than sparse ones.
+/// True if dense columns need no more memory than sparse ones.
 bool isFull(const Sparse& Phi) {
   return static_cast<double>(Phi.nonZeros()) >=
          fullFrom *
@@ -80,7 +80,7 @@ Vector naturalSize(const Sparse& A, const Sparse& Phi) {
   return sizes.cwiseSqrt();
 }
 
-/// Removes the rounding of m_DD: the identity when it is one to enforceBelow.
+/// Removes the rounding of m_DD: sets it to the identity if it equals it to enforceBelow.
 void tidyMass(Sparse& m, Eigen::Index boundary, ProjectedMatrices& out) {
   double defect = 0;
   Vector seen = Vector::Zero(m.rows());
@@ -102,8 +102,8 @@ bool isRounding(double value, Eigen::Index i, Eigen::Index j, const Vector& size
   return std::abs(value) <= roundingLevel * size[i] * size[j];
 }
 
-/// Without the entries that are rounding of the projection: rigid-body motion has no stiffness at
-/// all.
+/// Removes entries that are rounding of the projection: rigid-body motion has exactly zero
+/// stiffness.
 Sparse withoutRounding(const Sparse& k, const Vector& size) {
   Sparse out = k;
   out.prune(
@@ -111,9 +111,9 @@ Sparse withoutRounding(const Sparse& k, const Vector& size) {
   return out;
 }
 
-/// Rows of interface forces that say u_b = Phi_b p + Psi_b g and nothing of the residual forces of
-/// skew or time-dependent stiffness, which without mass would drive the forces: k_gp = 0, k_gg =
-/// Psi_b' of the constant stiffness.
+/// Rows of interface forces that state u_b = Phi_b p + Psi_b g exactly: k_gp = 0, k_gg = Psi_b' of
+/// the constant stiffness. Residual forces of skew or time-dependent stiffness are omitted; they
+/// would drive the massless force coordinates.
 Sparse withExactInterfaces(const Sparse& k, const Basis& basis, bool constant) {
   const auto first = static_cast<int>(k.rows()) - basis.forces();
   Triplets entries;

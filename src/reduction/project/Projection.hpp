@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Phi' A Phi for the matrices of a part, with rounding removed where theory says zero.
+/// Phi' A Phi for the matrices of a part, with rounding removed from entries that are zero in
+/// theory.
 #pragma once
 
 #include <vector>
@@ -14,7 +15,7 @@ struct ProjectedMatrices {
   model::SharedSparse mass;
   model::SharedList<model::MatrixTerm> damping;  ///< one per damping term of the part
   model::SharedList<model::MatrixTerm>
-      stiffness;  ///< the constant terms summed, then one per term that varies in time
+      stiffness;  ///< the sum of the constant terms, then one term for each law of time
   Sparse
       constantStiffness;  ///< the reduced stiffness that is constant in time, also when it is zero
   double massDefect =
@@ -23,19 +24,20 @@ struct ProjectedMatrices {
   bool structureEnforced = false;
 };
 
-/// The stiffness terms of a part as they are projected: all constant ones as one sum (only the sum
-/// has the structure of the basis: k_DC = 0, sym(k_DD) diagonal), then the others as they are.
+/// The stiffness terms of a part for projection: the sum of the constant terms (only the sum has
+/// the structure of the basis: k_DC = 0, sym(k_DD) diagonal), then the others unchanged.
 std::vector<model::MatrixTerm> stiffnessTerms(const model::SecondOrderModel& model);
 
 /// Phi' A Phi; exact zeros are absent.
 Sparse project(const Sparse& A, const Sparse& Phi);
 
-/// All matrices of `part`. For an orthonormal basis whose m_DD is I and whose sym(k_DD) is diagonal
-/// to 1e-10, these and the block k_DC (and k_CD where K is symmetric) are set to what they are in
-/// theory; otherwise they are left as projected and the defects show it. Entries of the constant
-/// stiffness below 1e-14 of |phi_i|' |K| |phi_j| are rounding and left out. Mass and damping are
-/// projected on basis.inertial where the basis has it. A damping matrix that is a combination a M +
-/// b K of the part (Rayleigh damping) becomes a m + b k.
+/// All matrices of `part`. If m_DD = I and sym(k_DD) is diagonal to 1e-10 for an orthonormal basis,
+/// these and the block k_DC (and k_CD for symmetric K) are set to their theoretical values;
+/// otherwise they are left as projected, and the defects are reported. Entries of the constant
+/// stiffness below 1e-14 of
+/// phi_i|' |K| |phi_j| are rounding and are omitted. Mass and damping are projected on
+/// basis.inertial if the basis has it. A damping matrix that is a combination a M + b K of the part
+/// (Rayleigh damping) becomes a m + b k.
 ProjectedMatrices projectMatrices(const PartView& part, const Basis& basis);
 
 }  // namespace tooljoint::reduction

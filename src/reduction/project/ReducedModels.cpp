@@ -94,7 +94,7 @@ void ReducedModels::addLoads(const model::Substructure& part, const Vector& offs
   for (const auto& load : part.model.loads)
     reduced.loads.push_back({load.name, projected(load.vector), load.law});
   if (atRest) return;
-  // K (D_s + Phi q) = ... : -K_i D_s joins the loads, with the law of K_i.
+  // K (D_s + Phi q) = ... : -K_i D_s is added to the loads, with the law of K_i.
   const auto add = [&](const std::string& name, Vector force, int law) {
     if (!force.isZero(0.0)) reduced.loads.push_back({name, std::move(force), law});
   };
@@ -126,7 +126,7 @@ void ReducedModels::addPoints(const model::Substructure& part, const Vector& off
   reduced.recoveryOffset.noalias() += part.model.recovery * offset;
 }
 
-/// Of a basis whose last coordinates are the forces on the interface dofs.
+/// For a basis whose last coordinates are the forces on the interface dofs.
 DerivedInterface ReducedModels::forcesAsCoordinates(const model::Substructure& part,
                                                     const Vector& offset) const {
   const Basis& basis = core_->basis;

@@ -18,7 +18,7 @@ namespace tooljoint::reduction {
 /// (v'M v + |x'K x|) / 2 with K at t = 0 [J].
 double energyOf(const model::SecondOrderModel& model, const Vector& x, const Vector& v);
 
-/// y = A x for many x; dense where A has few zeros.
+/// y = A x for many x; dense if A has few zeros.
 class LinearMap {
  public:
   explicit LinearMap(Sparse A);
@@ -28,22 +28,22 @@ class LinearMap {
 
  private:
   LinearMap() = default;
-  Sparse sparse_;  ///< A, or empty where it is dense
+  Sparse sparse_;  ///< A, or empty if dense
   Matrix dense_;
 };
 
-/// Makes the reduced model of each of some identical parts. What does not differ among them, the
-/// matrices, is one for all; loads, states and points are those of the part.
+/// Makes the reduced models of several identical parts. The matrices, which are equal, are shared;
+/// loads, states and points belong to each part.
 class ReducedModels {
  public:
-  /// `like`, which must outlive this, is the part whose basis and matrices `core` holds.
+  /// `like`, whose basis and matrices `core` holds, must outlive this object.
   ReducedModels(const model::Substructure& like, std::shared_ptr<const ReducedCore> core,
                 const ReductionOptions& options);
-  /// Fills `out`, which is new, with the reduced part; `index` is the number of the part among all.
+  /// Fills the new `out` with the reduced part; `index` is the number of the part among all.
   void make(const model::Substructure& part, int index, ReducedSubstructure& out);
 
  private:
-  /// What a stiffness term does to the reference state.
+  /// Force of a stiffness term in the reference state.
   struct Reaction {
     std::string name;
     LinearMap force;  ///< -Phi' K_i
@@ -53,7 +53,8 @@ class ReducedModels {
   const LinearMap& transposedBasis();
   /// Phi' f.
   Vector projected(const Vector& load);
-  /// -Phi' K_i of the terms of the stiffness. Not of a large basis, which is as large.
+  /// -Phi' K_i of the terms of the stiffness. Not stored for a large basis, since it would be as
+  /// large.
   const std::vector<Reaction>& reactions();
   void addLoads(const model::Substructure& part, const Vector& offset,
                 model::SecondOrderModel& reduced);
@@ -65,8 +66,8 @@ class ReducedModels {
   std::shared_ptr<const ReducedCore> core_;
   bool keepStatic_;
   std::optional<LinearMap> project_;  ///< Phi'
-  model::SharedSparse recovery_;      ///< of `like` times Phi, for those parts that have one
-  std::vector<Reaction> reactions_;   ///< for those parts that have a reference state
+  model::SharedSparse recovery_;      ///< of `like` times Phi, for parts with the same recovery
+  std::vector<Reaction> reactions_;   ///< for parts with a reference state
 };
 
 }  // namespace tooljoint::reduction

@@ -10,9 +10,9 @@
 
 namespace tooljoint::reduction {
 
-/// result[p] = compute(p, ranks) of every part, for all ranks: on the rank that owns the part, or
-/// on all of them at once where the part is more than the share of a rank (dividedParts).
-/// Collective.
+/// result[p] = compute(p, ranks) of every part, for all ranks. It is computed on the rank that owns
+/// the part, or on all ranks together if the part is larger than the share of a rank
+/// (dividedParts). Collective.
 template <class Result, class Compute>
 std::vector<Result> shareOut(const std::vector<model::Substructure>& parts,
                              const Compute& compute) {

@@ -10,7 +10,7 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Totals below this fraction of the largest one of their kind are no coupling but rounding.
+/// A total below this fraction of the largest one of its kind is rounding.
 constexpr double negligible = 1e-14;
 
 }  // namespace
@@ -38,10 +38,10 @@ Vector interfaceShares(const PartView& part, const Basis& basis, ModeRule::Kind 
   Matrix parts = coupling.array().square();
   if (!mass)
     for (int k = 0; k < modes; ++k) parts.row(k) /= std::abs(basis.eigenvalues[k]);
-  // A buckled mode lowers L' K^-1 L by what it has: measured by the sum of the sizes.
+  // A buckled mode reduces L' K^-1 L by its contribution; the sum of the magnitudes is used.
   for (int k = 0; k < modes && !mass; ++k)
     if (basis.eigenvalues[k] < 0) total += 2.0 * parts.row(k).transpose();
-  // A dof without coupling is detected by the size of its own rows.
+  // A dof without coupling is detected relative to the size of its own rows.
   int counted = 0;
   for (int j = 0; j < boundary; ++j) {
     const double size = inertia.col(j).cwiseAbs().dot(response.col(j).cwiseAbs());

@@ -65,7 +65,7 @@ std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vecto
   for (std::size_t p = 0; p < spectra.size(); ++p) {
     const int known = static_cast<int>(spectra[p].size());
     counts[p] = roundUp(spectra[p], counts[p], pairTolerance);
-    // The modes behind the last known one decide on the cut: two more must be known.
+    // The next modes after the last known one decide on the cut: two more must be known.
     if (!complete[p] && counts[p] + 2 > known) counts[p] = -1;
   }
   return counts;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Number of modes: per part, over all parts, by a cut-off frequency, all, by the coupling to the
-/// boundary of the part (InterfaceCriteria), or by a tolerance
-/// (src/estimate). No rule cuts a close pair (the u and v mode of a shaft): it rounds up.
+/// boundary of the part (InterfaceCriteria), or by a tolerance (src/estimate). No rule separates a
+/// close pair (the u and v mode of a shaft); the number is rounded up.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ namespace tooljoint::reduction {
 
 /// Two neighbouring modes closer than this (relative, in frequency) may be a pair.
 constexpr double defaultPairTolerance = 0.01;
-/// Neighbours closer than this (relative, in frequency) are the same frequency: a cluster is never
-/// cut.
+/// Neighbours closer than this (relative, in frequency) have the same frequency; a cluster is never
+/// separated.
 constexpr double clusterTolerance = 1e-6;
 
 /// The user's choice for a list of parts.
@@ -30,7 +30,7 @@ struct ModeRule {
   std::vector<int> counts;          ///< PerPart: one entry for every part, or a single one for all
   int total = 0;                    ///< Total: the lowest `total` over all parts
   double cutOffHz = 0;              ///< CutOff: all modes at or below
-  double fraction = 0;  ///< InterfaceMass, InterfaceMoment: the share of the whole, in (0, 1]
+  double fraction = 0;  ///< InterfaceMass, InterfaceMoment: the required sum of shares, in (0, 1]
   double frequencyTolerance =
       0;  ///< Tolerance: largest relative error of the coupled frequencies; 0: no condition
   double motionTolerance =
@@ -52,24 +52,22 @@ struct ModeRequest {
   }
 };
 
-/// sign(omega^2) sqrt(|omega^2|): negative for a buckled part, so that the order is that of
-/// omega^2.
+/// sign(omega^2) sqrt(|omega^2|): negative for a buckled part, with the same order as omega^2.
 double signedOmega(double eigenvalue);
 
-/// Number of modes kept when `count` are wanted of the increasing `eigenvalues` (omega^2): `count`,
-/// rounded up when the cut would part a cluster (neighbours equal to clusterTolerance) or a pair
-/// (two modes closer than pairTolerance to each other and nearer to each other than to their other
-/// neighbours). At most eigenvalues.size().
+/// Number of kept modes if `count` of the increasing `eigenvalues` (omega^2) are wanted: `count`,
+/// rounded up if the cut would separate a cluster (neighbours equal to clusterTolerance) or a pair
+/// (two modes closer than pairTolerance and closer to each other than to their other neighbours).
+/// At most eigenvalues.size().
 int roundUp(const Vector& eigenvalues, int count, double pairTolerance);
 
-/// `keep` (1 for a mode that is kept) with the partners of its clusters and close pairs.
+/// `keep` (1 for a kept mode) extended by the partners of its clusters and close pairs.
 std::vector<char> wholePairs(const Vector& eigenvalues, std::vector<char> keep,
                              double pairTolerance);
 
-/// Modes per part when the lowest `total` over all parts are kept: spectra[p] holds the lowest
-/// eigenvalues of part p in increasing order, complete[p] says that these are all. Equal ones go to
-/// the first part. Rounds up within each part. An entry is -1 where spectra[p] is too short to
-/// decide.
+/// Modes per part for the lowest `total` over all parts: spectra[p] holds the lowest eigenvalues of
+/// part p in increasing order; complete[p] is true if these are all. Equal ones go to the first
+/// part. Rounds up within each part. An entry is -1 if spectra[p] is too short to decide.
 std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete,
                             int total, double pairTolerance);
 

@@ -20,7 +20,7 @@ const std::string motionTolerance = "Motion Tolerance";
 /// Name of a choice in an earlier version: a parameter of the list "Reduction".
 std::string inReduction(const std::string& name) { return "../" + name; }
 
-/// Names of the choices that `selection` gives. A switch that is off is not given.
+/// Names of the choices made in `selection`. A switch that is off does not count.
 std::vector<std::string> given(const Teuchos::ParameterList& selection,
                                const std::vector<std::string>& choices) {
   std::vector<std::string> names;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list "Reduction/Mode Selection": how many modes are kept. The name of the one parameter
-/// it holds is the choice, its value the number, frequency, fraction or tolerance.
+/// The deck list "Reduction/Mode Selection": number of kept modes. The list has one parameter; its
+/// name is the choice, its value the number, frequency, fraction or tolerance.
 #pragma once
 
 #include <string>
@@ -29,9 +29,9 @@ double toleranceOf(const Teuchos::ParameterList& reduction, const std::string& n
 bool selectsModesByTolerance(const Teuchos::ParameterList& reduction);
 
 /// The selection of the list "Reduction" (defaults filled in) for `parts` substructures. DeckError
-/// when the list "Mode Selection" does not hold exactly one parameter (the two tolerances may stand
-/// together), or when "Modes by Substructure" does not have `parts` entries.
-/// \param needed  otherwise a deck without that list keeps no modes
+/// when the list "Mode Selection" does not hold exactly one parameter (the two tolerances may be
+/// given together), or when "Modes by Substructure" does not have `parts` entries. \param needed if
+/// false, a deck without that list keeps no modes
 ModeRule readModeSelection(const Teuchos::ParameterList& reduction, int parts, bool needed);
 
 }  // namespace tooljoint::reduction

@@ -15,20 +15,19 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Modes beyond those requested show where the last pair ends: at first, and more where they are
-/// one pair, as a part of those computed.
+/// Modes beyond the requested ones show where the last pair ends: their first number, and, if they
+/// all form one pair, more as a fraction of the computed ones.
 constexpr int guard = 4, guardShare = 4;
 
-/// How many modes an interior block has (fewer than dofs where some have no mass), and how many of
-/// them were computed.
+/// Number of modes of an interior block (less than its dofs if some have no mass), and number of
+/// computed modes.
 struct Progress {
   int available = 0;
   int computed = 0;
 };
 
-/// Modes to compute for one block. Dofs
-/// without mass are static: the finite modes and the constraint modes hold every motion of
-/// the others.
+/// Computes modes of one block. Dofs without mass are static: the finite modes and the constraint
+/// modes represent every motion of the others.
 linalg::EigenPairs solve(const PartView& part, int number, const ModeRequest& request, int count,
                          Progress& progress) {
   const InteriorBlock& block = part.interiorBlock(number);

@@ -14,11 +14,11 @@ namespace tooljoint::reduction {
 /// omega^2 M_II phi = sym(K)_II phi (Nguyen et al. 2020, (35), with the symmetric part of K: the
 /// modes are real; the skew part acts on them through the projection), M_II-normalised, by
 /// increasing eigenvalue, then block. Groups are the interior blocks. Throws ModelError or
-/// ConvergenceError of the eigensolver, naming the part and `what`.
+/// ConvergenceError of the eigensolver, with the part and `what`.
 InteriorVectors fixedInterfaceModes(const PartView& part, const ModeRequest& request,
                                     const std::string& what = "fixed-interface modes");
 
-/// The same of some interior blocks.
+/// The same for some interior blocks.
 InteriorVectors fixedInterfaceModes(const PartView& part, const ModeRequest& request,
                                     const std::vector<int>& blocks, const std::string& what);
 

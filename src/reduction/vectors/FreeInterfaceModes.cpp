@@ -13,15 +13,15 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Energy below this fraction of |phi|' |K| |phi| is none (as in BasisChecks), and forces below
-/// that fraction of |K| |phi| are none.
+/// Energy below this fraction of |phi|' |K| |phi| is zero (as in BasisChecks), and so are forces
+/// below that fraction of |K| |phi|.
 constexpr double noEnergy = 1e-12;
 constexpr double noForce = 1e-7;
-/// Least number of modes to search for rigid-body modes.
+/// Smallest number of modes in the search for rigid-body modes.
 constexpr int lookedAt = 8;
 const std::string what = "free-interface modes";
 
-/// Finds the rigid-body modes, and names all of them.
+/// Finds the rigid-body modes and names all modes.
 void classify(const Sparse& K, InteriorVectors& result) {
   const Sparse absolute = K.cwiseAbs(), transposed = K.transpose();
   for (int k = 0; k < sizeOf(result.vectors); ++k) {
@@ -44,7 +44,7 @@ InteriorVectors solve(const PartView& free, const ModeRequest& request) {
   if (request.kind != ModeRequest::Kind::Below || found.complete ||
       sizeOf(found.vectors) >= lookedAt)
     return found;
-  ModeRequest few = request;  // so low a cut-off that rigid-body modes may lie above it
+  ModeRequest few = request;  // with such a low cut-off that rigid-body modes may lie above it
   few.kind = ModeRequest::Kind::Count;
   few.count = lookedAt;
   const int wanted = found.kept;

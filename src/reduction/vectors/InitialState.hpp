@@ -11,12 +11,12 @@ namespace tooljoint::reduction {
 /// al. 2020, (38)-(42)). Exactly zero for x = 0.
 Vector fitState(const Basis& basis, const Vector& x);
 
-/// The same with q_D of least (x - Phi q)' M (x - Phi q), the kinetic energy of what is lost of a
-/// velocity, whatever the units of the dofs:
+/// The same with q_D that minimises (x - Phi q)' M (x - Phi q), the kinetic energy of the lost part
+/// of a velocity, whatever the units of the dofs:
 ///
 ///     phi_D' M phi_D (q_D - p) = phi_D' M (x - phi_C x_C - phi_D p),
 ///
-/// p from fitState(basis, x), which decides where vectors move no mass.
+/// with p from fitState(basis, x), which applies where vectors have no mass.
 Vector fitState(const Basis& basis, const Sparse& mass, const Vector& x);
 
 /// D(0) = offset + Phi displacement, D'(0) = Phi velocity.
@@ -28,10 +28,10 @@ struct StartState {
 };
 
 /// With `keepStatic`, offset = D_s, the reference state of the part (zero without one), and the
-/// distance from it is fitted in mass; else 0, and D(0) is fitted dof by dof as in the source.
-/// Velocities are fitted in mass.
-/// Where interface forces are coordinates, these are the changes of the forces from those of the
-/// static state, forces = (K D_s - F - R' f(D_s))_b at t = 0, which load the part from then on.
+/// deviation from it is fitted in the mass norm; otherwise offset = 0, and D(0) is fitted dof by
+/// dof as in the source. Velocities are fitted in the mass norm. Coordinates that are interface
+/// forces are changes relative to the static state, forces = (K D_s - F - R' f(D_s))_b at t = 0,
+/// which remain as loads on the part.
 StartState startState(const model::Substructure& part, const Basis& basis, bool keepStatic);
 
 }  // namespace tooljoint::reduction

@@ -13,14 +13,14 @@ namespace tooljoint::reduction {
 
 /// A vector with values on the dofs of one group, zero everywhere else.
 struct ModalVector {
-  double eigenvalue = 0;  ///< omega^2 [rad^2/s^2], or the Ritz value; negative where it buckles
+  double eigenvalue = 0;  ///< omega^2 [rad^2/s^2], or the Ritz value; negative for buckling
   int group = 0;          ///< index into InteriorVectors::groups
   Vector shape;           ///< dofs of the group, mass-normalised
   double residual = 0;    ///< relative, of the equation that defines it, recomputed
   std::string kind;
   std::string why = "as requested";
   std::string name = {};  ///< "vector k" when empty
-  bool floating = false;  ///< moves without elastic energy: omega^2 is zero but for rounding
+  bool floating = false;  ///< moves without elastic energy: omega^2 is zero up to rounding
   bool rigid = false;     ///< floating, and no skew stiffness acts on it
 
   /// omega^2 for tables.
@@ -30,13 +30,13 @@ struct ModalVector {
 /// Vectors of one source for a part.
 struct InteriorVectors {
   std::vector<std::vector<int>> groups;  ///< dofs of the part, each increasing
-  std::vector<ModalVector> vectors;      ///< all that were computed, those to keep first
-  int kept = 0;                          ///< the first `kept` of them answer the request
-  bool complete = false;                 ///< `vectors` are all there are
-  bool removable = false;                ///< with fewer kept they answer a smaller request
+  std::vector<ModalVector> vectors;      ///< all computed vectors, the kept ones first
+  int kept = 0;                          ///< the first `kept` of them fulfil the request
+  bool complete = false;                 ///< `vectors` contains all vectors that exist
+  bool removable = false;                ///< fewer kept vectors fulfil a smaller request
   double orthogonality = 0;              ///< max |V' M V - 1| over the groups
-  std::string method;                    ///< how they were computed, for tables
-  std::vector<std::string> remarks;      ///< sentences a user should read
+  std::string method;                    ///< computation method, for tables
+  std::vector<std::string> remarks;      ///< remarks for the user
 
   Vector eigenvalues() const;
   /// Number of rigid-body modes among `vectors`.
@@ -45,7 +45,8 @@ struct InteriorVectors {
   Matrix columns(const std::vector<int>& which, int size) const;
   /// Keeps all vectors, by increasing eigenvalue.
   void keepAll();
-  /// Remarks on fewer or more kept vectors than requested. \param available all there are
+  /// Adds remarks on fewer or more kept vectors than requested.
+  /// \param available  number of existing vectors
   void remarkOnCount(const ModeRequest& request, int available, const std::string& what = "modes");
 };
 

@@ -76,7 +76,7 @@ class DrivenBlock {
   }
 
   int size() const { return set_->size(); }
-  /// Nothing is left: the space is all of the interior, or all that has mass.
+  /// True if the space is the whole interior, or the whole part of it with mass.
   bool complete() const { return exhausted_ || set_->size() == block_.size(); }
   double residual() const { return residual_; }
   /// Adds the Ritz vectors of the space.
@@ -87,20 +87,20 @@ class DrivenBlock {
       vectors.vectors[k].residual = residual_;
   }
 
-  /// How large what the next block adds is, beside the vectors it comes from; decreasing.
+  /// Relative size of the new directions of the next block; decreasing.
   const Vector& sizes() const { return sizes_; }
 
-  /// Takes the next block whole and prepares the one after it.
+  /// Adds the next block completely and prepares the one after it.
   void advance() {
     for (Eigen::Index j = 0; j < directions_.cols(); ++j) set_->add(directions_.col(j));
     follow();
   }
 
-  /// Takes one direction of the next block; the space is not continued after that.
+  /// Adds one direction of the next block; the space is not continued after that.
   void take(Eigen::Index direction) { set_->add(directions_.col(direction)); }
 
-  /// The interface drives nothing more: directions without meaning, so that the space can still
-  /// become all of the interior. Massless dofs depend on the others statically.
+  /// If the interface drives no further direction, adds arbitrary directions, so that the space can
+  /// still become the whole interior. Massless dofs depend on the others statically.
   void restart(int count) {
     const auto seed = static_cast<std::uint64_t>(97 + set_->size());
     Matrix z = linalg::scatteredNumbers(
@@ -132,8 +132,8 @@ class DrivenBlock {
     return x;
   }
 
-  /// States are measured by r_j' M r_j + r_j-1' M r_j-1 / gamma^2, gamma^2 = tr K / tr M, which
-  /// gives both the same unit.
+  /// States are measured by r_j' M r_j + r_j-1' M r_j-1 / gamma^2, gamma^2 = tr K / tr M, so that
+  /// both terms have the same unit.
   void makeStates() {
     if (!damped_) {
       states_ = std::make_unique<OrthonormalSet>(M_, independent, who_);
@@ -150,7 +150,7 @@ class DrivenBlock {
     states_ = std::make_unique<OrthonormalSet>(sparse(2 * n, 2 * n, entries), independent, who_);
   }
 
-  /// The states after those of the last block.
+  /// Computes the states after those of the last block.
   void follow() {
     const auto n = M_.rows();
     if (!damped_) return prepare(Matrix(-solve(M_ * last_)));
@@ -163,12 +163,12 @@ class DrivenBlock {
     const int old = states_->size();
     for (Eigen::Index j = 0; j < z.cols(); ++j) states_->add(z.col(j));
     last_ = states_->basis().rightCols(states_->size() - old);
-    // A block may repeat what is there and still lead on to what is not.
+    // A block may contain nothing new and still lead to new directions.
     if (directions_.cols() == 0 && last_.cols() > 0) follow();
   }
 
-  /// What is new in the columns r, each measured by itself: r_k / |r_k| = Q h + Q_new R, R = U S
-  /// W'; directions Q_new U of sizes S.
+  /// The new part of the columns r, each relative to its own length: r_k / |r_k| = Q h + Q_new R, R
+  /// = U S W'; directions Q_new U of sizes S.
   void findDirections(const Matrix& r) {
     OrthonormalSet grown = *set_;
     const int old = grown.size();
@@ -203,7 +203,7 @@ class DrivenBlock {
   std::unique_ptr<OrthonormalSet> set_;     ///< the space
   std::unique_ptr<OrthonormalSet> states_;  ///< z_j
   Matrix last_;                             ///< the last of them
-  Matrix directions_;                       ///< what the next block adds
+  Matrix directions_;                       ///< new directions of the next block
   Vector sizes_;
   double residual_ = 0;
   bool exhausted_ = false;
@@ -214,14 +214,14 @@ class Growth {
  public:
   explicit Growth(std::vector<DrivenBlock>& spaces) : spaces_(spaces) {}
 
-  int blocks() const { return blocks_; }  ///< complete ones: moments matched
+  int blocks() const { return blocks_; }  ///< number of complete ones: moments matched
   int size() const {
     int sum = 0;
     for (const auto& space : spaces_) sum += space.size();
     return sum;
   }
 
-  /// To `count` vectors, or all there are.
+  /// Grows to `count` vectors, or to all that exist.
   void grow(int count) {
     while (size() < count) {
       int more = 0;
@@ -248,7 +248,8 @@ class Growth {
     return any;
   }
 
-  /// The largest directions of a block that does not fit whole; those of equal size stay together.
+  /// Adds the largest directions of a block that does not fit completely; directions of equal size
+  /// stay together.
   void fill(int count) {
     struct Direction {
       double size;
@@ -273,7 +274,7 @@ class Growth {
   bool exhausted_ = false;
 };
 
-/// Number of vectors for the driven blocks.
+/// Number of vectors of the driven blocks.
 int wanted(const PartView& part, const std::vector<int>& driven, const ModeRequest& request) {
   if (request.kind == ModeRequest::Kind::Count) return request.count;
   if (request.kind == ModeRequest::Kind::All) return std::numeric_limits<int>::max();

@@ -40,7 +40,7 @@ Matrix startStates(const model::Substructure& part, const LoadVectorOptions& opt
   return X;
 }
 
-/// What boundary dofs leave of them on the interior, without columns of rounding.
+/// The interior part of these that the boundary dofs do not determine, without columns of rounding.
 Matrix interiorStarts(const model::Substructure& part, const LoadVectorOptions& options,
                       const Basis& basis) {
   constexpr double rounding = 1e-12;

@@ -24,12 +24,11 @@ struct LoadVectorOptions {
   bool any() const { return loads || points || startState; }
 };
 
-/// Adds to `basis` what is new in K_II^-1 f_I for every load f (with the full, unsymmetric K;
-/// blocks that no boundary dof touches are balanced by their inertia): the reduced part then
-/// answers these loads statically as the full one does. With `startState` also what is new in the
-/// interior displacement and velocity at t = 0, x_I - phi_C x_C: the motion then starts as that of
-/// the full part. DeckError when modes of the basis move
-/// boundary dofs, ModelError when the interior is a mechanism.
+/// Adds to `basis` the new part of K_II^-1 f_I for every load f (with the full, unsymmetric K;
+/// inertia balances blocks that touch no boundary dof). The static response of the reduced part to
+/// these loads is then exact. With `startState` also the new part of the interior displacement and
+/// velocity at t = 0, x_I - phi_C x_C, so that the motion starts as in the full part. DeckError
+/// when modes of the basis move boundary dofs, ModelError when the interior is a mechanism.
 void addLoadVectors(const PartView& part, const LoadVectorOptions& options, Basis& basis);
 
 /// Throws DeckError when a node of the options has no point law in any of the parts.
@@ -41,7 +40,7 @@ void requirePointNodes(const std::vector<model::Substructure>& parts,
 std::vector<int> sameLoads(const std::vector<model::Substructure>& parts,
                            const std::vector<int>& classes, const LoadVectorOptions& options);
 
-/// Adds "Load Vectors", "Start State Vectors" and their companions to the description of a list,
+/// Adds "Load Vectors", "Start State Vectors" and related parameters to the description of a list,
 /// and reads them.
 void declareLoadVectors(deck::ListSpec& list);
 LoadVectorOptions readLoadVectors(const Teuchos::ParameterList& list);

@@ -15,7 +15,7 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// v' M v below this part of |v|' |M| |v| is rounding: the vector moves no mass.
+/// v' M v below this fraction of |v|' |M| |v| is rounding: the vector has no mass.
 constexpr double massless = 1e-14;
 
 }  // namespace
@@ -69,7 +69,7 @@ bool OrthonormalSet::add(const Vector& vector, Vector& factor) {
 void addRitzVectors(const Sparse& symmetricK, const Sparse& M, const Matrix& Q, int group,
                     const std::string& kind, InteriorVectors& to) {
   if (Q.cols() == 0) return;
-  // (Q' M Q) is the identity but for rounding; keeping it removes the rounding of Q.
+  // (Q' M Q) is the identity up to rounding; including it removes the rounding of Q.
   const Matrix k = Q.transpose() * (symmetricK * Q), m = Q.transpose() * (M * Q);
   const auto pairs = linalg::symmetricPairs(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()));
   if (!pairs.converged)
@@ -104,7 +104,7 @@ Sparse modalColumns(const Basis& basis) {
 
 namespace {
 
-/// The modal columns of a basis as they are, on the whole interior.
+/// Adds the modal columns of a basis unchanged, on the whole interior.
 void addModalVectors(const Basis& basis, const Matrix& V, InteriorVectors& to) {
   std::vector<const BasisRow*> rows;
   for (std::size_t k = basis.partition.boundary.size(); k < basis.rows.size(); ++k)
@@ -120,7 +120,7 @@ void addModalVectors(const Basis& basis, const Matrix& V, InteriorVectors& to) {
   }
 }
 
-/// `before` with these modal vectors in place of its own.
+/// `before` with its modal vectors replaced by these.
 Basis withVectors(const Basis& before, InteriorVectors vectors) {
   const int boundary = sizeOf(before.partition.boundary);
   vectors.keepAll();
@@ -158,7 +158,7 @@ int appendVectors(const PartView& part, const Matrix& X, const std::string& kind
   InteriorVectors vectors, fresh;
   vectors.groups = {basis.partition.interior};
   addRitzVectors(K, M, W, 0, kind, fresh);
-  // V' K W, measured by |V|' |K| |W|: the fixed-interface modes of K have none.
+  // V' K W, relative to |V|' |K| |W|; zero for the fixed-interface modes of K
   const Matrix coupling = V.transpose() * (K * W),
                size = V.cwiseAbs().transpose() * (K.cwiseAbs() * W.cwiseAbs());
   const bool coupled = (coupling.cwiseAbs().array() > 1e-11 * size.array()).any();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Fixed-interface bases of any interior vectors: they are made mass-orthonormal and diagonalise
-/// the stiffness of their span (Rayleigh and Ritz), so that every such basis has the structure of
-/// Craig-Bampton.
+/// Fixed-interface bases from any interior vectors. The vectors are made mass-orthonormal and
+/// diagonalise the stiffness of their span (Rayleigh and Ritz), so that every such basis has the
+/// structure of Craig-Bampton.
 #pragma once
 
 #include <string>
@@ -13,23 +13,21 @@
 
 namespace tooljoint::reduction {
 
-/// Basis::modeKind of columns with dependent coordinates
-/// (ReductionMethod::dependentCoordinates): estimates treat them as truncated, since they cannot
-/// respond to a residual.
+/// Basis::modeKind of columns with dependent coordinates (ReductionMethod::dependentCoordinates):
+/// estimates treat them as truncated, since they cannot respond to a residual.
 inline const std::string followingKind = "tied residual";
 
 /// Vectors that are orthonormal in the inner product of a mass matrix, in the order they came.
 class OrthonormalSet {
  public:
-  /// `tolerance`: a vector whose mass norm falls by more than this factor is dependent on those
-  /// before it. `who` begins error messages.
+  /// `tolerance`: a vector whose mass norm is reduced by more than this factor depends on the
+  /// previous ones. `who` begins error messages.
   OrthonormalSet(const Sparse& mass, double tolerance, std::string who);
 
-  /// Adds what is new in `vector` (Gram-Schmidt, twice); false when nothing is, or when it moves no
+  /// Adds the new part of `vector` (Gram-Schmidt, twice); false if there is none, or if it has no
   /// mass. ModelError when the mass is indefinite.
   bool add(const Vector& vector);
-  /// The same; `factor` becomes the coefficients on the set as it is afterwards: vector = basis()
-  /// factor.
+  /// The same; `factor` becomes the coefficients in the resulting set: vector = basis() factor.
   bool add(const Vector& vector, Vector& factor);
 
   const Matrix& basis() const { return basis_; }
@@ -52,14 +50,14 @@ class OrthonormalSet {
 void addRitzVectors(const Sparse& symmetricK, const Sparse& M, const Matrix& Q, int group,
                     const std::string& kind, InteriorVectors& to);
 
-/// What is new in the columns of X (interior x columns), orthonormalised against the modal columns
-/// of `basis`, becomes further modal columns of `kind`; their number. With `rotate`, all modal
-/// columns become Ritz vectors of the larger span where the new ones are coupled with them by
-/// stiffness; without, they are left as they are, and the basis is no longer `orthonormal`.
+/// Appends the new part of the columns of X (interior x columns), orthonormalised against the modal
+/// columns of `basis`, as modal columns of `kind`; returns their number. With `rotate`, if
+/// stiffness couples the new columns with the others, all modal columns become Ritz vectors of the
+/// larger span. Without `rotate` they are unchanged, and the basis is no longer `orthonormal`.
 int appendVectors(const PartView& part, const Matrix& X, const std::string& kind, double tolerance,
                   bool rotate, Basis& basis);
 
-/// `part` with the boundary a basis of it has, which may have more dofs than that of the part.
+/// `part` with the boundary of its basis, which may have more dofs than that of the part.
 PartView viewOf(const PartView& part, const Basis& basis);
 
 /// The constraint modes of a basis, dofs of the part x boundary dofs.

@@ -15,12 +15,11 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Vectors whose part that is new is less than this, in the mass norm, are combinations of the
-/// others.
+/// Vectors whose new part is smaller than this, in the mass norm, are combinations of the others.
 constexpr double dependent = 1e-10;
 
-/// M-orthonormal columns of the span of Z for a singular M. The vectors are answers K_II^-1 M phi,
-/// of which none but zero moves no mass, as long as K is symmetric.
+/// M-orthonormal columns of the span of Z for a singular M. The vectors are responses K_II^-1 M
+/// phi; for symmetric K only the zero vector among them has no mass.
 Matrix orthonormalWithoutMass(const PartView& part, const Sparse& M, const Matrix& Z) {
   if (!part.symmetric())
     throw ModelError(part.who() +
@@ -59,7 +58,7 @@ void addRitzModes(const PartView& part, const VectorGroup& group, const std::str
   addRitzVectors(k, M, orthonormal(part, M, group.columns), sizeOf(to.groups) - 1, kind, to);
 }
 
-/// Columns of `all` (interior x columns) that are not zero on the dofs of a group.
+/// Columns of `all` (interior x columns) that are nonzero on the dofs of a group.
 VectorGroup restricted(const Matrix& all, const std::vector<int>& interior,
                        const std::vector<int>& dofs) {
   VectorGroup group;
@@ -107,7 +106,7 @@ std::vector<VectorGroup> freeInterfaceVectors(const PartView& part, const Interi
       if (modes.vectors[at(k)].group == number && !modes.vectors[at(k)].rigid) chosen.push_back(k);
     const Matrix shapes = modes.columns(chosen, part.model().size());
     Matrix forces(shapes.rows(), shapes.cols() + carriers.cols());
-    // of other groups: zero here, and left out below
+    // those of other groups: zero here, and removed below
     forces.rightCols(carriers.cols()) = part.mass() * carriers;
     for (int j = 0; j < sizeOf(chosen); ++j) {
       const Vector phi = shapes.col(j), inertia = part.mass() * phi;

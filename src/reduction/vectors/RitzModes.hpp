@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Modal columns from any vectors of the interior: the Rayleigh-Ritz modes of the space they span,
-/// boundary dofs fixed.
+/// Modal columns from any vectors of the interior: the Rayleigh-Ritz modes of their span with fixed
+/// boundary dofs.
 #pragma once
 
 #include <string>
@@ -12,33 +12,33 @@
 
 namespace tooljoint::reduction {
 
-/// Vectors that live on some interior dofs.
+/// Vectors that are nonzero only on some interior dofs.
 struct VectorGroup {
   std::vector<int> positions;  ///< of the part, increasing
-  Matrix columns;              ///< positions x vectors; of any length, not necessarily independent
+  Matrix columns;              ///< positions x vectors; of any length, may be dependent
 };
 
 /// Completes `basis` from the constraint modes and the space of `groups`: Phi = [I 0; phi_C W],
 /// where W are the Ritz modes of each group, W' M_II W = I, W' sym(K)_II W = diag(omega^2), sorted
-/// by omega^2. Vectors that depend on the others to 1e-10 in the mass norm are left out. The groups
-/// must not be joined by mass or stiffness. Whatever vectors span the space, these coordinates give
-/// the same reduced model, with the structure of Craig and Bampton's. Sets vectors, eigenvalues,
-/// modeKind, orthonormal, orthogonality. M_II may be singular where K is symmetric: vectors that
-/// move no mass are left out, static answers are those of the constraint modes. ModelError
-/// otherwise, and where M_II is indefinite.
+/// by omega^2. Vectors that depend on the others to 1e-10 in the mass norm are omitted. Mass and
+/// stiffness must not couple the groups. These coordinates give the same reduced model for any
+/// vectors that span the space, with the structure of Craig and Bampton's. Sets vectors,
+/// eigenvalues, modeKind, orthonormal, orthogonality. M_II may be singular if K is symmetric:
+/// massless vectors are omitted, and static responses come from the constraint modes. Otherwise
+/// ModelError, also if M_II is indefinite.
 void completeWithRitzModes(const PartView& part, const ConstraintModes& constraint,
                            const std::vector<VectorGroup>& groups, const std::string& kind,
                            Basis& basis);
 
-/// What the kept free-interface modes add to the constraint modes, with the boundary dofs held.
-/// From K phi = omega^2 M phi + S phi, S the skew part of K, and phi_C = -K_II^-1 K_IC:
+/// Additions of the kept free-interface modes to the constraint modes, with the boundary dofs held.
+/// From K phi = omega^2 M phi + S phi, with the skew part S of K, and phi_C = -K_II^-1 K_IC:
 ///
-///     y = phi_I - phi_C phi_b = K_II^-1 (omega^2 M phi + S phi)_I,     of a rigid-body mode   y =
-///     K_II^-1 (M phi)_I,
+///     y = phi_I - phi_C phi_b = K_II^-1 (omega^2 M phi + S phi)_I
+///     for a rigid-body mode   y = K_II^-1 (M phi)_I,
 ///
-/// without the difference of nearly equal vectors, and with the inertia-relief answer to rigid-body
-/// acceleration as the limit omega -> 0. One group for each free block; mechanisms of the interior
-/// are among its vectors. Rigid-body modes and elastic ones can be left out.
+/// without a difference of nearly equal vectors, and with the inertia-relief response to rigid-body
+/// acceleration as the limit omega -> 0. One group for each free block; it includes the mechanisms
+/// of the interior. Rigid-body modes and elastic modes can be omitted.
 std::vector<VectorGroup> freeInterfaceVectors(const PartView& part, const InteriorVectors& modes,
                                               const InteriorStatics& statics, bool rigid = true,
                                               bool elastic = true);

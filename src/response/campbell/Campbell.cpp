@@ -25,21 +25,21 @@ namespace tooljoint::response {
 
 namespace {
 
-/// Relative distance of two values that are one repeated value: the whirl of its modes is
+/// Values with a smaller relative distance are one repeated value; the whirl of its modes is
 /// arbitrary.
 constexpr double repeated = 1e-6;
-/// Of the squared displacements of a shape, what less of it across the axis is rounding.
+/// A smaller fraction of the squared displacements normal to the axis is rounding.
 constexpr double noLateral = 1e-9;
-/// A refined mode is that of the diagram when their MAC is not below this.
+/// A refined mode with at least this MAC is the mode of the diagram.
 constexpr double sameMode = 0.5;
-constexpr int storeFormat = 2;     ///< raised when the meaning of a kept diagram changes
+constexpr int storeFormat = 2;     ///< raised when the meaning of a stored diagram changes
 constexpr double keptEvery = 0.2;  ///< [s]
-/// Of the frequency: |Im s - excitation| at a crossing, about one state and about states that are
-/// each found to a tolerance of their own, and iterations allowed.
+/// Tolerance of |Im s - excitation| at a crossing, relative to the frequency: for one state, and
+/// for states that each have their own tolerance. Number of iterations.
 constexpr double crossed = 1e-10, crossedStates = 1e-6;
 constexpr int mostIterations = 40;
 
-/// Displacements of a mode and its sense. With u = Re(U exp(i w t)), v likewise: u v' - v u' =
+/// Displacements of a mode and its sense. With u = Re(U exp(i w t)), v likewise, u v' - v u' =
 /// w Im(U conj(V)) on average, so
 ///
 ///     whirl = 2 sum Im(U conj(V)) / sum (|U|^2 + |V|^2)
@@ -140,9 +140,9 @@ class Diagram {
 
   static bool anyRank(bool condition) { return parallel::maximum(condition ? 1.0 : 0.0) > 0.0; }
 
-  /// How far the diagram is.
+  /// Progress of the diagram.
   struct Reached {
-    std::size_t done = 0;  ///< speeds
+    std::size_t done = 0;  ///< number of speeds
     ModeTracker::Position position;
     CampbellDiagram diagram;
     std::vector<ModeShape> crossingShapes;
@@ -153,7 +153,7 @@ class Diagram {
     }
   };
 
-  /// Speeds that the folder holds.
+  /// Restores the progress; returns the number of stored speeds.
   std::size_t goOn() {
     auto reached = cases::restoreReached<Reached>(store_, keys_);
     tracker_.goOnFrom(std::move(reached.position));
@@ -167,7 +167,7 @@ class Diagram {
     unkept_ = Stopwatch();
   }
 
-  /// The speed whose shapes are kept.
+  /// Index of the speed whose shapes are written.
   std::size_t shapePlace() const {
     const auto& speeds = settings_.speeds;
     if (!settings_.shapeSpeed) return speeds.size() - 1;
@@ -202,7 +202,7 @@ class Diagram {
     }
   }
 
-  /// Of the modes of the rows that were added last.
+  /// Adds the shapes of the rows added last.
   void addShapes() {
     for (const auto& row : out_.rows)
       if (row.speed == tracker_.speed())
@@ -242,7 +242,7 @@ class Diagram {
     return there;
   }
 
-  /// Where modes that grow at one of two speeds do not at the other.
+  /// Adds the limits between two speeds at which modes begin or cease to grow.
   void addLimits(double from, const std::vector<TrackedMode>& before) {
     for (const auto& late : tracker_.now())
       for (const auto& early : before) {
@@ -260,8 +260,8 @@ class Diagram {
     bool refined = true;
   };
 
-  /// g(Omega, s(Omega)) = 0 between two speeds by false position (Illinois), each value a refined
-  /// mode. \param guess  the mode there
+  /// g(Omega, s(Omega)) = 0 between two speeds by false position (Illinois); each value is a
+  /// refined mode. \param guess  the mode there
   template <class Function>
   Root root(const Function& g, double from, const TrackedMode& early, const TrackedMode& late,
             linalg::DampedMode& guess) {
@@ -273,7 +273,7 @@ class Diagram {
     const double share = (linear - from) / (to - from);
     guess = {early.s + share * (late.s - early.s), share < 0.5 ? early.shape : late.shape};
     const Complex interpolated = guess.s;
-    int side = 0;  // that moved last: its opposite weighs half when it moves again
+    int side = 0;  // end moved last; if it moves again, the value at the other end is halved
     for (int i = 0; i < mostIterations; ++i) {
       const double speed = a - ga * (b - a) / (gb - ga);
       const auto mode = refined(speed, guess);
@@ -295,7 +295,7 @@ class Diagram {
     return found;
   }
 
-  /// The mode at a speed near a guess; both have common shapes.
+  /// The mode at a speed close to a guess; both as common shapes.
   std::optional<linalg::DampedMode> refined(double speed, linalg::DampedMode guess) const {
     const auto rotating = states_.about(speed);
     const auto m = rotating->at(speed);
@@ -305,7 +305,7 @@ class Diagram {
     return mode;
   }
 
-  /// The last row of a track; one without figures where a window has not shown it yet.
+  /// The last row of a track; without values if the window has not contained it yet.
   CampbellRow nearestRow(int track) const {
     const auto found = std::find_if(out_.rows.rbegin(), out_.rows.rend(),
                                     [&](const auto& row) { return row.mode == track; });
@@ -342,7 +342,7 @@ class Diagram {
   CampbellDiagram out_;
   const cases::RowFolder& store_;
   cases::RowKeys keys_;
-  Stopwatch unkept_;  ///< since the diagram was kept
+  Stopwatch unkept_;  ///< time since the diagram was stored
 };
 
 }  // namespace

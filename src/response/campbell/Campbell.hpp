@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Campbell diagram: damped eigenvalues against the rotary speed, and where excitations of the
-/// speed meet them.
+/// Campbell diagram: damped eigenvalues as functions of the rotary speed, and their crossings with
+/// excitations that depend on the speed.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -23,7 +23,7 @@ struct FrequencyWindow {
   double middle() const { return 0.5 * (lowest + highest); }
 };
 
-/// An excitation whose frequency follows the rotary speed, order Omega + offset.
+/// An excitation whose frequency depends on the rotary speed, order Omega + offset.
 struct ExcitationLine {
   std::string name;
   double order = 0.0;
@@ -34,9 +34,10 @@ struct ExcitationLine {
 /// The deck list `Campbell`.
 struct CampbellSettings {
   std::vector<double> speeds;  ///< [rad/s], increasing
-  int modes = 0;               ///< followed at least; not of a window, which shows all it holds
+  int modes = 0;               ///< smallest number of followed modes; not for a window, which shows
+                               ///< all its modes
   std::optional<FrequencyWindow> window;
-  std::optional<double> target;      ///< frequency that the modes are nearest to [Hz]
+  std::optional<double> target;      ///< the modes nearest to this frequency are followed [Hz]
   std::optional<double> shapeSpeed;  ///< whose nearest speed of the diagram has its shapes written
                                      ///< [rad/s]; none: the last speed
   std::vector<ExcitationLine> lines;
@@ -56,8 +57,8 @@ struct CampbellRow {
   int mode = 0;        ///< number of the track, from 1
   std::complex<double> s;
   double mac = 1.0;    ///< with the mode at the speed before (ModeTracker)
-  double whirl = 0.0;  ///< +1: all nodes go round with the rotation in circles, -1: against it, 0:
-                       ///< in lines, not across the axis, or a repeated value
+  double whirl = 0.0;  ///< +1: all nodes whirl forward in circles, -1: backward; 0: along lines,
+                       ///< not normal to the axis, or a repeated value
   double error = 0.0;  ///< estimate of |s - s_full| / |s| of a reduced model
   double frequency() const;  ///< Im s / 2 pi [Hz]
   double damping() const;    ///< -Re s / |s|
@@ -71,8 +72,8 @@ struct CampbellRow {
 /// A critical speed: Im s is the frequency of an excitation.
 struct Crossing {
   std::size_t line = 0;  ///< of CampbellSettings::lines
-  CampbellRow at;  ///< the mode there; whirl, mac and error of the nearest speed of the diagram
-  bool refined = true;  ///< false: by linear interpolation between two speeds
+  CampbellRow at;        ///< the mode; whirl, mac and error of the nearest speed of the diagram
+  bool refined = true;   ///< false: by linear interpolation between two speeds
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -80,10 +81,10 @@ struct Crossing {
   }
 };
 
-/// A speed at which a mode begins to grow, or ends: Re s = 0.
+/// A speed at which a mode begins or ceases to grow: Re s = 0.
 struct StabilityLimit {
-  CampbellRow at;      ///< the mode there; whirl, mac and error of the nearest speed of the diagram
-  bool begins = true;  ///< to grow as the speed rises
+  CampbellRow at;       ///< the mode; whirl, mac and error of the nearest speed of the diagram
+  bool begins = true;   ///< growth begins with increasing speed
   bool refined = true;  ///< false: by linear interpolation between two speeds
 
   template <class Archive>
@@ -92,8 +93,7 @@ struct StabilityLimit {
   }
 };
 
-/// A speed of the diagram at which the state is left without vibration: s > 0 of the modes
-/// computed there.
+/// A speed of the diagram at which the state diverges without vibration: a computed mode has s > 0.
 struct Divergence {
   double speed = 0.0;   ///< [rad/s]
   double growth = 0.0;  ///< the largest s [1/s]
@@ -107,7 +107,7 @@ struct Divergence {
 /// The motion of a mode: Re(shape exp(s t)).
 struct ModeShape {
   CampbellRow at;
-  int line = -1;           ///< of the excitation it meets there; -1: a mode of the diagram
+  int line = -1;           ///< excitation of its crossing; -1: a mode of the diagram
   Eigen::VectorXcd shape;  ///< rows of the recovery; of its largest displacement across the axis
                            ///< (any, where there is none) the size is 1 and the phase 0
 
@@ -117,7 +117,7 @@ struct ModeShape {
   }
 };
 
-/// A mode of the full model beside that of the reduced one.
+/// A mode of the full model and that of the reduced one.
 struct SpotCheck {
   double speed = 0.0;  ///< [rad/s]
   int mode = 0;        ///< track of the reduced mode; 0: none
@@ -160,7 +160,7 @@ struct CampbellDiagram {
 
 /// Follows the modes through the speeds of the settings (ModeTracker). A crossing is refined with
 /// the equations at its own speed. ConvergenceError, ModelError of the eigensolver. Every rank
-/// computes the same. The folder keeps how far the diagram is; it goes on from there for the same
+/// computes the same. The progress is stored in the folder and continued from there for the same
 /// deck and program. InterruptedError after a signal. Collective.
 CampbellDiagram campbell(const RotatingStates& states, const CampbellSettings& settings,
                          const cases::RowFolder& store);
@@ -168,7 +168,7 @@ CampbellDiagram campbell(const RotatingStates& states, const CampbellSettings& s
 /// `tooljoint campbell`: state at rest, diagram, campbell.csv, crossings.csv, spot_checks.csv,
 /// states.csv, campbell.h5 with the shapes, and summary.json in `folder` ("": see
 /// cases::analysisFolder). DeckError without the list Campbell. Collective.
-/// \param fresh  forget what an earlier command has left there
+/// \param fresh  discards results of an earlier command
 void runCampbell(const cases::Case& one, const std::string& folder, bool fresh);
 
 }  // namespace tooljoint::response

@@ -111,7 +111,7 @@ const char* whirlWord(double whirl) {
   return whirl > clear ? "forward" : whirl < -clear ? "backward" : "-";
 }
 
-/// A window without a mode is no error, but says so.
+/// Warns of a window without a mode.
 void warnOfEmptiness(const CampbellDiagram& diagram) {
   if (diagram.rows.empty())
     log::warn(
@@ -119,7 +119,7 @@ void warnOfEmptiness(const CampbellDiagram& diagram) {
         "window. Give a wider one (Campbell/Lowest Frequency, Highest Frequency).");
 }
 
-/// The frequencies whose modes are all in the diagram [Hz].
+/// The range of frequencies for which the diagram has all modes [Hz].
 FrequencyWindow covered(const CampbellDiagram& diagram, const CampbellSettings& settings) {
   if (settings.window) return *settings.window;
   const auto [least, most] = std::minmax_element(
@@ -129,7 +129,7 @@ FrequencyWindow covered(const CampbellDiagram& diagram, const CampbellSettings& 
   return {settings.target ? least->frequency() : 0.0, most->frequency()};
 }
 
-/// Of all excitations at all speeds [Hz].
+/// Range of all excitations at all speeds [Hz].
 FrequencyWindow excited(const CampbellSettings& settings) {
   FrequencyWindow all{std::numeric_limits<double>::infinity(), 0.0};
   for (const auto& line : settings.lines)
@@ -140,7 +140,7 @@ FrequencyWindow excited(const CampbellSettings& settings) {
   return all;
 }
 
-/// Critical speeds are those of the modes in the diagram alone. `complete`: which has all modes.
+/// Critical speeds exist only for modes in the diagram. `complete`: the diagram has all modes.
 void sayWhatIsCovered(const CampbellDiagram& diagram, const CampbellSettings& settings,
                       bool complete) {
   if (complete || settings.lines.empty() || diagram.rows.empty()) return;
@@ -187,7 +187,7 @@ void print(const CampbellDiagram& diagram, const CampbellSettings& settings, boo
         worst->speed * rpmPerRadianPerSecond, worst->full.imag() / twoPi));
 }
 
-/// Of |s|: a larger estimate, or error, is worth a warning.
+/// A larger estimate or error, relative to |s|, causes a warning.
 constexpr double tooCoarse = 0.01;
 
 void warnOfCoarseness(const CampbellDiagram& diagram) {
@@ -334,7 +334,7 @@ void summarise(const RotatingCase& rotating, const CampbellDiagram& diagram,
   }
 }
 
-/// As many modes as the model has, unless the deck wants more.
+/// Limits the default number of modes to that of the model. DeckError if the deck gives more.
 void limitModes(const cases::Case& one, CampbellSettings& settings, int dofs) {
   if (settings.window || settings.modes <= dofs) return;
   if (one.deck().gives("Campbell/Modes"))

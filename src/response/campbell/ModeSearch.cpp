@@ -12,15 +12,15 @@ namespace tooljoint::response {
 
 namespace {
 
-/// Of |s|: a mode with less Im s does not vibrate.
+/// A mode with a smaller Im s, relative to |s|, does not vibrate.
 constexpr double noVibration = 1e-6;
-/// Of |s|: what grows more slowly grows by rounding.
+/// Growth below this fraction of |s| is rounding.
 constexpr double noGrowth = 1e-8;
-/// Modes computed beyond those tracked: the next ones may come below them.
+/// Modes computed beyond the tracked ones, since the next modes may move below them.
 constexpr int beyond = 8;
-/// Of the width of a window, searched on either side of it.
+/// Margin on either side of a window that is searched too, relative to its width.
 constexpr double margin = 0.25;
-/// Of the width, the largest |Re s| of a mode in the window.
+/// Largest |Re s| of a mode in the window, relative to its width.
 constexpr double mostDecay = 0.5;
 
 VibratingModes vibrating(const linalg::QuadraticModes& modes) {

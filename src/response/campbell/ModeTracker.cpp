@@ -11,7 +11,7 @@ namespace tooljoint::response {
 
 namespace {
 
-/// A MAC above the first needs no smaller step; below the second a mode is lost.
+/// A MAC above the first needs no smaller step; a mode with a MAC below the second is lost.
 constexpr double sure = 0.9, lost = 0.3;
 constexpr int mostHalvings = 5;
 
@@ -71,7 +71,7 @@ ModeTracker::Partners ModeTracker::match(const VibratingModes& candidates) const
     shapes.col(static_cast<Eigen::Index>(i)) = at_.now[i].shape;
   }
   const Matrix mac = estimate::modalAssurance(mass_, shapes, candidates.shapes);
-  // single modes first: of close values the shapes show which is which
+  // single modes first; close values are assigned by their shapes
   std::vector<int> modesLeft, candidatesLeft = range(candidates.values.size());
   for (int i = 0; i < static_cast<int>(values.size()); ++i) {
     Eigen::Index j = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Damped modes followed from one rotary speed to the next by their shapes.
+/// Tracks damped modes from one rotary speed to the next by their shapes.
 #pragma once
 
 #include <complex>
@@ -17,16 +17,16 @@ namespace tooljoint::response {
 struct VibratingModes {
   Eigen::VectorXcd values;  ///< s [1/s]
   Eigen::MatrixXcd shapes;
-  std::vector<int> wanted;  ///< positions of those that are followed from here on
-  std::vector<int> edge;    ///< positions of those at the edge of a window: they may leave it
+  std::vector<int> wanted;  ///< positions of the modes to follow from here on
+  std::vector<int> edge;    ///< positions of modes at the edge of a window, which may leave it
 };
 
-/// A mode on its way through the speeds.
+/// A tracked mode at the present speed.
 struct TrackedMode {
   int track = 0;           ///< number, from 1 in the order of first appearance
   std::complex<double> s;  ///< [1/s]
   Eigen::VectorXcd shape;
-  double mac = 1.0;   ///< least MAC of the steps since the last advance()
+  double mac = 1.0;   ///< smallest MAC of the steps since the last advance()
   bool edge = false;  ///< it may leave the window of frequencies
 
   template <class Archive>
@@ -35,25 +35,24 @@ struct TrackedMode {
   }
 };
 
-/// Follows modes. From speed to speed a mode goes on as the one with the largest MAC
-/// (M-weighted, estimate::modalAssurance; repeated values as subspaces, estimate::matchModes). A
-/// step over which a MAC falls below 0.9 is halved, five times at most; what then has less than 0.3
-/// ends. A wanted mode that is new begins a track. Modes at the edge of a window end without
-/// smaller steps.
+/// Tracks modes. From speed to speed a mode continues as the one with the largest MAC (M-weighted,
+/// estimate::modalAssurance; repeated values as subspaces, estimate::matchModes). A step with a MAC
+/// below 0.9 is halved, at most five times; a mode that then has less than 0.3 ends. A new wanted
+/// mode begins a track. Modes at the edge of a window end without smaller steps.
 class ModeTracker {
  public:
-  /// The modes at a speed [rad/s], some more than the `followed` ones and the wanted.
+  /// The modes at a speed [rad/s], somewhat more than the `followed` and the wanted ones.
   using Modes = std::function<VibratingModes(double speed, int followed)>;
 
   /// \param mass   of the shapes
   ModeTracker(Modes modes, const Sparse& mass);
 
-  /// Goes on to this speed, by |s| at the first call.
+  /// Advances to this speed; the first call numbers the modes by |s|.
   void advance(double speed);
   double speed() const { return at_.speed; }
   const std::vector<TrackedMode>& now() const { return at_.now; }
 
-  /// Where it is on its way, to go on from in another run.
+  /// The state of the tracking, to continue in another run.
   struct Position {
     int tracks = 0;
     double speed = 0.0;
@@ -70,7 +69,7 @@ class ModeTracker {
 
  private:
   void step(double speed, int halvings);
-  /// Positions among the candidates of the modes of now, -1 for none, and their MACs.
+  /// For each current mode its position among the candidates, -1 for none, and the MACs.
   struct Partners {
     std::vector<int> candidate;
     std::vector<double> mac;

@@ -9,20 +9,20 @@
 
 namespace tooljoint::study {
 
-/// What all rows of a plan have in common.
+/// Common data of all rows of a plan.
 struct RowCommand {
-  std::string program;  ///< file that is to run them
+  std::string program;  ///< file of the program that runs them
   std::string command;  ///< "study", "map"
   std::string folder;   ///< of the rows
   int ranksPerRow = 0;
-  std::string options;  ///< further words, with a blank in front
+  std::string options;  ///< further options, with a leading blank
 };
 
-/// "[mpiexec -n K] PROGRAM COMMAND DECK ... --output FOLDER --row ": the number of a row is to
-/// follow.
+/// "[mpiexec -n K] PROGRAM COMMAND DECK ... --output FOLDER --row "; the number of a row is
+/// appended.
 std::string rowCommand(const cases::Case& one, const RowCommand& what);
 
-/// Rank 0 makes the folder and writes a file in it. Collective. FileError.
+/// Makes the folder and writes a file in it on rank 0. Collective. FileError.
 void writePlan(const std::string& folder, const std::string& name, const std::string& text);
 
 }  // namespace tooljoint::study

@@ -34,7 +34,8 @@ std::unique_ptr<cases::Case> RunDecks::read(const PlannedRun& run,
   return nullptr;
 }
 
-/// "--set Transient/Stepp=1: /scene/Transient/Stepp is ..." -> the line of the list that says so.
+/// "--set Transient/Stepp=1: /scene/Transient/Stepp is ..." -> the line of the list with the
+/// override.
 void RunDecks::relocate(const PlannedRun& run, const std::string& line) {
   for (const auto& item : run.overrides) {
     const auto place =

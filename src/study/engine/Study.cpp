@@ -22,18 +22,18 @@ namespace tooljoint::study {
 
 namespace {
 
-/// Rows named in a sentence; the others are counted.
+/// Largest number of rows named in a sentence; the others are counted.
 constexpr std::size_t mostNamed = 10;
 
-/// Repeats of a run that are to be done when the job is.
+/// Number of repeats of a run that are complete after the job.
 struct Job {
   std::size_t run;
   int repeats;
 };
 
-/// One group times all runs once, then all again. Of several groups each does a run with all its
-/// repeats, the companions of the reference among them, and long runs come first: full models, then
-/// short steps.
+/// A single group times all runs once, then all again. With several groups each job does all
+/// repeats of a run, the companions of the reference included, and long runs come first: full
+/// models, then short steps.
 std::vector<Job> jobsOf(const StudyPlan& plan, const StudyRows& rows, bool apart) {
   std::vector<Job> jobs;
   if (apart)
@@ -89,7 +89,7 @@ class Study {
     }
   }
 
-  /// \param ranks  on which the rows were computed
+  /// \param ranks  number of ranks that computed the rows
   void collectRows(int ranks) {
     timing_.ranks = ranks;
     timing_.anyMachine = true;
@@ -110,7 +110,8 @@ class Study {
     scene_.summarise(summary_);
   }
 
-  /// The first group computes the reference, which the others then read; alone also what checks it.
+  /// The first group computes the reference, and the others read it. A single group also computes
+  /// the companions of the reference.
   void first() {
     if (groups_.mine() != 0) return;
     rows_.emplace(plan_, folder_->folder(), timing_);
@@ -130,7 +131,7 @@ class Study {
   void deal() {
     const bool apart = groups_.count() > 1;
     const auto jobs = jobsOf(plan_, *rows_, apart);
-    auto timed = rows_->timed();  // of all groups, as far as it is known here
+    auto timed = rows_->timed();  // of all groups, as far as known on this rank
     std::size_t before = 0;
     for (int n = groups_.next(); n >= 0 && n < static_cast<int>(jobs.size()); n = groups_.next()) {
       const auto [i, repeats] = jobs[static_cast<std::size_t>(n)];
@@ -147,7 +148,7 @@ class Study {
     rows_->copyRepeatedRows();
   }
 
-  /// What all groups have left in the folder.
+  /// Reads the rows of all groups from the folder.
   void gather() {
     if (groups_.count() == 1) return;
     rows_.emplace(plan_, folder_->folder(), timing_);
@@ -218,7 +219,7 @@ class Study {
     summary_.stage(folder_->file("summary.json"));
   }
 
-  /// The study ends early: rows so far stay readable, and the summary says what happened.
+  /// After an error the rows so far remain readable, and the summary describes the error.
   void leave(const Error& error) {
     parallel::meetFailing(error.code(), error.what());
     stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());

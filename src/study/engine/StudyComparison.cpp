@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kCurvePoints = 2000;  ///< of a thinned curve
 
-/// Every so many-th value, so that at most kCurvePoints + 1 are left.
+/// Every n-th value, such that at most kCurvePoints + 1 remain.
 template <class Values>
 std::vector<double> thinned(const Values& values) {
   const std::size_t stride = (values.size() + kCurvePoints - 1) / kCurvePoints;
@@ -25,8 +25,8 @@ std::vector<double> thinned(const Values& values) {
   return out;
 }
 
-/// Where a run stands on the axis of accuracy: the tolerance that is swept, else the tolerance of
-/// an integrator whose steps varied, else the step.
+/// Coordinate of a run on the axis of accuracy: the swept tolerance, otherwise the tolerance of an
+/// integrator with variable steps, otherwise the step.
 std::optional<double> stepOrTolerance(const StudyRun& run, const transient::Counters& counters) {
   const auto& lists = run.scene->list();
   const auto numberAt = [&](const std::string& path) -> std::optional<double> {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// From what a run gave to its row: costs, counts, curves, and errors against the reference.
+/// Fills the row of a run from its results: costs, counts, curves, and errors against the
+/// reference.
 #pragma once
 
 #include <optional>
@@ -14,17 +15,17 @@
 
 namespace tooljoint::study {
 
-/// Knows the motion of the reference. On rank 0 only, which alone keeps motions.
+/// Holds the motion of the reference. On rank 0 only, the only rank with motions.
 class StudyComparison {
  public:
   explicit StudyComparison(const StudyPlan& plan) : plan_(plan) {}
 
-  /// The motion to compare with, of a case at rest. ConvergenceError when it does not move within
-  /// the window: vibration error divides by that motion.
+  /// Sets the reference motion of a case at rest. ConvergenceError if it does not move within the
+  /// window, since the vibration error divides by that motion.
   void setReference(const cases::RestingCase& resting, RecordedHistory history);
   const RecordedHistory& reference() const { return *reference_; }
 
-  /// Everything a first run says goes into its row, the plan of which stays.
+  /// Writes all results of a first run into its row; the plan of the row remains.
   void book(const StudyRun& run, const PreparedModel& prepared, const Execution& execution,
             StudyRow& row) const;
 
@@ -41,10 +42,10 @@ class StudyComparison {
   std::optional<MotionStatistics> statistics_;
 };
 
-/// The row as it was planned, with nothing known.
+/// Resets the row to its plan.
 void forget(StudyRow& row);
 
-/// What is known of a run before it moves.
+/// Writes the results of a run that are known before its motion.
 void bookModel(const PreparedModel& prepared, StudyRow& row);
 
 }  // namespace tooljoint::study

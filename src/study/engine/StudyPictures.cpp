@@ -16,7 +16,7 @@ void drawPictures(const std::string& scriptName, const std::string& prefix,
                   const std::string& folder) {
   if (parallel::rank() != 0) return;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    // pictures of an earlier run are not ours
+    // removes pictures of an earlier run
     const auto name = entry.path().filename().string();
     const auto kind = entry.path().extension();
     if (name.rfind(prefix, 0) == 0 && (kind == ".png" || kind == ".svg"))

@@ -23,13 +23,13 @@ namespace tooljoint::study {
 
 namespace {
 
-constexpr std::size_t listedRuns = 12;  ///< that a fault names
+constexpr std::size_t listedRuns = 12;  ///< in a fault
 
 double transientNumber(const cases::Case& scene, const char* name) {
   return scene.transient().get<double>(name);
 }
 
-/// The lists of a deck that decide what is computed.
+/// The lists of a deck that affect the computation.
 Teuchos::ParameterList computed(const cases::Case& scene) {
   auto list = scene.list();
   list.remove("Output", false);
@@ -39,7 +39,7 @@ Teuchos::ParameterList computed(const cases::Case& scene) {
   return list;
 }
 
-/// Files of the basis "User Vectors", whatever part the "%" in their name stands for.
+/// Files of the basis "User Vectors", for every part that "%" in their name can stand for.
 std::vector<std::string> vectorFiles(const cases::Case& scene) {
   if (!scene.reduces() || !scene.reduction().isSublist("User Vectors")) return {};
   const auto& list = scene.reduction().sublist("User Vectors");
@@ -69,7 +69,7 @@ bool changesTransient(const std::string& override) {
   return begin != std::string::npos && override.compare(begin, list.size(), list) == 0;
 }
 
-/// Step of an implicit integrator [s]; 0 for one that chooses its own.
+/// Step of an implicit integrator [s]; 0 for an integrator that chooses its steps.
 double stepOf(const cases::Case& scene) {
   const auto& list = scene.transient();
   if (transient::isExplicit(list)) return 0.0;
@@ -78,7 +78,7 @@ double stepOf(const cases::Case& scene) {
                                                                     : 0.0;
 }
 
-/// "reference" is 0, "1" too.
+/// 0 for "reference" and for "1".
 std::size_t numberOf(std::size_t runs, const std::string& row) {
   return row == "reference" ? 0 : rowNumber(row, runs, "study");
 }
@@ -141,8 +141,8 @@ class Planner {
     decks_.raise();
   }
 
-  /// Of the implicit runs whose steps the deck gives [s]; 0 without any. The lists Transient of all
-  /// runs are read, each once.
+  /// Shortest step of the implicit runs with steps given in the deck [s]; 0 without such runs. Each
+  /// different list Transient is read once.
   double shortestStep(const std::vector<PlannedRun>& methods) {
     std::set<std::string> seen;
     double shortest = 0.0;
@@ -183,8 +183,8 @@ class Planner {
                                 (more > 0 ? " and " + std::to_string(more) + " more." : "."));
   }
 
-  /// Runs that can be compared have the same nodes at the same times; those of one method, and of
-  /// the reference, are different.
+  /// Runs must have the same nodes at the same times; runs of one method, and those of the
+  /// reference, must differ.
   void compare() {
     const auto& reference = *plan_.runs.front().scene;
     std::map<std::string, std::size_t> seen;

@@ -35,7 +35,7 @@ void StudyProgress::report(std::size_t run, const StudyRow& row, const std::vect
     const auto had = timed[k] < 0 ? wanted : std::min(static_cast<std::size_t>(timed[k]), wanted);
     all += wanted;
     done += had;
-    // a run not seen yet is taken to cost what the others did on average
+    // a run without a time yet is assumed to take the average time of the others
     left += static_cast<double>(wanted - had) * (wall_[k] > 0.0 ? wall_[k] : spent_ / executed_);
   }
   char line[512] = "";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A study as one command per row: the plan of the commands, and what each of them does.
+/// A study as one command per row: the plan of the commands, and their implementation.
 #include <cstddef>
 #include <optional>
 #include <string>

@@ -15,7 +15,8 @@
 namespace tooljoint::study {
 namespace {
 
-/// CPU time of the reference and its companions from which the way to a cheaper one is printed [s].
+/// If the reference and its companions take longer than this CPU time [s], advice on a cheaper one
+/// is printed.
 constexpr double longReference = 60.0;
 constexpr int kStoreFormat = 4;  ///< raised when the meaning of a stored row changes
 
@@ -47,8 +48,8 @@ StudyRows::StudyRows(const StudyPlan& plan, const std::string& folder, const Tim
   find();
 }
 
-/// What decides a row: the deck of its run and that of the reference, the program and the ranks,
-/// and what is compared.
+/// Data that determine a row: the deck of its run and that of the reference, the program and the
+/// ranks, and the compared quantities.
 void StudyRows::makeKeys() {
   keys_.assign(plan_.runs.size(), "");
   parallel::agree([&] {
@@ -69,7 +70,7 @@ void StudyRows::makeKeys() {
   });
 }
 
-/// Times are those of a machine, and of what else runs on it.
+/// Times depend on the machine and on other work on it.
 bool StudyRows::usable(const StudyRow& row) const {
   const auto limit = plan_.settings.timeLimit;
   if (row.givenUpAfter > 0.0 && (!limit || *limit > row.givenUpAfter)) return false;
@@ -77,7 +78,7 @@ bool StudyRows::usable(const StudyRow& row) const {
   return timing_.anyMachine || (row.machine == result_.machine && quiet);
 }
 
-/// What rank 0 finds decides for all.
+/// Reads the stored rows on rank 0 and distributes the result.
 void StudyRows::find() {
   std::vector<int> found;
   for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
@@ -161,7 +162,7 @@ void StudyRows::moveReference() {
   timed_[0] = 1;
 }
 
-/// The check is of the same model; the perturbed run takes the steps of the reference.
+/// The check uses the same model; the perturbed run uses the steps of the reference.
 void StudyRows::sayCost(const PreparedModel& prepared) {
   result_.predictedCpu = runner_.predictedCpu(*plan_.runs[0].scene, prepared);
   const auto check = runner_.predictedCpu(*plan_.runs[1].scene, prepared);
@@ -221,13 +222,14 @@ void StudyRows::execute(std::size_t i, const std::string& title) {
   });
 }
 
-/// Where, and beside how many others, it was timed: none beside the reference, which all wait for.
+/// Records the machine and the number of other rows running there during the timing: none for the
+/// reference, for which all groups wait.
 void StudyRows::sign(StudyRow& row) const {
   row.machine = result_.machine;
   row.beside = row.plan.kind == RunKind::Reference ? 0 : timing_.beside;
 }
 
-/// What was known before the motion is kept.
+/// Keeps the results known before the motion.
 void StudyRows::fail(std::size_t i, const std::string& reason, double givenUpAfter) {
   StudyRow row;
   auto& old = result_.rows[i];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The rows of a study: found again in its folder, computed, timed, and kept there. What is kept is
-/// what a later study, another group of ranks or another process goes on from.
+/// The rows of a study: read from its folder, computed, timed, and stored there. A later study,
+/// another group of ranks or another process continues from the stored rows.
 #pragma once
 
 #include <optional>
@@ -16,37 +16,38 @@
 
 namespace tooljoint::study {
 
-/// Under which circumstances rows are timed.
+/// Conditions under which rows are timed.
 struct Timing {
-  int ranks = 1;              ///< that work on a row together
-  std::optional<int> beside;  ///< rows that run on the same machine meanwhile; none: not known
-  bool anyMachine = false;    ///< rows of other machines and circumstances are taken too
+  int ranks = 1;              ///< that compute a row together
+  std::optional<int> beside;  ///< rows running on the same machine at the same time; none: not
+                              ///< known
+  bool anyMachine = false;    ///< also accept rows of other machines and conditions
 };
 
 /// All calls are collective.
 class StudyRows {
  public:
-  /// Finds what the folder knows.
+  /// Reads the stored rows of the folder.
   StudyRows(const StudyPlan& plan, const std::string& folder, const Timing& timing);
 
   StudyResult& result() { return result_; }
-  /// Repeats done of each run, -1 for one that failed; the same on every rank.
+  /// Completed repeats of each run, -1 for a failed run; the same on every rank.
   const std::vector<int>& timed() const { return timed_; }
   bool isComplete(std::size_t i) const;
   std::size_t completed() const;
-  /// Not the same deck as an earlier run.
+  /// True unless an earlier run has the same deck.
   bool isFirst(std::size_t i) const { return plan_.runs[i].twin == i; }
 
-  /// Computes the reference where it is not known. ConvergenceError: it fails, so that there is
-  /// nothing to compare with.
+  /// Computes the reference if it is not stored. ConvergenceError if it fails, since nothing can
+  /// then be compared.
   void computeReference();
-  /// The check of the reference and the perturbed run, where they are not known.
+  /// Computes the check of the reference and the perturbed run if they are not stored.
   void computeCompanions();
-  /// Takes the reference another process has computed. FileError when it is not there.
+  /// Reads the reference that another process has computed. FileError if it is missing.
   void takeReference();
-  /// One more repeat of a run. What fails of it is its row. `title` is that of the progress bar.
+  /// One more repeat of a run. A failure is stored in its row. `title` is that of the progress bar.
   void run(std::size_t i, const std::string& title);
-  /// Runs of the same deck as an earlier one get its row.
+  /// Copies rows to runs with the same deck as an earlier one.
   void copyRepeatedRows();
 
  private:
@@ -67,7 +68,7 @@ class StudyRows {
   std::vector<int> timed_;
   std::vector<std::string> keys_;  ///< rank 0
   std::optional<RowStore> store_;
-  std::optional<RecordedHistory> history_;  ///< of a reference known from before, rank 0
+  std::optional<RecordedHistory> history_;  ///< of a stored reference, rank 0
   StudyRunner runner_;
   StudyComparison comparison_;
 };

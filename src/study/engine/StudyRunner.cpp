@@ -20,7 +20,8 @@ namespace tooljoint::study {
 
 namespace {
 
-/// A trial of this CPU time shows what a motion will take [s]; a shorter one is repeated longer.
+/// A trial of this CPU time is long enough to predict the time of a motion [s]; a shorter one is
+/// repeated with more steps.
 constexpr double enoughCpu = 0.05;
 constexpr double trialGrowth = 4.0;
 
@@ -42,7 +43,7 @@ std::vector<Eigen::Index> measuredRows(const cases::Measures& measures,
   return rows;
 }
 
-/// Hands samples on and measures how long that takes.
+/// Passes samples on and measures the time this takes.
 class TimedSink : public transient::SampleSink {
  public:
   explicit TimedSink(transient::SampleSink& sink) : sink_(sink) {}
@@ -105,7 +106,7 @@ class HistoryRecorder : public transient::SampleSink {
   RecordedHistory history_;
 };
 
-/// Dofs of the vibration moved by at most `size`, each by another amount.
+/// Changes the initial displacements of the vibration by at most `size`, differently for each dof.
 model::SecondOrderModel perturbed(model::SecondOrderModel model, const cases::Measures& measures,
                                   double size) {
   const auto components = measures.vibration();
@@ -135,7 +136,7 @@ void countContact(const cases::Measures& measures, const model::SecondOrderModel
   }
 }
 
-/// Reduced model of the case, with what it cost.
+/// Reduces the case and records the cost.
 void reduce(const cases::Case& scene, PreparedModel& prepared) {
   const Stopwatch watch;
   prepared.reduction = cases::reduce(scene, *prepared.rest, false);
@@ -166,8 +167,8 @@ Execution integrate(const cases::Case& scene, const cases::Measures& measures,
     const Stopwatch watch;
     long looks = 0;
     hooks.stop = [&] {
-      // the clock costs as much as a few per cent of a short step; other groups of ranks may read
-      // it
+      // reading the clock costs a few per cent of a short step; this also lets other groups of
+      // ranks proceed
       if (++looks % 64 == 0) {
         parallel::progress();
         late = options.timeLimit && watch.cpu() > *options.timeLimit;
@@ -210,7 +211,7 @@ PreparedModel StudyRunner::prepare(const cases::Case& scene, int frequencies) {
   } catch (const Error& error) {
     if (error.code() != ExitCode::ModelNotBuilt && error.code() != ExitCode::NotConverged) throw;
     prepared.notCompared = std::string("The frequencies could not be compared. ") +
-                           error.what();  // the model may move all the same
+                           error.what();  // the motion can still be computed
   }
   return prepared;
 }
@@ -219,7 +220,7 @@ ModeErrors StudyRunner::compare(const cases::Case& scene, const PreparedModel& p
                                 int frequencies) {
   auto lists = scene.list();
   for (const char* name : {"Reduction", "Transient", "Output"}) lists.remove(name, false);
-  auto key = cases::canonicalText(lists);  // of a static state: it is that of the time of the start
+  auto key = cases::canonicalText(lists);  // the static state depends on the start time too
   if (scene.moves()) key += formatNumber(scene.transient().get<double>("Start Time"));
   if (fullModes_.count(key) == 0) {
     FullModes fresh{prepared.rest->full(), {}};
@@ -267,7 +268,7 @@ std::optional<double> StudyRunner::predictedCpu(const cases::Case& scene,
     auto overrides = scene.deck().overrides();
     const bool last = length * trialGrowth >= whole;
     overrides.push_back("Transient/End Time=" + formatNumber(start + std::min(length, whole)));
-    // of the first samples a run judges nothing
+    // no checks of accuracy for the first samples
     for (const char* judged : {"Step Error", "Energy Residual"})
       for (const char* when : {"Warning", "Limit"})
         overrides.push_back(std::string("Transient/") + judged + " " + when + "=1e30");
@@ -276,7 +277,7 @@ std::optional<double> StudyRunner::predictedCpu(const cases::Case& scene,
       if (last || trial.cpu > enoughCpu) return trial.cpu * whole / std::min(length, whole);
     } catch (const Error& error) {
       if (error.code() == ExitCode::Interrupted) throw;
-      return std::nullopt;  // the run itself says why
+      return std::nullopt;  // the run itself reports the reason
     }
   }
 }

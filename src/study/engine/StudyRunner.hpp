@@ -18,7 +18,7 @@
 
 namespace tooljoint::study {
 
-/// The model of a run, full or reduced, before it moves. Times are CPU seconds of all threads,
+/// The model of a run, full or reduced, before its motion. Times are CPU seconds of all threads,
 /// summed over the ranks, and wall seconds.
 struct PreparedModel {
   std::shared_ptr<const cases::RestingCase> rest;
@@ -28,8 +28,8 @@ struct PreparedModel {
   std::string basis;
   long modes = 0;
   double setupCpu = 0.0, setupWall = 0.0;  ///< reduction and coupling
-  ModeErrors modeErrors;                   ///< what comparing costs is in no time
-  std::string notCompared;  ///< why there are no `modeErrors` although they were wanted
+  ModeErrors modeErrors;                   ///< the cost of this comparison is in no time
+  std::string notCompared;                 ///< why requested `modeErrors` are missing
 
   const model::SecondOrderModel& model() const { return reduced ? reduction.model() : full.model; }
 };
@@ -39,23 +39,23 @@ struct ExecutionOptions {
   bool record = true;                     ///< keep the motion
   double perturbation = 0.0;              ///< size of the change of the initial displacements [m]
   std::optional<double> timeLimit;        ///< CPU time after which the run is given up [s]
-  transient::SampleSink* sink = nullptr;  ///< sees the motion too, if there is one
+  transient::SampleSink* sink = nullptr;  ///< also receives the motion, if not null
 };
 
-/// What one motion gave. Times as above, without the recovery of the recorded motion, which is the
-/// same work for every method.
+/// Results of one motion. Times as above, without the recovery of the recorded motion, which is the
+/// same for every method.
 struct Execution {
   transient::TransientReport report;
   RecordedHistory history;
   double cpu = 0.0, wall = 0.0;            ///< of the motion, without recording it
-  double setupCpu = 0.0, setupWall = 0.0;  ///< of the model in kernel form
+  double setupCpu = 0.0, setupWall = 0.0;  ///< of the conversion to kernel form
   long missedNodes = 0;
   double maxPenetration = 0.0;
   std::optional<double> estimatedVibration;  ///< where Reduction/Error Estimate has that of
                                              ///< the transient; its time is not in `cpu` and `wall`
 };
 
-/// A run that took more than its time.
+/// A run that exceeded its time limit.
 struct TimeLimitError : ConvergenceError {
   using ConvergenceError::ConvergenceError;
 };
@@ -63,18 +63,19 @@ struct TimeLimitError : ConvergenceError {
 /// All calls are collective.
 class StudyRunner {
  public:
-  /// Brings the case to rest, and reduces it if its deck says so. With `frequencies` above 0 the
-  /// coupled modes of a reduced model are compared with as many of the full one, which are computed
-  /// once for all runs of the same full model. Throws what the stages throw.
+  /// Computes the state at rest, and reduces the case if its deck requests it. With `frequencies`
+  /// above 0 as many coupled modes of a reduced model are compared with those of the full one,
+  /// which are computed once for all runs with the same full model. Throws the errors of the
+  /// stages.
   PreparedModel prepare(const cases::Case& scene, int frequencies);
 
-  /// Integrates its motion. Throws what transient::integrate throws, InterruptedError, and
+  /// Integrates its motion. Throws the errors of transient::integrate, InterruptedError, and
   /// TimeLimitError.
   Execution move(const cases::Case& scene, const PreparedModel& prepared,
                  const ExecutionOptions& options) const;
 
-  /// CPU time that the motion of the case will take [s], from its first samples; none where those
-  /// already fail. The rest may cost more, where contact begins later.
+  /// Predicted CPU time of the motion of the case [s], from its first samples; none if these fail.
+  /// The rest may cost more, for example after the start of contact.
   std::optional<double> predictedCpu(const cases::Case& scene, const PreparedModel& prepared) const;
 
  private:

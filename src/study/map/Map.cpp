@@ -27,7 +27,7 @@ namespace tooljoint::study {
 
 namespace {
 
-/// Missing points named by a warning; the others are counted.
+/// Largest number of missing points named in a warning; the others are counted.
 constexpr std::size_t mostNamed = 10;
 
 /// One map in one folder.
@@ -41,13 +41,13 @@ class Map {
     if (options.fresh) parallel::agree([&] { RowStore(folder()).clear(); });
   }
 
-  /// \param computes  false: tables of what is there
+  /// \param computes  false: only makes the tables of the stored points
   void go(bool computes) {
     announce();
     files_.complete(
         [&] {
           {
-            const log::WarnOnce once;  // of points that differ in numbers
+            const log::WarnOnce once;  // of points that differ only in numbers
             if (computes) computeAll();
             rows_.emplace(plan_, folder());
             repeatWarnings();
@@ -74,7 +74,7 @@ class Map {
 
   void computeAll() {
     try {
-      // all groups look into the folder before one of them adds to it: the jobs are the same to all
+      // all groups read the folder before any of them adds to it, so that all have the same jobs
       groups_.apart([&] { rows_.emplace(plan_, folder()); });
       if (const auto known = rows_->completed(); known > 0)
         log::info("            " + std::to_string(known) + " of " +
@@ -104,7 +104,7 @@ class Map {
       const auto& row = rows_->rows()[i];
       spent += row.wall;
       computed += 1.0;
-      // the groups work side by side
+      // the groups work at the same time
       const double left = static_cast<double>(jobs.size() - static_cast<std::size_t>(n) - 1) *
                           spent / computed / groups_.count();
       log::info("point " + std::to_string(i + 1) + " of " + std::to_string(plan_.points.size()) +
@@ -130,7 +130,7 @@ class Map {
     parallel::agree([&] { stageMapTable(plan_, rows_->rows(), files_.folder()); });
   }
 
-  /// Of points that were known from before, or that other groups computed. Rank 0 knows the rows.
+  /// Repeats the warnings of stored points and of points of other groups. Rank 0 has the rows.
   void repeatWarnings() {
     if (parallel::rank() != 0) return;
     for (std::size_t i = 0; i < rows_->rows().size(); ++i)
@@ -138,7 +138,7 @@ class Map {
         for (const auto& warning : rows_->rows()[i].warnings) log::warn(warning);
   }
 
-  /// Rank 0 knows the rows.
+  /// Rank 0 has the rows.
   void report() {
     if (parallel::rank() != 0) return;
     log::info(describe(plan_, rows_->rows()));
@@ -150,7 +150,7 @@ class Map {
     if (const auto text = unsettledPoints(plan_, rows_->rows()); !text.empty()) log::warn(text);
   }
 
-  /// Rank 0 knows the rows.
+  /// Rank 0 has the rows.
   void refuseIfAllFailed() {
     parallel::agree([&] {
       if (parallel::rank() != 0) return;

@@ -11,18 +11,19 @@
 namespace tooljoint::study {
 
 struct MapOptions {
-  std::string output;   ///< folder; empty: beside that of a run of the deck
-  bool fresh = false;   ///< forget the points an earlier map left in the folder
-  int ranksPerRow = 0;  ///< ranks that work on a point together; 0: all
+  std::string output;   ///< folder; empty: next to that of a run of the deck
+  bool fresh = false;   ///< remove the points of an earlier map from the folder
+  int ranksPerRow = 0;  ///< ranks that compute a point together; 0: all
 };
 
 /// Computes the list Map of the deck into a folder: map.csv, map.h5, summary.json and pictures.
-/// Points known from before are not computed again; points that fail are missing cells. DeckError,
-/// FileError, InterruptedError; UsageError when the ranks do not make whole groups. Collective.
+/// Stored points are not computed again; points that fail are missing cells. DeckError, FileError,
+/// InterruptedError; UsageError when the number of ranks is not a multiple of the group size.
+/// Collective.
 void runMap(const cases::Case& one, const MapOptions& options);
 
-/// Writes FOLDER/rows.txt, one command a line for every point; they need nothing of each other.
-/// `program` is the file that is to run them. Collective.
+/// Writes FOLDER/rows.txt, one command per line for every point; the commands are independent.
+/// `program` is the file that runs them. Collective.
 void planMapRows(const cases::Case& one, const std::string& folder, const std::string& program,
                  const MapOptions& options);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a map leaves in its folder: map.csv, map.h5, summary.json and pictures.
-/// docs/file-formats.md describes all of it.
+/// Files of a map in its folder: map.csv, map.h5, summary.json and pictures. docs/file-formats.md
+/// describes all of it.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace tooljoint::study {
 
-/// Extremes of one value over the points that have it.
+/// Extremes of one value over the points that have the value.
 struct MapRange {
   std::size_t known = 0;
   std::size_t unsafe = 0;  ///< points beyond a limit
@@ -30,15 +30,15 @@ void summarise(const MapPlan& plan, const std::vector<MapRow>& rows, io::Summary
 
 /// Lines of the log: the range of every value, and the time per point.
 std::string describe(const MapPlan& plan, const std::vector<MapRow>& rows);
-/// Points that failed and why, or are not there; one sentence for those that differ in numbers
-/// alone.
+/// Failed points with the reason, and missing points; one sentence for those that differ only in
+/// numbers.
 std::vector<std::string> missingPoints(const MapPlan& plan, const std::vector<MapRow>& rows);
 
-/// A sentence on the points whose bit has not settled; "" where all have.
+/// A sentence on the points whose bit motion has not settled; "" if all have.
 std::string unsettledPoints(const MapPlan& plan, const std::vector<MapRow>& rows);
 
-/// Draws the maps of a folder with the installed script. When that is not possible, warns with the
-/// command to draw them later. Rank 0 only.
+/// Draws the maps of a folder with the installed script. If that fails, warns with the command to
+/// draw them later. Rank 0 only.
 void drawMap(const std::string& folder);
 
 }  // namespace tooljoint::study

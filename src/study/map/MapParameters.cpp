@@ -19,11 +19,11 @@ using deck::ListSpec;
 using deck::Range;
 using Texts = std::vector<std::string>;
 
-/// Points of one map.
+/// Largest number of points of one map.
 constexpr double mostPoints = 1e4;
-/// Lists that belong to the whole map, and commands of their own.
+/// Lists that apply to the whole map, and lists of other commands.
 const std::set<std::string> wholeMap{"Map", "Study", "Output"};
-/// Parts of summary.json that a run fills.
+/// Parts of summary.json that a run writes.
 constexpr const char* filledByRuns[] = {"model.", "path.", "static.", "reduction.", "transient."};
 
 struct Quantity {
@@ -31,7 +31,7 @@ struct Quantity {
   std::string unit;
 };
 
-/// "60 rpm" as number and unit; null for a text that begins with no number.
+/// "60 rpm" as number and unit; null for a text that does not begin with a number.
 std::optional<Quantity> quantity(const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);

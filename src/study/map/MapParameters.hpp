@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list `Map`: a grid of parameters of the deck, and what is mapped over it.
+/// The deck list `Map`: a grid of parameters of the deck, and the mapped values.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -16,11 +16,11 @@ namespace tooljoint::study {
 /// One axis of the grid.
 struct MapAxis {
   Dimension dimension;          ///< parameter of the deck and its values as texts
-  std::vector<double> numbers;  ///< the values in `unit`; empty where they are no numbers
-  std::string unit;             ///< as the deck writes it; "" for none
+  std::vector<double> numbers;  ///< the values in `unit`; empty if they are not numbers
+  std::string unit;             ///< as written in the deck; "" for none
 };
 
-/// A numeric key of summary.json, and where it is unsafe.
+/// A numeric key of summary.json, and its unsafe range.
 struct MapValue {
   std::string name;  ///< of its list
   std::string key;
@@ -32,7 +32,7 @@ struct MapValue {
 };
 
 struct MapSettings {
-  std::vector<MapAxis> axes;  ///< two at least; the last one varies first
+  std::vector<MapAxis> axes;  ///< at least two; the last one varies first
   std::vector<MapValue> values;
   std::optional<double> timeLimit;  ///< CPU seconds of one point
   bool pictures = true;
@@ -43,8 +43,8 @@ struct MapSettings {
 /// Description of the list `Map`.
 deck::ListSpec mapParameters();
 
-/// The list as plain values. DeckError with one line per fault: fewer than two axes, an axis with
-/// fewer than two points, a value twice, units that differ, a key that summary.json does not have.
+/// Typed values of the list. DeckError with one line per fault: fewer than two axes, an axis with
+/// fewer than two points, a repeated value, different units, a key that summary.json does not have.
 MapSettings readMap(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::study

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A map before it runs: every point of the grid with the deck it makes, read and checked.
+/// A map before it runs: every point of the grid with its deck, read and checked.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ namespace tooljoint::study {
 
 struct MapPoint {
   PlannedRun plan;
-  std::unique_ptr<cases::Case> scene;  ///< null where only another row is to run, or with a fault
-  std::string fault;                   ///< why its model cannot be built; "" where it can
+  std::unique_ptr<cases::Case> scene;  ///< null if only another row runs, or with a fault
+  std::string fault;                   ///< why its model cannot be built; "" if it can
 };
 
 struct MapPlan {
@@ -26,10 +26,11 @@ struct MapPlan {
 
 /// Reads the deck once for every point. DeckError that points into the Map list: no such list, a
 /// path or a value that does not fit the deck, a key of a motion that the deck does not have.
-/// \param row number of the only point to read, from 1; "" for all. UsageError when there is none.
+/// \param row  number of the only point to read, from 1; "" for all. UsageError if it does not
+/// exist.
 MapPlan planMap(const cases::Case& scene, const std::string& row = "");
 
-/// "12 points: speed (4) x weight (3); ...": for a person.
+/// "12 points: speed (4) x weight (3); ...": a readable summary.
 std::string describe(const MapPlan& plan);
 
 }  // namespace tooljoint::study

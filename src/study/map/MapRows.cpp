@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kStoreFormat = 2;  ///< raised when the meaning of a stored row changes
 
-/// What decides a point: the deck but Output, and the window of the figures.
+/// Data that determine a point: the deck without Output, and the window of the results.
 std::string identity(const cases::Case& scene) {
   std::string text = contentOf(scene);
   if (!scene.list().isSublist("Output")) return text;
@@ -31,7 +31,7 @@ std::string identity(const cases::Case& scene) {
   return text;
 }
 
-/// All numbers below a value, with their keys joined by dots; rows of arrays are left out.
+/// All numbers below a value, with their keys joined by dots; rows of arrays are omitted.
 void collect(const Json& value, const std::string& key, std::map<std::string, double>& to) {
   if (value.is_number()) to[key] = value.get<double>();
   if (!value.is_object()) return;
@@ -87,8 +87,8 @@ void MapRows::makeKeys() {
   });
 }
 
-/// What rank 0 finds decides for all. A point that was given up counts while the limit is no
-/// higher.
+/// Reads the stored points on rank 0 for all ranks. A point stopped by the time limit is reused if
+/// the limit has not been raised.
 void MapRows::find() {
   const auto limit = plan_.settings.timeLimit;
   complete_.assign(rows_.size(), 0);
@@ -148,7 +148,7 @@ void MapRows::compute(std::size_t i) {
   parallel::agree([&] { store_->keepText(keys_[i], row.toJson()); });
 }
 
-/// The stages of a run without its files; the row gets the numbers of its summary.
+/// Runs the stages of a run without its files; the row gets the numbers of its summary.
 void MapRows::execute(const cases::Case& scene, MapRow& row) {
   io::Summary summary;
   scene.summarise(summary);

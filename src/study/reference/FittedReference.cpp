@@ -8,7 +8,8 @@
 namespace tooljoint::study {
 namespace {
 
-/// Tolerances of the deck do not hold for the reference. No deck takes this out to the same end.
+/// Removes the tolerances of the deck, which do not apply to the reference. This override also
+/// marks a fitted reference, since no deck uses it for that purpose.
 constexpr const char* usualTolerances = "!Transient/Generalized-alpha";
 
 }  // namespace

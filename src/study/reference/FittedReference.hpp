@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The reference of a study whose deck gives none: one that fits its runs.
+/// A reference fitted to the runs of a study, for decks that give none.
 #pragma once
 
 #include <string>
@@ -17,14 +17,14 @@ constexpr double referenceRefinement = 4.0;
 /// RK4 at half its stability limit, as overrides.
 std::vector<std::string> explicitReference();
 
-/// Sets reference and check where the deck gives neither (both are empty).
+/// Sets reference and check if the deck gives neither (both are empty).
 /// \param shortest  step of the runs [s]; 0: all are explicit or choose their steps
 void fitReference(StudySettings& settings, double shortest);
 
-/// Whether the steps of the reference were fitted to those of the runs.
+/// True if the steps of the reference were fitted to those of the runs.
 bool hasFittedSteps(const StudySettings& settings);
 
-/// "Generalized-alpha, steps of 0.25 ms, ...": the reference run, for a person.
+/// "Generalized-alpha, steps of 0.25 ms, ...": a readable description of the reference run.
 /// \param transient  list of its deck
 std::string describeReference(const StudySettings& settings,
                               const Teuchos::ParameterList& transient);

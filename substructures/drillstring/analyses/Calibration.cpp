@@ -16,19 +16,20 @@
 namespace tooljoint::drillstring {
 namespace {
 
-/// Steps of differences: of a coefficient [1], of the block weight [N].
+/// Steps of finite differences: of a coefficient [1], of the block weight [N].
 constexpr double frictionStep = 1e-4, weightStep = 100.0;
-/// What a measurement counts as off by, in uncertainties, where the string locks up [1].
+/// Residual of a measurement if the string locks up, in uncertainties [1].
 constexpr double lockedUp = 1e4;
-/// Where the search begins when the deck's coefficient is a bound.
+/// Start value of the search when the deck's coefficient is at a bound.
 constexpr double startingFriction = 0.2;
-/// Columns of the scaled Jacobian nearer to dependent than this are not separated.
+/// Columns of the scaled Jacobian that are closer to dependent than this cannot be separated.
 constexpr double dependent = 1e-4;
-/// A coefficient nearer than this to 0 or 1 stands at its bound.
+/// A coefficient closer than this to 0 or 1 is at its bound.
 constexpr double nearBound = 1e-6;
 constexpr double confidence = 0.95;
 
-/// The scene with unknowns p put in: coefficients by stretch, the last one the block weight.
+/// The scene with the unknowns p: friction coefficients by stretch, the last entry is the block
+/// weight.
 class Model {
  public:
   Model(const Scene& scene, const softstring::TorqueDragSettings& settings,
@@ -56,7 +57,7 @@ class Model {
   int values() const { return values_; }
   bool isWeight(std::size_t unknown) const { return unknown + 1 == unknowns_.size(); }
 
-  /// What would have been measured.
+  /// Computed values of the measured quantities.
   std::vector<Measurement> compute(const std::vector<double>& p) const {
     Scene scene = scene_;
     scene.contact->values.muDynamic = p[0];
@@ -91,7 +92,7 @@ class Model {
     return r;
   }
 
-  /// dr/dp by central differences, a column for each of `which`.
+  /// dr/dp by central differences, one column for each entry of `which`.
   Matrix jacobian(const std::vector<double>& p, const std::vector<std::size_t>& which) const {
     Matrix J(values_, static_cast<Eigen::Index>(which.size()));
     for (std::size_t j = 0; j < which.size(); ++j) {
@@ -162,7 +163,7 @@ struct Search : Eigen::DenseFunctor<double> {
   double scale_;
 };
 
-/// The unknowns that some measurement depends on.
+/// Unknowns that affect some measurement.
 std::vector<std::size_t> seen(const Model& model) {
   std::vector<std::size_t> all(model.unknowns().size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -208,7 +209,7 @@ Calibration calibrate(const Scene& scene, const softstring::TorqueDragSettings& 
                     " measured values do not suffice for " + std::to_string(which.size()) +
                     " unknowns. Give at least one more than unknowns.");
 
-  // the block weight is sought in parts of the largest hook load
+  // the block weight is scaled by the largest hook load
   double scale = 1.0;
   for (const auto& one : measured) scale = std::max(scale, std::abs(one.hookLoad.value_or(0.0)));
   Search search(model, which, scale);

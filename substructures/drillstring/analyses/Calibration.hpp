@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Friction coefficients and block weight from measured hook loads and torques, by the soft-string
-/// model and weighted least squares:
+/// Friction coefficients and block weight from measured hook loads and torques, with the
+/// soft-string model and weighted least squares:
 ///
 ///     min_p sum ((computed(p) - measured)/uncertainty)^2,   0 <= mu <= 1,  block weight >= 0
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace tooljoint::drillstring {
 
-/// One quantity that was fitted.
+/// One fitted quantity.
 struct Fitted {
   std::string name;          ///< "friction", "friction in casing", "block weight"
   std::string parameter;     ///< its path in the deck
@@ -34,30 +34,31 @@ struct Calibration {
   double scatter = 0.0;  ///< misfit in uncertainties of the measurements: about 1 is expected
 };
 
-/// Levenberg-Marquardt from the values of the deck; confidence intervals of the linearised problem
-/// by Student's t with the scatter of the residuals, quantities at a bound held there. Coefficients
-/// of stretches that no measurement depends on keep their values. DeckError: fewer measured values
-/// than unknowns, or values that do not separate the unknowns. ConvergenceError.
+/// Levenberg-Marquardt from the values of the deck. Confidence intervals of the linearised problem
+/// by Student's t with the scatter of the residuals; quantities at a bound are held there.
+/// Coefficients of stretches without influence on the measurements keep their values. DeckError:
+/// fewer measured values than unknowns, or values that do not separate the unknowns.
+/// ConvergenceError.
 Calibration calibrate(const Scene& scene, const softstring::TorqueDragSettings& settings,
                       const std::vector<Measurement>& measured);
 
-/// Hook load and surface torque of every operation at every depth with one friction coefficient in
+/// Hook load and surface torque of every operation at every depth, with one friction coefficient in
 /// the whole hole: the curves of a broomstick plot.
 struct BroomRow {
   double bit = 0.0, friction = 0.0;
   std::string operation;
-  double hookLoad = 0.0, surfaceTorque = 0.0;  ///< NaN where the string locks up
+  double hookLoad = 0.0, surfaceTorque = 0.0;  ///< NaN if the string locks up
 };
 std::vector<BroomRow> broomstick(const Scene& scene,
                                  const softstring::TorqueDragSettings& settings);
 
-/// What the deck requests.
+/// Results that the deck requests.
 struct CalibrationResults {
   std::optional<Calibration> fit;
   std::vector<BroomRow> broomstick;
 };
 
-/// The table of the settings, none without one. DeckError: it is missing or malformed, or holds
+/// The table of the settings, empty without one. DeckError if it is missing or malformed, or holds
 /// depths below the string.
 std::vector<Measurement> measurementsOf(const Scene& scene,
                                         const softstring::TorqueDragSettings& settings);

@@ -17,7 +17,7 @@ std::string number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? fmt::format("{:.10g}", *value) : "";
 }
 
-/// ".../Friction/Static" of ".../Friction/Dynamic".
+/// ".../Friction/Static" from ".../Friction/Dynamic".
 std::string staticOf(const std::string& dynamic) {
   return dynamic.substr(0, dynamic.rfind('/') + 1) + "Static";
 }

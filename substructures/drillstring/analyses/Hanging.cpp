@@ -15,7 +15,7 @@ void holdAlongAndAbout(DofFlags& dofs, bool held) {
   dofs[beam::nodal::w] = dofs[beam::nodal::thetaZ] = held;
 }
 
-/// Supports of a string that has lost its first nodes.
+/// Supports of a string without its first nodes.
 SupportSettings hanging(SupportSettings supports, int removedNodes) {
   holdAlongAndAbout(supports.top, true);
   holdAlongAndAbout(supports.bit, false);
@@ -29,7 +29,7 @@ SupportSettings hanging(SupportSettings supports, int removedNodes) {
   return supports;
 }
 
-/// Fields that act on the mud too: weight.
+/// Only the loads that act on the mud too: weight.
 loads::Loads weightAlone(const loads::Loads& all) {
   loads::Loads found;
   for (const auto& load : all)

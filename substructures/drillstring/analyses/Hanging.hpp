@@ -7,10 +7,10 @@
 
 namespace tooljoint::drillstring {
 
-/// The lower part of the string with the bit at the depth `bit` [m], held along and about its axis
-/// by hook and rotary table alone, under its weight (in the mud) alone; supports across the string
-/// go with their nodes. Bit law and top drive are left out. DeckError where it does not fit into
-/// the hole there. Collective.
+/// The lower part of the string with the bit at the depth `bit` [m]. Only hook and rotary table
+/// hold it along and about its axis, and only its weight (in the mud) acts. Lateral supports move
+/// with their nodes. Bit law and top drive are omitted. DeckError if it does not fit into the hole
+/// there. Collective.
 Scene hungAt(const Scene& scene, double bit);
 
 }  // namespace tooljoint::drillstring

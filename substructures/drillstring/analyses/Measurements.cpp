@@ -112,7 +112,7 @@ class Reader {
                : row.cells[static_cast<std::size_t>(i)];
   }
 
-  /// Empty where the cell is, or holds the null of loggers.
+  /// The number of a cell; none for an empty cell or the null value of loggers.
   std::optional<double> number(const deck::DelimitedRow& row, Kind k) {
     const std::string text = cell(row, k);
     if (text.empty()) return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Measured hook loads and surface torques as a table writes them.
+/// Tables of measured hook loads and surface torques.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace tooljoint::drillstring {
 
-/// One line of the table; what was not measured is empty.
+/// One line of the table; missing values are empty.
 struct Measurement {
   double bit = 0.0;  ///< measured depth of the bit [m]
   std::string operation;
@@ -18,8 +18,8 @@ struct Measurement {
 };
 
 /// A CSV file with a header: bit depth, operation, hook load, surface torque, in any order and with
-/// units in brackets ("hook load [klbf]"); one of the last two may be missing, other columns are
-/// not read. `operations`: the names known. DeckError, one line per fault with file and line.
+/// units in brackets ("hook load [klbf]"). One of the last two may be missing; other columns are
+/// ignored. `operations`: the known names. DeckError, one line per fault with file and line.
 std::vector<Measurement> readMeasurements(const std::string& file,
                                           const std::vector<std::string>& operations);
 

@@ -17,8 +17,8 @@ using Row = std::vector<StiffLoads>;
 
 constexpr int storeFormat = 4;  ///< raised when the meaning of a kept depth changes
 
-/// Without an equilibrium there is nothing to slide from: the first operation has that failure, the
-/// others refer to it.
+/// Without an equilibrium there is no start for sliding: the first operation reports that failure,
+/// the others refer to it.
 Row rowAt(const Scene& scene, double bit, const std::vector<softstring::Operation>& operations) {
   try {
     const StiffString string(scene, bit);
@@ -41,7 +41,7 @@ Row rowAt(const Scene& scene, double bit, const std::vector<softstring::Operatio
   }
 }
 
-/// What decides a depth beside the depth: the deck but its analyses, and the operations.
+/// Data that determine the result at a depth: the deck without its analyses, and the operations.
 std::string whoseDepths(const cases::Case& owner,
                         const std::vector<softstring::Operation>& operations) {
   std::string text =
@@ -60,7 +60,7 @@ std::vector<Row> stiffRows(const Scene& scene, const std::vector<double>& depths
   if (depths.empty()) return {};
   cases::RowKeys keys{"depths", whoseDepths(store.owner, operations), {}};
   for (const double depth : depths) keys.rows.push_back(fmt::format("{}", depth));
-  // on one rank, which is alone meanwhile
+  // on one rank at a time, without communication
   return cases::resumedRows<Row>(store, keys, [&](std::size_t i) {
     const Stopwatch watch;
     auto row = rowAt(scene, depths[i], operations);

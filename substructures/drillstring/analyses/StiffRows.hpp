@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The stiff string at many depths of the bit.
+/// The stiff string for many bit depths.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace tooljoint::drillstring {
 
-/// Every operation at every depth, [depth][operation]; depths are dealt to the ranks one by one,
-/// and all ranks end with all rows. One line of progress a depth. Depths that the folder of the
-/// store holds for the same deck, operations and program are not computed again. Collective.
-/// DeckError as StiffString(); FileError; InterruptedError after a signal.
+/// Every operation at every depth, [depth][operation]. Depths are distributed to the ranks one by
+/// one; at the end all ranks have all rows. One line of progress per depth. Depths that are stored
+/// for the same deck, operations and program are not computed again. Collective. DeckError as
+/// StiffString(); FileError; InterruptedError after a signal.
 std::vector<std::vector<StiffLoads>> stiffRows(const Scene& scene,
                                                const std::vector<double>& depths,
                                                const std::vector<softstring::Operation>& operations,

@@ -17,25 +17,26 @@
 
 namespace tooljoint::drillstring {
 
-/// The least of a ratio of allowed to present load, and where it stands.
+/// The smallest ratio of allowed to present load, and its position.
 struct Margin {
-  double factor = 0.0;  ///< infinite where nothing loads the string
+  double factor = 0.0;  ///< infinite if the string is not loaded
   double depth = 0.0;   ///< measured depth [m]
 };
 
 /// Loads of the stiff string in one operation. Forces and torques as those of softstring::Loads.
 struct StiffLoads {
-  std::string failure;                          ///< why there is no equilibrium; empty: there is
-  bool locksUp = false;                         ///< that is why
-  std::string unsettled;                        ///< why no buckled state was found
-  std::string advice;                           ///< what may help then; a sentence, or empty
+  std::string failure;                          ///< why there is no equilibrium; empty if there is
+                                                ///< one
+  bool locksUp = false;                         ///< the reason is lock-up
+  std::string unsettled;                        ///< why no buckled state was found; may be empty
+  std::string advice;                           ///< possible remedy, a sentence; may be empty
   double hookLoad = 0.0, surfaceTorque = 0.0;   ///< without block weight [N, N m]
-  double twist = 0.0;                           ///< of the surface ahead of the bit [rad]
+  double twist = 0.0;                           ///< of the surface relative to the bit [rad]
   double stretch = 0.0;                         ///< by effective tension [m]
   double torqueDefect = 0.0;                    ///< StaticState::relativeTorqueDefect()
-  int iterations = 0;                           ///< of Newton's method, all together
-  bool buckled = false;                         ///< it slid to rest from an unstable state
-  int negativePivots = 0;                       ///< of the tangent; 0: stable but for friction
+  int iterations = 0;                           ///< Newton iterations, in total
+  bool buckled = false;                         ///< reached by sliding from an unstable state
+  int negativePivots = 0;                       ///< of the tangent; 0: stable apart from friction
   std::vector<double> depth;                    ///< of the nodes, from the surface [m]
   std::vector<double> contactForce;             ///< of each node [N]
   std::vector<double> tension, torque, moment;  ///< of each element, at its middle [N, N m]
@@ -52,20 +53,19 @@ struct StiffLoads {
   }
 };
 
-/// The string with its bit at one depth. The nodes stand where they are in the loaded string, the
-/// hanging one without friction: displacements are those by drag, weight on bit and contact alone.
-/// (From nodes of the unloaded string, kilometres of it would move by metres along a well that
+/// The string with its bit at one depth. The nodes have the positions of the loaded string that
+/// hangs without friction, so displacements are due to drag, weight on bit and contact only.
+/// (Relative to the unloaded string, kilometres of string would move by metres along a well that
 /// turns.)
 class StiffString {
  public:
-  /// Bends the string into the well and finds its equilibrium without friction. DeckError where it
+  /// Bends the string into the well and computes its equilibrium without friction. DeckError if it
   /// does not fit into the hole; ConvergenceError.
   StiffString(const Scene& scene, double bit);
 
-  /// The static state that slides as the operation says, with the `Dynamic` friction coefficient.
-  /// Where the one near the string without friction is unstable, or there is none, the one that the
-  /// string slides to from a slight helix. An equilibrium that is not found is marked in the
-  /// result.
+  /// The static state with the sliding of the operation and the `Dynamic` friction coefficient. If
+  /// the state close to the frictionless one is unstable or does not exist, the state that the
+  /// string reaches by sliding from a slight helix. A missing equilibrium is marked in the result.
   StiffLoads under(const softstring::Operation& operation) const;
 
  private:

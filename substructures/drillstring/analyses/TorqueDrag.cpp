@@ -22,13 +22,13 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// Of the length of the string, by which a depth in other units may exceed it by rounding.
+/// A depth in other units may exceed the length of the string by this fraction, due to rounding.
 constexpr double roundedDepth = 1e-6;
 /// Speed of operations that turn when neither list gives one [rad/s].
 constexpr double usualSpeed = 120.0 * constants::rpm;
-/// When the start of the rotation counts as over [s].
+/// Time after which the start of the rotation is over [s].
 constexpr double started = 1e4;
-/// Part of a speed by which one that has settled may differ from its mean.
+/// Relative difference between a settled speed and its mean that counts as rounding.
 constexpr double steady = 1e-9;
 
 double mudDensity(const Scene& scene) {
@@ -38,8 +38,8 @@ double mudDensity(const Scene& scene) {
 
 double gravityOf(const Scene& scene) { return loads::acceleration(scene.loads).z(); }
 
-/// Largest integral of the side force over a length of the string, whose points go up from the
-/// bit; linear between them.
+/// Largest integral of the side force over a length of the string. Points go up from the bit; the
+/// force is linear between them.
 Margin largestJoint(const softstring::Loads& loads, double length) {
   const std::size_t n = loads.depth.size();
   std::vector<double> sum(n, 0.0);  // from the bit up
@@ -63,7 +63,7 @@ void keepLeast(Margin& margin, double factor, double depth) {
   if (factor < margin.factor) margin = {factor, depth};
 }
 
-/// The margin to yield of a section under a stress [Pa], where its strength is known.
+/// Updates the margin to yield by a section under a stress [Pa], if its strength is known.
 void keepLeastYield(Margin& margin, const beam::Section& section,
                     const softstring::TorqueDragSettings& settings, double stress, double depth) {
   const auto& own = section.material().yieldStrength;
@@ -71,16 +71,16 @@ void keepLeastYield(Margin& margin, const beam::Section& section,
   if (strength && stress > 0.0) keepLeast(margin, *strength / stress, depth);
 }
 
-/// Pieces over which a pipe carries the weight of its tool joints and touches with them [m]: a
-/// stand of three pipes.
+/// Longest piece over which a pipe shares the weight and contact of its tool joints [m]: a stand of
+/// three pipes.
 constexpr double longestStand = 30.0;
 
 double lengthOf(const DrillString& string, const Instance& one) {
   return string.nodes[at(one.lastElement + 1)].s - string.nodes[at(one.firstElement)].s;
 }
 
-/// The piece of the string that each element belongs to: the outermost component that holds it and
-/// is no longer than a stand, the innermost where all are longer.
+/// The piece of each element: the outermost component that contains it and is no longer than a
+/// stand, or the innermost one if all are longer.
 std::vector<const Instance*> pieces(const DrillString& string) {
   std::vector<const Instance*> found(string.elements.size(), nullptr);
   for (const auto* instances : {&string.instances, &string.nested})
@@ -92,7 +92,8 @@ std::vector<const Instance*> pieces(const DrillString& string) {
   return found;
 }
 
-/// The friction factor of what a piece touches with: its widest gauge, else its widest body.
+/// The friction factor of the touching body of a piece: its widest gauge, otherwise its widest
+/// body.
 double touchingFactor(const DrillString& string, const Instance& piece) {
   double widest = 0.0, factor = 1.0;
   const auto keep = [&](double radius, double own) {
@@ -109,9 +110,9 @@ double touchingFactor(const DrillString& string, const Instance& piece) {
   return factor;
 }
 
-/// Each element with the mean weight and the largest radius of its piece: a joint that is heavier
-/// than its pipe does not press on one side of the hole where the pipe presses on the other, and a
-/// pipe touches with its joints. Pieces longer than a stand keep the weight of each element.
+/// Each element with the mean weight and the largest radius of its piece: a joint heavier than its
+/// pipe does not press on the opposite side of the hole, and a pipe touches with its joints. Pieces
+/// longer than a stand keep the weight of each element.
 std::vector<softstring::Stretch> stretches(const Scene& scene) {
   const double gravity = gravityOf(scene), mud = mudDensity(scene);
   if (!(gravity > 0.0))
@@ -179,7 +180,7 @@ std::vector<double> depthsOfStiffString(const softstring::TorqueDragSettings& se
   return {*std::max_element(settings.depths.begin(), settings.depths.end())};
 }
 
-/// The first value that a list holds a second time; its end where there is none.
+/// The first value that occurs a second time in a list; its end if there is none.
 template <class T>
 typename std::vector<T>::const_iterator repeated(const std::vector<T>& values) {
   return std::find_if(values.begin(), values.end(), [&](const T& value) {
@@ -246,8 +247,8 @@ SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene
 
 namespace {
 
-/// Of the deck's list Rotary Speed after its start, with sign, of one that goes on changing the
-/// mean; 0 where it is missing or stops.
+/// Speed of the deck's list Rotary Speed after its start, with sign; the mean if it keeps changing;
+/// 0 if the list is missing or the rotation stops.
 double deckSpeed(const Scene& scene) {
   if (!scene.rotary.present()) return 0.0;
   const double last = scene.rotary.speed(2.0 * started);
@@ -266,7 +267,7 @@ double turningSpeed(const Scene& scene, const softstring::TorqueDragSettings& se
 std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings) {
   const auto& loads = scene.list().sublist("Loads");
-  // operations turn in the positive sense: the torque of a deck that turns backward changes its
+  // operations turn in the positive sense, so the torque of a deck that turns backward changes its
   // sign
   const double sense = deckSpeed(scene) < 0.0 ? -1.0 : 1.0;
   drilling::BitLoad bit{loads.get<double>("Weight On Bit"),
@@ -328,7 +329,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
     }
   }
   row.joint = largestJoint(loads, settings.jointLength);
-  if (locked) {  // loads at the point of lock-up have no bound
+  if (locked) {  // loads at the point of lock-up are unbounded
     row.yield = row.sinusoidal = row.helical = {infinite, bit};
     row.neutralDepth = row.largestSideForce = row.sideForceDepth = none;
     row.joint = {none, none};
@@ -338,8 +339,8 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
 
 namespace {
 
-/// Stresses of the elements of the stiff string, whose lower end is that of the soft one, their
-/// margins to yield and to buckling, and the largest force on a joint.
+/// Stresses of the elements of the stiff string, their margins to yield and to buckling, and the
+/// largest force on a joint. The lower end of the stiff string is that of the soft one.
 void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& settings, double bit,
                  StiffLoads& loads) {
   const softstring::PressureDifference pressure(model.string, model.hole, bit,
@@ -366,7 +367,7 @@ void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& s
   }
 }
 
-/// Of the weights that the law of the bit gives.
+/// Warns of weights outside the range of the bit law.
 void warnOfCalibration(const Scene& scene, const std::vector<softstring::Operation>& operations) {
   if (!scene.bit || !scene.bit->law->givesWeight()) return;
   double heaviest = 0.0;
@@ -377,7 +378,7 @@ void warnOfCalibration(const Scene& scene, const std::vector<softstring::Operati
   if (!warning.empty()) log::warn(warning);
 }
 
-/// The load of a registered kind acts along the string in the static state.
+/// True if a registered load acts along the string in the static state.
 bool actsBetween(const loads::Loads& one, const Scene& scene) {
   const auto depths = scene.string.depths();
   const auto points = loads::pointLoads(one, depths, scene.rotary);

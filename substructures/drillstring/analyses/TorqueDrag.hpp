@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// `tooljoint torque-drag`: hook load, surface torque and margins of a deck's string against the
-/// depth of its bit, by the soft-string model and by the string with bending stiffness.
+/// `tooljoint torque-drag`: hook load, surface torque and margins of a deck's string as a function
+/// of bit depth, by the soft-string model and by the string with bending stiffness.
 #pragma once
 
 #include <optional>
@@ -18,16 +18,17 @@
 
 namespace tooljoint::drillstring {
 
-/// One operation at one depth of the bit.
+/// One operation at one bit depth.
 struct TorqueDragRow {
   double bit = 0.0;  ///< [m]
   std::string operation;
-  /// At the surface; NaN where the string locks up on the way.
+  /// At the surface; NaN if the string locks up below it.
   double hookLoad = 0.0;                                ///< effective tension plus block weight [N]
   double surfaceTorque = 0.0;                           ///< -M(0) [N m]
-  double twist = 0.0;                                   ///< of the surface ahead of the bit [rad]
+  double twist = 0.0;                                   ///< of the surface relative to the bit
+                                                        ///< [rad]
   double stretch = 0.0;                                 ///< by effective tension [m]
-  double neutralDepth = 0.0;                            ///< above it nothing is compressed [m]
+  double neutralDepth = 0.0;                            ///< no compression above it [m]
   double largestSideForce = 0.0, sideForceDepth = 0.0;  ///< [N/m], [m]
   Margin joint;  ///< largest side force on the length of a joint of pipe [N] and its middle
   Margin yield, sinusoidal, helical;
@@ -43,37 +44,37 @@ struct TorqueDragProfile {
   std::optional<StiffLoads> stiff = std::nullopt;  ///< none: not computed at this depth
 };
 
-/// The deck's list `Torque and Drag` as it stands there, its defaults where the deck has none.
+/// The deck's list `Torque and Drag`, or its defaults if the deck has none.
 softstring::TorqueDragSettings torqueDragList(const Scene& scene);
 
-/// The same with all depths.
-/// DeckError: a depth is below the deck's bit.
+/// The same with all depths. DeckError if a depth is below the deck's bit.
 softstring::TorqueDragSettings torqueDragSettings(const Scene& scene);
 
-/// DeckError, which begins with `where`: the string does not reach the depth `bit` [m].
+/// DeckError, which begins with `where`, if the string does not reach the depth `bit` [m].
 double withinReach(const Scene& scene, double bit, const std::string& where);
 
-/// A deck's string in its hole as the soft-string model sees them.
+/// A deck's string in its hole for the soft-string model.
 struct SoftModel {
   std::vector<softstring::Stretch> string;
   softstring::Hole hole;
 };
 
-/// A stretch touches the wall at the largest radius of its entry of the assembly (the tool joint of
-/// a pipe). The scene must outlive the model. DeckError: the deck has no friction or no weight.
+/// A stretch touches the wall with the largest radius of its assembly entry (the tool joint of a
+/// pipe). The scene must outlive the model. DeckError: the deck has no friction or no weight.
 SoftModel softModel(const Scene& scene);
 
-/// Rotary speed of the operations that turn [rad/s]: of the settings, else of the deck after its
-/// start, else a usual one.
+/// Rotary speed of the operations that turn [rad/s]: from the settings, otherwise that of the deck
+/// after its start, otherwise a usual one.
 double turningSpeed(const Scene& scene, const softstring::TorqueDragSettings& settings);
 
-/// The operations of the settings, with weight and torque on bit of the deck's list `Loads`.
+/// The operations of the settings, with weight and torque on bit from the deck's list `Loads`.
 std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings);
 
-/// One march with its margins. Yield by von Mises from effective tension, bending by the curvature
-/// of the hole, torsion, and pressure inside over that outside, at both walls of the pipe.
-/// \param allLimits  critical compressions all along the string; else where it is compressed
+/// One soft-string computation with its margins. Yield by von Mises stress from effective tension,
+/// bending by the curvature of the hole, torsion, and inside minus outside pressure, at both walls
+/// of the pipe. \param allLimits  critical compressions all along the string; otherwise in
+/// compression only
 TorqueDragProfile torqueDragAt(const SoftModel& model,
                                const softstring::TorqueDragSettings& settings,
                                const softstring::Operation& operation, double bit, bool allLimits);
@@ -83,19 +84,19 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
 Margin largestOver(double length, const std::vector<double>& depth,
                    const std::vector<double>& force);
 
-/// Every operation at every depth, the stiff string where the deck says so. Collective.
+/// Every operation at every depth, with the stiff string if the deck requests it. Collective.
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene, const cases::RowFolder& store);
 
 /// Prints the tables of the deepest bit and writes torque_drag.csv (a row for each depth and
 /// operation), torque_drag_profile.csv and torque_drag_stiff_profile.csv (along the string, at the
-/// deepest bit), those of the calibration, torque_drag.h5 and summary.json. \param fresh depths
-/// that are kept from before are forgotten. \param announced the case has been announced.
-/// Collective.
+/// deepest bit), those of the calibration, torque_drag.h5 and summary.json.
+/// \param fresh      discards stored depths
+/// \param announced  the case has been announced. Collective.
 void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, bool fresh,
                       bool announced = false);
 
-/// True where the deck has torque and drag computed at the end of a run (`After Run`). DeckError:
-/// it cannot be computed.
+/// True if the deck requests torque and drag at the end of a run (`After Run`). DeckError if it
+/// cannot be computed.
 bool torqueDragAfterRun(const DrillstringCase& one);
 
 }  // namespace tooljoint::drillstring

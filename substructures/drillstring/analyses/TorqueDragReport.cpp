@@ -19,7 +19,7 @@
 namespace tooljoint::drillstring {
 namespace {
 
-/// Torque out of balance by more of its scale is said.
+/// A torque imbalance above this fraction of its scale is reported.
 constexpr double worthAWarning = 0.02;
 
 std::string text(double value, int digits) {
@@ -28,12 +28,12 @@ std::string text(double value, int digits) {
   const bool zero = number.find_first_not_of("-0.") == std::string::npos;
   return zero && number[0] == '-' ? number.substr(1) : number;
 }
-/// An SI value in the unit it is printed in.
+/// An SI value in its printed unit.
 std::string text(double value, const char* usual, int digits) {
   const deck::PrintedUnit unit(usual);
   return std::isfinite(value) ? text(unit(value), digits) + " " + unit.name() : "-";
 }
-/// A margin; what is beyond any load has no digits that say something.
+/// A margin; a value beyond any realistic load is printed as ">999".
 std::string inColumn(const Margin& margin) {
   return std::isfinite(margin.factor) && margin.factor > 999.0 ? ">999" : text(margin.factor, 2);
 }
@@ -56,19 +56,19 @@ void print(const TorqueDragRow& row) {
                     row.operation, text(row.bit, "m", 0), text(row.hookLoad, "kN", 1)));
 }
 
-/// "+1.2 %" of the soft string's value.
+/// "+1.2 %" relative to the value of the soft string.
 std::string beside(double stiff, double soft) {
   if (!std::isfinite(soft) || soft == 0.0) return "-";
   const std::string text = fmt::format("{:+.1f}", 100.0 * (stiff / soft - 1.0));
   return (text == "-0.0" || text == "+0.0" ? "0.0" : text) + " %";
 }
 
-/// Why there is no buckled state, and what may help: nothing where the soft string locks up.
+/// Reason for a missing buckled state; with a remedy unless the soft string locks up.
 std::string withAdvice(const std::string& why, const TorqueDragRow& row, const StiffLoads& stiff) {
   return row.lockUpDepth >= 0.0 || stiff.advice.empty() ? why : why + " " + stiff.advice;
 }
 
-/// Why the stiff string has no result, with what the soft one shows of it.
+/// Reason for a missing result of the stiff string, with the related result of the soft one.
 std::string reason(const TorqueDragRow& row, const StiffLoads& stiff) {
   const std::string failure = withAdvice(stiff.failure, row, stiff);
   const auto buckled = [&](const Margin& margin, const char* limit) {
@@ -130,7 +130,7 @@ void warnOfBuckling(const std::vector<TorqueDragProfile>& profiles) {
         withAdvice(first->stiff->unsettled, first->row, *first->stiff)));
 }
 
-/// A part of the string whose strength nothing gives has no margin to yield.
+/// Parts of the string without a known strength have no margin to yield.
 void warnOfStrength(const Scene& scene, const softstring::TorqueDragSettings& settings) {
   if (settings.yieldStrength) return;
   double whole = 0.0, without = 0.0;
@@ -191,7 +191,8 @@ void reportTorqueDrag(const DrillstringCase& one, const std::string& folder, boo
   files.complete(
       [&] {
         if (!announced) cases::announce(one);
-        calibration = calibrationOf(scene, settings);  // its faults before the long work
+        calibration = calibrationOf(scene, settings);  // reports its faults before the long
+                                                       // computation
         profiles = torqueDrag(scene, {one, files.folder().folder(), fresh});
         print(scene, profiles, settings);
       },

@@ -18,8 +18,8 @@ using Settings = softstring::TorqueDragSettings;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// A quantity of all rows of a table; NaN and infinity where there is nothing to say: a margin of a
-/// string that nothing loads, the loads at the surface of one that locks up.
+/// A quantity of all rows of a table. NaN and infinity mark undefined values: a margin of an
+/// unloaded string, the surface loads of a string that locks up.
 struct Column {
   std::string name, unit, longName;
   std::vector<double> values;
@@ -37,7 +37,7 @@ Column column(const Profiles& profiles, const std::string& name, const std::stri
   return one;
 }
 
-/// A least margin, and its depth where there is one.
+/// A smallest margin, and its depth if it has one.
 template <class Value>
 void addMargin(std::vector<Column>& columns, const Profiles& profiles, const std::string& name,
                const std::string& longName, const Value& value) {
@@ -84,7 +84,7 @@ std::vector<Column> softColumns(const Profiles& profiles) {
   return columns;
 }
 
-/// Of the string with bending stiffness, where it was found.
+/// Columns of the string with bending stiffness, if it was computed.
 std::vector<Column> stiffColumns(const Profiles& profiles, const Settings& settings) {
   std::vector<Column> columns;
   const auto add = [&](const char* name, const char* unit, const char* longName,
@@ -173,7 +173,7 @@ io::Csv profileTable(const Profiles& profiles, double bit) {
   return table;
 }
 
-/// A line a node; loads of an element stand at its upper node.
+/// One line per node; loads of an element are listed at its upper node.
 io::Csv stiffProfileTable(const Profiles& profiles, double bit) {
   io::Csv table({{"operation", ""},
                  {"depth", "m"},
@@ -233,7 +233,7 @@ void writeProfile(const TorqueDragProfile& profile, io::ResultsFile& file) {
 
 }  // namespace
 
-/// The largest contact force of the stiff string and where it acts.
+/// The largest contact force of the stiff string and its depth.
 Margin largestContact(const StiffLoads& stiff) {
   const auto largest = std::max_element(stiff.contactForce.begin(), stiff.contactForce.end());
   return {*largest, stiff.depth[static_cast<std::size_t>(largest - stiff.contactForce.begin())]};

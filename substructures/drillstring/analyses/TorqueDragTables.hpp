@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Torque and drag as tables, datasets and figures of the summary.
+/// Tables, datasets and summary values of torque and drag.
 #pragma once
 
 #include <vector>
@@ -12,13 +12,13 @@
 
 namespace tooljoint::drillstring {
 
-/// The largest contact force of the stiff string [N] and where it acts.
+/// The largest contact force of the stiff string [N] and its depth.
 Margin largestContact(const StiffLoads& stiff);
 /// Depth of the deepest bit [m].
 double deepestBit(const std::vector<TorqueDragProfile>& profiles);
 
-/// torque_drag.csv, torque_drag_profile.csv, and torque_drag_stiff_profile.csv where there is a
-/// stiff string.
+/// torque_drag.csv, torque_drag_profile.csv, and torque_drag_stiff_profile.csv if there is a stiff
+/// string.
 void stageTables(const std::vector<TorqueDragProfile>& profiles,
                  const softstring::TorqueDragSettings& settings, io::OutputFolder& folder);
 /// Groups /rows, /known and /profile of torque_drag.h5.

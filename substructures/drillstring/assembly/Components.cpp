@@ -20,7 +20,7 @@ using Teuchos::ParameterList;
 const std::array<const char*, 4> generalNames = {"Area", "Inertia X", "Inertia Y",
                                                  "Torsion Constant"};
 
-/// Largest angle of a bend [rad]: displacements are linear in it.
+/// Largest angle of a bend [rad]: displacements are linearised.
 constexpr double largestBend = 10.0 * constants::degree;
 
 deck::ListSpec materialSpec() {
@@ -34,7 +34,7 @@ deck::ListSpec materialSpec() {
             "Stress at which it yields: that of the margins to yield.");
 }
 
-/// The parameters of a segment; a component of one segment gives them itself.
+/// The parameters of a segment; a component of one segment has them directly.
 void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
   spec.real("Length", "m", length, Range::positive(), "Length along the axis.");
   spec.integer("Elements", Optional{}, Range::between(1, 10000),
@@ -67,7 +67,7 @@ void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
   spec.list(materialSpec());
 }
 
-/// A bend or a pad: how much, where, and to which side.
+/// A bend or a pad: size, position and side.
 deck::ListSpec sidedSpec(const std::string& name, const std::string& doc, const Range& range,
                          const std::string& size, const std::string& unit,
                          const std::string& sizeDoc) {
@@ -95,19 +95,19 @@ beam::Material readMaterial(const ParameterList& list, const beam::Material& sta
   return material;
 }
 
-/// What a list gives, and the standard for the rest.
+/// The values of a list; `standard` for those it does not have.
 SegmentDefaults readDefaults(const ParameterList& list, const SegmentDefaults& standard) {
   return {readMaterial(list, standard.material), beam::readElement(list, standard.element)};
 }
 
-/// What is wrong with the name of a component in an assembly; "" where nothing is.
+/// Fault of a component name in an assembly; "" if there is none.
 std::string nameFault(const std::string& name) {
   if (name.empty()) return "The component has no name.";
   if (name.find_first_of("*,/{}") == std::string::npos) return "";
   return "The name of a component must not hold any of the characters * , / { }.";
 }
 
-/// Reads one component; the first fault ends it.
+/// Reads one component; ends at the first fault.
 class ComponentReader {
  public:
   ComponentReader(const SegmentDefaults& standard, const ComponentLists& lists)

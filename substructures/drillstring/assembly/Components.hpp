@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a string can be made of: components given by segments, or by parts that are components
-/// themselves (a stand of pipes). They stand in the deck (`Drillstring/Components`) or in a
-/// component library, an XML file of its own.
+/// Components of a string. A component consists of segments, or of parts that are components
+/// themselves (a stand of pipes). Components are defined in the deck (`Drillstring/Components`) or
+/// in a component library, a separate XML file.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@ class ParameterList;
 
 namespace tooljoint::drillstring {
 
-/// Uniform piece of a component, cut into equal elements.
+/// Uniform piece of a component, divided into equal elements.
 struct Segment {
   double length = 0.0;  ///< [m]
   int elements = 1;
@@ -28,15 +28,15 @@ struct Segment {
   double frictionFactor = 1.0;  ///< on the friction coefficients of the wall it touches
 };
 
-/// `count` times the component `name`: one entry of an assembly, "3*collar". "fill*stand" is as
-/// often as it takes to reach the surface.
+/// `count` times the component `name`: one entry of an assembly, "3*collar". "fill*stand" repeats
+/// it until the string reaches the surface.
 struct AssemblyEntry {
   int count = 1;
   std::string name;
   bool fill = false;
 };
 
-/// Something at a place of a component that points to one side of the string.
+/// A feature at a position of a component that points to one side of the string.
 struct SidedFeature {
   double position = 0.0;   ///< from the top of the component [m]; must be a node
   double size = 0.0;       ///< angle of a bend [rad], force of a pad [N]
@@ -57,11 +57,12 @@ struct Component {
   double gaugeDirection = 0.0;  ///< of the offset, from the tool face [rad]
   std::optional<SidedFeature> bend;
   std::optional<SidedFeature> pad;
-  /// How the deck gives the lengths of the first segment, its outer radius and the gauge.
+  /// Names and units with which the deck gives the length of the first segment, its outer radius
+  /// and the gauge.
   deck::Given length{"Length", "m"}, outer{"Outer Radius", "m"}, gauge{"Gauge Radius", "m"};
 };
 
-/// What pieces take that give none of their own.
+/// Values of pieces that do not set their own.
 struct SegmentDefaults {
   beam::Material material;
   beam::ElementChoice element;
@@ -79,7 +80,7 @@ struct ComponentLists {
   deck::Given length(const std::string& path) const { return deck.given(below + path, "m"); }
 };
 
-/// Description of one component, and of a library file, a list of components named by the user.
+/// Description of one component, and of a library file: a list of components named by the user.
 deck::ListSpec componentParameters();
 deck::ListSpec libraryParameters();
 
@@ -87,12 +88,12 @@ deck::ListSpec libraryParameters();
 /// sentence when it is not of the form "name", "count*name" or "fill*name".
 AssemblyEntry parseEntry(const std::string& text);
 
-/// Adds a component to the library. Returns what is wrong with its name (characters that an
-/// assembly gives a meaning, defined before), "" where nothing is; it is then not added.
+/// Adds a component to the library. Returns the fault of its name (characters with a meaning in an
+/// assembly, defined before), "" if there is none; with a fault it is not added.
 std::string addComponent(Component component, ComponentLibrary& library);
 
 /// Adds the components of a list to the library. Faults (radii, missing parameters, a name defined
-/// before ...) go to `faults`, one rendered line each; the component is then left out.
+/// before ...) go to `faults`, one rendered line each; that component is omitted.
 void readComponents(const Teuchos::ParameterList& list, const SegmentDefaults& standard,
                     const ComponentLists& lists, ComponentLibrary& library,
                     std::vector<std::string>& faults);

@@ -18,7 +18,7 @@ using deck::Range;
 
 const std::string here = "Drillstring";
 
-/// Lengths nearer to each other than this share of them are the same.
+/// Lengths with a smaller relative difference are the same.
 constexpr double roundOff = 1e-9;
 
 beam::Material readMaterial(const Teuchos::ParameterList& list) {
@@ -32,8 +32,8 @@ beam::Material readMaterial(const Teuchos::ParameterList& list) {
   return material;
 }
 
-/// Length of a component [m]; none where it, or a part of it, is not in the library or contains
-/// itself: the mesh says so.
+/// Length of a component [m]. None if it, or a part of it, is not in the library or contains
+/// itself; the mesh reports that.
 std::optional<double> lengthOf(const ComponentLibrary& library, const std::string& name,
                                std::size_t depth = 0) {
   const auto found = library.find(name);
@@ -48,8 +48,8 @@ std::optional<double> lengthOf(const ComponentLibrary& library, const std::strin
   return length;
 }
 
-/// The assembly with as many of its first component as reach from the bit to the surface; without
-/// any where an analysis has a bit that is not as deep as the others are long.
+/// The assembly with as many of its first component as reach from the bit to the surface. With none
+/// if an analysis has a bit above the length of the other components.
 std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit, bool asked) {
   auto assembly = settings.assembly;
   std::vector<double> lengths;

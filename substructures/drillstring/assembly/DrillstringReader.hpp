@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Deck list `Drillstring`: components, where they come from, and their order.
+/// Deck list `Drillstring`: components, their source, and their order.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,16 @@
 
 namespace tooljoint::drillstring {
 
-/// What the list `Drillstring` says.
+/// Settings of the list `Drillstring`.
 struct StringSettings {
   ComponentLibrary library;             ///< of the file and of the deck itself
   std::vector<AssemblyEntry> assembly;  ///< from the surface down
-  std::string assemblyWhere;            ///< where the assembly stands in the deck, for messages
-  std::optional<double> bitDepth;       ///< [m]; none: where the assembly ends, or the end of the
-                                        ///< well for one that fills
-  std::string depthWhere;               ///< where the depth stands in the deck, for messages
+  std::string assemblyWhere;            ///< position of the assembly in the deck, for messages
+  std::optional<double> bitDepth;       ///< [m]; none: end of the assembly, or end of the well for
+                                        ///< an assembly that fills
+  std::string depthWhere;               ///< position of the depth in the deck, for messages
   deck::Given depth{"Bit Depth", "m"};  ///< how the deck gives it
-  SegmentDefaults defaults;             ///< of components that give none
+  SegmentDefaults defaults;             ///< of components that do not set them
   double toolFace = 0.0;                ///< [rad]
 
   /// "deck.xml:10: /well/Drillstring/Bit Depth is 7900 ft", the beginning of a message.
@@ -37,9 +37,9 @@ deck::ListSpec drillstringParameters();
 /// is read on rank 0). Throws DeckError with one line "file:line: path: sentence" per fault.
 StringSettings readDrillstring(const deck::Deck& deck);
 
-/// The meshed string in its well, with its lower end at the depth `bit` [m] where one is given,
-/// else that of the settings: see buildDrillString in Mesh.hpp. An assembly that fills gets as many
-/// components as reach from there to the surface. DeckError: the assembly is shorter than the
+/// The meshed string in its well; see buildDrillString in Mesh.hpp. Its lower end is at the depth
+/// `bit` [m] if given, otherwise at that of the settings. An assembly that fills gets as many
+/// components as reach from there to the surface. DeckError if the assembly is shorter than the
 /// depth.
 DrillString buildDrillString(const StringSettings& settings, const well::Well& well,
                              std::optional<double> bit = std::nullopt);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Component libraries that are built in, so that a deck needs no file beside it
-/// (cmake/Templates.cmake).
+/// Built-in component libraries; a deck needs no separate file for them (cmake/Templates.cmake).
 #pragma once
 
 #include <map>

@@ -18,7 +18,7 @@ namespace tooljoint::drillstring {
 namespace {
 
 constexpr std::uint64_t largestTable = 1U << 24U;  // bytes
-/// Longest beam element of a pipe body [m]; the pipe between two tool joints has five.
+/// Longest beam element of a pipe body [m]; the pipe between two tool joints then has five.
 constexpr double longestElement = 1.8;
 constexpr int jointsOfAStand = 3;
 
@@ -82,7 +82,7 @@ class Reader {
     }
   }
 
-  /// Places and units of the columns; false with faults.
+  /// Reads positions and units of the columns; false after faults.
   bool header(const deck::DelimitedRow& row) {
     const std::size_t before = faults_.size();
     std::vector<std::string> known{"Name"};
@@ -123,7 +123,7 @@ class Reader {
                     ". Expected in brackets: " + quotedList(deck::unitsLike(kind.si)) + ".");
   }
 
-  /// The numbers of a row in SI; nothing with a fault.
+  /// The numbers of a row in SI; none after a fault.
   std::optional<std::array<double, quantities>> numbers(const deck::DelimitedRow& row) {
     std::array<double, quantities> value{};
     for (std::size_t i = 0; i < quantities; ++i) {
@@ -179,7 +179,8 @@ class Reader {
   Segment piece(double length, double outer, double inner, double strength) const {
     beam::Material material = standard_.material;
     material.yieldStrength = strength;
-    // a length that is a whole number of elements but for rounding has that number
+    // the tolerance keeps a length that is a whole number of elements, up to rounding, at that
+    // number
     const int elements = static_cast<int>(std::ceil(length / longestElement - 1e-9));
     return {length, std::max(1, elements),
             beam::Section::hollow(0.5 * outer, 0.5 * inner, material), standard_.element};

@@ -20,12 +20,12 @@ namespace nodal = beam::nodal;
 
 namespace {
 
-/// Relative size of the last Newton step of a state after a jump.
+/// Relative size of the last Newton step after a jump.
 constexpr double smallUpdate = 1e-8;
-/// Steps in which a string may become crooked, before the weight grows.
+/// Steps to make the string crooked, before the weight grows.
 constexpr int stepsOfBending = 1000;
 
-/// The scene without what moves, and without the weight on bit.
+/// The scene without motion and without weight on bit.
 Scene atRest(const Scene& scene) {
   Scene still = scene;
   Teuchos::ParameterList list = scene.list().sublist("Loads");
@@ -93,7 +93,7 @@ void BucklingModel::bend(double amplitude, double pitch, statics::PathOptions op
   growing.direction = lateral;
   growing.contained = growing.scale = 1.0;
   options.from = 0.0, options.to = 1.0;
-  options.maxSteps = stepsOfBending;  // those of the deck are of the weight on bit
+  options.maxSteps = stepsOfBending;  // the deck's limit counts steps of the weight
   const equilibrium::LoadPath bending(input, growing);
   options.tolerance *= std::max(1.0, scaleOfPath() / bending.problem().largestLoad());
   const auto report =
@@ -130,8 +130,8 @@ Vector BucklingModel::jump(const equilibrium::LoadPath& problem, const Vector& x
   Vector found = x;
   equilibrium::settle(input, rest, unstableMode(problem, x, towards), scene_.statics.tolerance,
                       staticSolver(scene_), found);
-  // where hardly anything resists a motion, as a turn of a helix about the axis of a vertical
-  // hole, the state is not there yet though its residual is small
+  // motions with little resistance, as the rotation of a helix about the axis of a vertical hole,
+  // leave a small residual far from the state, so the update is checked too
   model::SolveRequest request;
   request.what = "the state after a jump";
   request.tolerance = scene_.statics.tolerance;
@@ -160,8 +160,8 @@ Vector BucklingModel::pathWeights() const {
   return weights;
 }
 
-/// A lateral load under which a straight string would take the shape, to first order:
-/// E I q^4 A (cos q s, sin q s) per length, q = 2 pi/pitch.
+/// A lateral load that deflects a straight string into the shape, to first order: E I q^4 A (cos q
+/// s, sin q s) per length, q = 2 pi/pitch.
 Vector BucklingModel::crooked(double amplitude, double pitch) const {
   Vector load = Vector::Zero(nodal::perNode * input_.nodes);
   const auto depth = scene_.string.depths();
@@ -190,7 +190,7 @@ equilibrium::UnstableMode BucklingModel::unstableMode(const equilibrium::LoadPat
   const Vector shape = modes.vectors.col(0);
   mode.shape = problem.problem().expand(shape.dot(towards) < 0.0 ? Vector(-shape) : shape);
   mode.mass = problem.problem().expand(mass.diagonal());
-  // on the way the string is less stable than here, where it has just become unstable
+  // the string has just become unstable here; during the jump it is less stable
   mode.growthRate = std::sqrt(modes.values.cwiseAbs().maxCoeff());
   return mode;
 }

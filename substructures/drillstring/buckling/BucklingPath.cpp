@@ -25,15 +25,15 @@ namespace {
 
 const std::string listName = "Buckling";
 
-/// Jumps after which a path is given up.
+/// Largest number of jumps of a path.
 constexpr int mostJumps = 100;
-/// Half waves of a string that has buckled: one is the deflection of a well that turns, two that of
-/// a torque at an end.
+/// Smallest number of half waves of a buckled string: a well that turns deflects it in one, a
+/// torque at an end in two.
 constexpr int buckledHalfWaves = 3;
-/// A jump takes place under a weight that is larger by this part of the last weight: where the
-/// states turn there is none just before. Where no state is found, the next one is tried.
+/// Increments of the weight for a jump, as fractions of the last weight: at a turning point there
+/// is no state at the weight just before. If no state is found, the next increment is tried.
 constexpr double beyondLimit[] = {1e-4, 1e-3, 1e-2};
-/// Steps over bifurcations, as a part of the largest step.
+/// Steps over bifurcations, as a fraction of the largest step.
 constexpr double bifurcationShare = 1.0 / 64.0;
 
 statics::PathOptions pathOptions(const Scene& scene, const BucklingSettings& settings) {
@@ -56,11 +56,11 @@ void addBranch(const statics::PathReport& branch, statics::PathReport& all) {
   all.failedSteps += before.failedSteps;
 }
 
-constexpr int storeFormat = 2;  ///< raised when the meaning of a kept path changes
+constexpr int storeFormat = 2;  ///< raised when the meaning of a stored path changes
 
-/// How far the path is: where a branch begins.
+/// Progress of the path: the start of a branch.
 struct Reached {
-  std::size_t done = 0;  ///< states
+  std::size_t done = 0;  ///< number of states
   BucklingPath path;
   double from = 0.0;  ///< parameter of the path [N]
   Vector x;
@@ -73,7 +73,7 @@ struct Reached {
   }
 };
 
-/// Where it is kept.
+/// Storage of the progress.
 struct Store {
   const cases::RowFolder& folder;
   cases::RowKeys keys;
@@ -91,7 +91,7 @@ Store storeOf(const cases::RowFolder& folder) {
 /// The path of the crooked string, with its jumps.
 class Branches {
  public:
-  /// \param start of the crooked string without weight on bit, or where a later branch begins
+  /// \param start  state of the crooked string without weight on bit, or start of a later branch
   Branches(const BucklingModel& model, const BucklingSettings& settings,
            const statics::PathOptions& options, Vector start, BucklingPath& found,
            const Store& store, int branch)
@@ -128,8 +128,8 @@ class Branches {
   int branch() const { return branch_; }
 
  private:
-  /// Whether the path goes on: a string that jumps does so where the weight would have to shrink,
-  /// or where more pivots are negative than before.
+  /// Returns whether the path continues. With jumps it ends where the weight would decrease, or
+  /// where more pivots are negative than before.
   bool add(const statics::PathPoint& point) {
     if (parallel::maximum(interruptRequested() ? 1.0 : 0.0) > 0.0)
       throw InterruptedError(
@@ -153,7 +153,7 @@ class Branches {
     return !jumps || state.negativePivots <= allowed_;
   }
 
-  /// To another state under a little more weight; where there is none, under more.
+  /// Jumps to another state under a slightly larger weight; if none is found, under a larger one.
   bool jump(const statics::PathReport& report) {
     const double most = last_;
     const Vector from = x_, towards = x_ - before_;
@@ -183,7 +183,7 @@ class Branches {
     return false;
   }
 
-  /// The last state is one after a jump.
+  /// Ends the path with the state after a jump at the last weight.
   void end() {
     add({0, options_.to, x_, problem_.negativePivots(x_, options_.to)});
     found_.report.end = statics::PathEnd::Reached;
@@ -202,13 +202,13 @@ class Branches {
   statics::PathOptions options_;
   BucklingPath& found_;
   const Store& store_;
-  std::size_t kept_;  ///< states that are kept
+  std::size_t kept_;  ///< number of stored states
   Vector x_, before_;
   double last_ = 0.0;  ///< parameter of the last state
   int branch_ = 0;
-  /// Negative pivots that are no reason for a jump, since they were there from the first state of
-  /// the branch on: a string that winds about the axis of a vertical hole can come to rest in any
-  /// position, and its crookedness makes some of them slightly unstable.
+  /// Negative pivots that cause no jump, since the branch has had them from its first state on: a
+  /// string that winds about the axis of a vertical hole can rest in any rotational position, and
+  /// its crookedness makes some of them slightly unstable.
   int allowed_ = 0;
 };
 
@@ -216,11 +216,11 @@ class Branches {
 
 namespace {
 
-/// Share of the limit within which it is found.
+/// Relative accuracy of the limit.
 constexpr double limitAccuracy = 1e-5;
 
-/// The least parameter at which `holds` is false, by halving of the step of the path that leads
-/// over it. Null where it holds up to the end.
+/// The smallest parameter at which `holds` is false, by halving the path step that crosses it. Null
+/// if it is true up to the end.
 std::optional<double> limitOf(const equilibrium::LoadPath& problem, Vector x,
                               statics::PathOptions options, const statics::PathObserver& holds) {
   std::optional<double> below, above;
@@ -248,7 +248,7 @@ std::optional<double> limitOf(const equilibrium::LoadPath& problem, Vector x,
 
 namespace {
 
-/// The path of the crooked string from a state on, to the last weight and down again.
+/// The path of the crooked string from a state to the last weight and, if requested, back.
 void followBranches(BucklingModel& model, const BucklingSettings& settings,
                     statics::PathOptions options, Vector x, BucklingPath& found, const Store& store,
                     int branch) {
@@ -305,8 +305,8 @@ BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings,
     return found;
   }
 
-  // The straight string up to its first negative pivot; or up to where it lies in half waves: a
-  // torque, or a well that turns, leads it onto the buckled branch without a pivot.
+  // The straight string up to its first negative pivot, or until it deflects in half waves: a
+  // torque, or a well that turns, leads it to the buckled branch without a negative pivot.
   double compression = 0.0, rigidity = 0.0;
   Vector start;
   {

@@ -14,7 +14,7 @@
 namespace tooljoint::drillstring {
 namespace {
 
-/// "102.96 kN": an SI value with so many decimals, in the unit it is printed in.
+/// "102.96 kN": an SI value in its printed unit, with this number of decimals.
 std::string quantity(double si, const char* usual, int decimals) {
   const deck::PrintedUnit unit(usual);
   return fmt::format("{:.{}f} {}", unit(si), decimals, unit.name());

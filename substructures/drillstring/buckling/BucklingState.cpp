@@ -21,21 +21,21 @@ namespace nodal = beam::nodal;
 
 namespace {
 
-/// Deflections below this part of the clearance count as none.
+/// Deflections below this fraction of the clearance count as none.
 constexpr double straight = 0.05;
-/// The string winds where it is this part of the clearance off the axis.
+/// The string winds if it is at least this fraction of the clearance off the axis.
 constexpr double offAxis = 0.5;
-/// Share of all turning that goes one way in a helix.
+/// Fraction of the total turning that has the same sense in a helix.
 constexpr double oneWay = 0.9;
-/// The middle half of the compressed part, as parts of its length.
+/// The middle half of the compressed part, as fractions of its length.
 constexpr double middleBegin = 0.25, middleEnd = 0.75;
-/// Largest compression of a sinusoidal state over that where it begins (Mitchell 1997).
+/// Largest compression of a sinusoidal state relative to its onset (Mitchell 1997).
 constexpr double lateralLimit = 2.8;
-/// Weight along the hole, of the load of a hinged pipe, that its formula may leave out.
+/// Largest weight along the hole for the formula of a hinged pipe, as a fraction of its load.
 constexpr double littleAlong = 0.1;
-/// Holes of less inclination have no sides [rad].
+/// Holes with less inclination have no sides [rad].
 constexpr double vertical = 1e-3;
-/// Equal to rounding.
+/// Relative tolerance of equality.
 constexpr double same = 1e-9;
 
 double median(std::vector<double> values) {
@@ -54,7 +54,7 @@ double angle(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
-/// Depths where the deflection changes its sign, between parts of it that exceed `least`.
+/// Depths at which the deflection changes sign between sections where it exceeds `least`.
 std::vector<double> zeros(const std::vector<double>& depth, const Vector& deflection,
                           double least) {
   std::vector<double> found;
@@ -210,7 +210,7 @@ BucklingTheory BucklingMeasure::theory(const Vector& tension) const {
     bends = bends || point.curvature.norm() > 0.0;
     const auto limits =
         softstring::bucklingLimits(point, weight_[at(e)], rigidity_[at(e)], clearance_[at(e)]);
-    // the compression of an element is the weight on bit less the weight that hangs below it
+    // the compression of an element is the weight on bit minus the weight that hangs below it
     theory.sinusoidal = std::min(theory.sinusoidal, tension(e) + limits.sinusoidal);
     theory.helical = std::min(theory.helical, tension(e) + limits.helical);
     theory.spontaneous =

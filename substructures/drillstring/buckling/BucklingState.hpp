@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What is said of one static state of a buckled string, and of the theory beside it.
+/// Results for one static state of a buckled string, and the theoretical values.
 #pragma once
 
 #include <vector>
@@ -11,29 +11,30 @@
 
 namespace tooljoint::drillstring {
 
-/// Measures states of one string on its path.
+/// Evaluates states of one string on its path.
 class BucklingMeasure {
  public:
-  /// All must outlive the object. \param input with the walls of the path
+  /// All must outlive the object.
+  /// \param input  with the walls of the path
   BucklingMeasure(const Scene& scene, const path::PathState& path,
                   const equilibrium::StaticInput& input, const equilibrium::StaticProblem& problem);
 
-  /// \param displacement 6 per node; that of the unloaded string for advances
+  /// \param displacement  6 per node, from the unloaded string
   BucklingState state(double weight, const Vector& displacement) const;
   /// \param tension of each element without weight on bit [N]
   BucklingTheory theory(const Vector& tension) const;
 
-  /// Of each element: E I [N m2], mean radial clearance of its nodes [m].
+  /// Per element: E I [N m2], mean radial clearance of its nodes [m].
   const std::vector<double>& rigidity() const { return rigidity_; }
   const std::vector<double>& clearance() const { return clearance_; }
-  /// Gravity presses the string to a side of the hole.
+  /// True if gravity presses the string to a side of the hole.
   bool liesLow() const;
 
  private:
   Matrix toSides(const Vector& displacement) const;
   double shortening(int element, const Vector& displacement) const;
   void addShape(BucklingState& state) const;
-  /// Where the compressed part above the bit begins; 0 without compression there [m].
+  /// Top of the compressed part above the bit; 0 without compression there [m].
   double neutralDepth(const BucklingState& state) const;
   void addMiddle(const Vector& displacement, BucklingState& state) const;
 

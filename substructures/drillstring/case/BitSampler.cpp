@@ -40,7 +40,8 @@ BitSample BitSampler::at(const cases::Sample& sample,
     out.weight = *record.values(weight);
     out.advance = scene_.topDrive.blockSpeed + sample.velocity(last + w);
   }
-  // Without a law for it Loads stand for the rock: they act along w and theta_z, it against them.
+  // Without a bit law, Loads represent the rock: they act along w and theta_z, opposite to the
+  // sampled values.
   const bool ofLaw[] = {out.weight.has_value(), out.torque.has_value()};
   for (const auto& load : loads_) {
     auto& sum = load.component == w ? out.weight : out.torque;

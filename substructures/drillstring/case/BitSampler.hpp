@@ -17,7 +17,7 @@ class BitSampler {
   /// The scene must outlive the object.
   explicit BitSampler(const Scene& scene);
 
-  /// \param drilling records of the laws of the scene, brought to this sample
+  /// \param drilling  records of the laws of the scene, evaluated at this sample
   BitSample at(const cases::Sample& sample, const std::vector<cases::PointRecord>& drilling) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A string in its well as a case: the way from its deck to something at rest that can be cut,
-/// reduced and set in motion.
+/// A string in its well as a case: from its deck to a static state that can be divided into parts,
+/// reduced and integrated in time.
 #pragma once
 
 #include <map>
@@ -26,11 +26,11 @@ class DrillstringCase : public cases::Case, public cases::NodeChoice {
   std::vector<std::string> reductionLists() const override {
     return {"Substructures", "Reduction"};
   }
-  /// Of `Substructures/Rule` "By cost".
+  /// The choices of `Substructures/Rule` "By cost".
   std::vector<std::vector<cases::Overrides>> openChoices() const override;
   bool reducesWithoutMotion() const override { return false; }
   const io::OutputSettings& output() const override { return scene_->output; }
-  /// Nearest to `Output/Depths`.
+  /// The nodes nearest to `Output/Depths`.
   std::vector<std::int64_t> recordedNodes() const override;
   std::string files() const override;
   int nodes() const override { return scene_->string.nodeCount(); }
@@ -40,11 +40,12 @@ class DrillstringCase : public cases::Case, public cases::NodeChoice {
   std::vector<std::string> remarks() const override;
   void summarise(io::Summary& summary) const override;
   cases::CaseOutline outline() const override;
-  /// A string that nothing holds along its axis may float: only the static state shows it.
+  /// Computes the static state if no support holds the string along its axis: only that state shows
+  /// whether it floats.
   void verify() const override;
-  /// Path and static state; those of an earlier case when Substructures, Coupling, Reduction,
-  /// Output and Transient without its Start Time alone differ: friction, drive and bit of the
-  /// static state are those of the time at which the motion starts.
+  /// Path and static state. Those of an earlier case are reused if only Substructures, Coupling,
+  /// Reduction, Output and Transient without its Start Time differ: friction, drive and bit of the
+  /// static state depend on the time at which the motion starts.
   std::shared_ptr<const cases::RestingCase> solveStatic() const override;
 
   const Scene& scene() const { return *scene_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Figures of merit of the motion of a string over a window of time: of its bit, and of every node
-/// and element. Sums alone are kept, no histories.
+/// Results of the motion of a string over a window of time: of its bit, and of every node and
+/// element. Only sums are kept, no histories.
 #pragma once
 
 #include <limits>
@@ -23,17 +23,18 @@ namespace tooljoint::drillstring {
 
 class StringFigures {
  public:
-  /// The scene must move, and outlive the object.
+  /// The scene must have a motion, and must outlive the object.
   StringFigures(const Scene& scene, const StaticStage& stage);
 
-  /// Counts the sample where it lies in the window. \param normalForce per node [N]
+  /// Adds the sample if it lies in the window.
+  /// \param normalForce  per node [N]
   void sample(const cases::Sample& sample, const BitSample& bit, const Vector& normalForce);
 
-  /// False until a sample lies in the window: there are no figures then.
+  /// False until a sample lies in the window; there are no results before.
   bool known() const { return samples_ > 0; }
   /// Sets the keys transient.figures.
   void summarise(io::Summary& summary) const;
-  /// What the figures of the bit say of the motion and of its law.
+  /// Warnings from the results of the bit, about the motion and its law.
   std::vector<std::string> warnings() const;
   /// Lines of the log.
   std::string describe() const;

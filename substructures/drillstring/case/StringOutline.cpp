@@ -79,8 +79,8 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
   return items;
 }
 
-/// What `tooljoint torque-drag`, `bha` and `buckling` would do, by their lists or, where the deck
-/// could go without, by default.
+/// Summaries of `tooljoint torque-drag`, `bha` and `buckling`, from their lists or, where the deck
+/// needs none, by default.
 std::vector<std::string> analyses(const Scene& scene) {
   const auto counted = [](std::size_t count, const std::string& what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");

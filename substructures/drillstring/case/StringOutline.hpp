@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What `tooljoint check` says of a string.
+/// The lines of `tooljoint check` for a string.
 #pragma once
 
 #include "cases/Case.hpp"

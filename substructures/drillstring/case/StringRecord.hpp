@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What is recorded of the motion of a string beside its nodes: rotary speed, speed, torque and
-/// hook load at the surface, normal forces, the speed of the bit, penetrations, pictures.
+/// Recorded quantities of the motion of a string in addition to its nodes: rotary speed; speed,
+/// torque and hook load at the surface; normal forces; bit speed; penetrations; pictures.
 #pragma once
 
 #include <optional>
@@ -17,14 +17,14 @@
 
 namespace tooljoint::drillstring {
 
-/// The main figures of a motion.
+/// The main results of a motion.
 struct MotionFigures {
   long samples = 0;
   double minBitSpeed = 0.0;  ///< Omega + dtheta_z/dt of the last node [rad/s]
   double maxBitSpeed = 0.0;
   double sumBitSpeed = 0.0;
   double maxPenetration = 0.0;  ///< largest r - j0 of a contact node [m]
-  std::vector<int> missed;      ///< contact nodes (1-based) the reduced model has no contact at and
+  std::vector<int> missed;      ///< contact nodes (1-based) without contact in the reduced model
                                 ///< that passed the wall
   double meanBitSpeed() const {
     return samples == 0 ? 0.0 : sumBitSpeed / static_cast<double>(samples);
@@ -33,8 +33,8 @@ struct MotionFigures {
 
 class StringRecord : public cases::MotionRecord {
  public:
-  /// The arguments must outlive the record. Nothing is evaluated that is neither written nor
-  /// counted.
+  /// The arguments must outlive the record. Only quantities that are written or counted are
+  /// evaluated.
   StringRecord(const Scene& scene, const StaticStage& stage, const model::SecondOrderModel& model);
 
   void sample(const cases::Sample& sample) override;

@@ -30,12 +30,12 @@ std::vector<double> rows(const std::vector<Vector3>& vectors) {
   return out;
 }
 
-/// 1 for a string that turns to the right or not at all when the motion begins, -1 to the left.
+/// 1 for a string that turns to the right or not at all at the start of the motion, -1 to the left.
 double senseOfRotation(const Scene& scene) {
   return scene.rotary.sense(scene.startTime()) < 0.0 ? -1.0 : 1.0;
 }
 
-/// Torque, as a share of StaticState::torqueScale, that is printed as 0.
+/// Torques below this fraction of StaticState::torqueScale are printed as 0.
 constexpr double roundedTorque = 1e-6;
 
 }  // namespace
@@ -273,13 +273,14 @@ void summarise(const Scene& scene, const StaticStage& stage, io::Summary& summar
 
 namespace {
 
-/// 150 deg/30 m [1/m], a radius of 11 m: what is drilled with a short radius turns on 12 m or more.
+/// 150 deg/30 m [1/m], a radius of 11 m: wells drilled with a short radius have 12 m or more.
 constexpr double sharpestDrilled = 150.0 * constants::degree / 30.0;
 
 /// Measured and vertical depth of the bit, the sharpest bend above it, its inclination.
 std::string describeWell(const Scene& scene) {
   constexpr double beside = 1e-6;     // [m] of a depth where the curvature jumps
-  constexpr double rounding = 1e-12;  // of the vertical depth of a level hole, over its length
+  constexpr double rounding = 1e-12;  // of the vertical depth of a level hole, relative to its
+                                      // length
   const double bit = scene.string.length();
   auto depths = scene.string.depths();
   for (const double s : scene.well.trajectory().breaks())
@@ -302,7 +303,7 @@ std::string describeWell(const Scene& scene) {
              : text;
 }
 
-/// Weight, what hangs below the uppermost kind of component, the longest element.
+/// Weight, weight below the uppermost kind of component, the longest element.
 std::string describeString(const Scene& scene) {
   const auto& string = scene.string;
   const double mud = scene.list().isSublist("Mud")
@@ -360,7 +361,7 @@ std::string describeStatic(const Scene& scene, const StaticStage& stage) {
                          s.report.residual);
   const auto force = [](double value) { return deck::printed(value, "kN", 4); };
   const auto torque = [](double value) { return deck::printed(value, "kN m", 4); };
-  const auto against = [&](double value) {  // the rotation, without what rounding leaves
+  const auto against = [&](double value) {  // against the rotation, without rounding errors
     const bool nothing = std::abs(value) <= roundedTorque * s.torqueScale;
     return torque(nothing ? 0.0 : -senseOfRotation(scene) * value);
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the state at rest of a string leaves in results.h5, in the tables, in summary.json and in
-/// the log. docs/file-formats.md describes all of it.
+/// Output of the static state of a string in results.h5, in the tables, in summary.json and in the
+/// log. docs/file-formats.md describes all of it.
 #pragma once
 
 #include <string>
@@ -35,8 +35,8 @@ std::vector<cases::RestFigure> restFigures(const StaticStage& stage);
 
 /// Lines of the log.
 std::string describeScene(const Scene& scene);
-/// Torques are positive against the rotation. With log::verbose() also how the path and the state
-/// were found.
+/// Torques are positive against the rotation. With log::verbose() also the solution of path and
+/// static state.
 std::string describeStatic(const Scene& scene, const StaticStage& stage);
 
 }  // namespace tooljoint::drillstring

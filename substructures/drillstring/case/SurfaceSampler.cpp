@@ -38,7 +38,8 @@ void SurfaceSampler::sample(const cases::Sample& sample) {
   torque_ = -sense(sample.t) * (torqueOffset_ + torsionalStiffness_ * stretch(D, thetaZ));
 }
 
-/// Where the surface stands it is that of the turns made so far, and before those of the first one.
+/// If the surface does not turn, the sense of the rotation so far, or, before it, that of the first
+/// rotation.
 double SurfaceSampler::sense(double t) const {
   const auto& rotary = scene_.rotary;
   for (const double turning : {rotary.speed(t), rotary.angle(t), rotary.sense(t)})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What gauges at the surface show of a string at a sample: speed, torque and hook load.
+/// Values of surface gauges at a sample: speed, torque and hook load.
 #pragma once
 
 #include "cases/MotionRecord.hpp"
@@ -9,17 +9,18 @@
 
 namespace tooljoint::drillstring {
 
-/// By the strain of the uppermost element, of length L:
+/// From the strain of the uppermost element, of length L:
 ///
 ///     T = T_s + E S (w_2 - w_1 - (w_2 - w_1)_s)/L,
 ///     M = M_s + G J (theta_2 - theta_1 - (theta_2 - theta_1)_s)/L,
 ///
-/// w and theta_z of its nodes; s: static state, T_s its hook load, M_s the torque of that element.
+/// with w and theta_z of its nodes; s: static state, T_s its hook load, M_s the torque of the
+/// element.
 class SurfaceSampler {
  public:
   SurfaceSampler(const Scene& scene, const StaticStage& stage);
 
-  /// Brings the values to this sample.
+  /// Computes the values at this sample.
   void sample(const cases::Sample& sample);
 
   const double& speed() const { return speed_; }        ///< Omega + dtheta_z/dt, node 1 [rad/s]
@@ -27,7 +28,7 @@ class SurfaceSampler {
   const double& hookLoad() const { return hookLoad_; }  ///< T [N]
 
  private:
-  /// Of the rotation: 1 to the right, also where nothing turns, -1 to the left.
+  /// Sense of rotation: 1 to the right or without rotation, -1 to the left.
   double sense(double t) const;
 
   const Scene& scene_;

@@ -13,17 +13,17 @@ namespace tooljoint::drillstring {
 
 namespace {
 
-/// Units that are proposed for one number.
+/// Largest number of units proposed for one number.
 constexpr std::size_t mostUnits = 2;
 
-/// Of a string that turns [rad/s]: 760 rpm, and 300 rpm of a value in rad/s, the unit of a bare
-/// number: "60" most probably means rpm; of a diagram over its speed: 2400 rpm.
+/// Rotary speeds [rad/s]: 760 rpm; 300 rpm for a value in rad/s, the unit of a bare number, since
+/// "60" most probably means rpm; 2400 rpm for a diagram over the speed.
 constexpr double fastest = 80.0, fastestInSi = 31.5, fastestDrawn = 250.0;
-/// Once round, and friction coefficients.
+/// One revolution [rad], and largest friction coefficient.
 constexpr double round = 6.3, roughest = 1.5;
 /// Weight on bit and torques [N, N m].
 constexpr double leastWeight = 1e3, mostWeight = 5e6, leastTorque = 10.0, mostTorque = 3e5;
-/// A well along the hole [m], its curvature [rad/m] (11 deg/m) and the speed of a block [m/s].
+/// Length along the well [m], its curvature [rad/m] (11 deg/m) and the speed of a block [m/s].
 constexpr double longest = 15e3, mostCurved = 0.2, fastestBlock = 3.0;
 /// Yield strengths [Pa].
 constexpr double weakest = 1e7, strongest = 3e9;
@@ -66,8 +66,8 @@ bool isUsual(double value, const UsualRange& range) {
   return size == 0.0 || (size >= range.low && size <= range.high);
 }
 
-/// What the same number is in units in which it is usual; empty where there are none.
-/// \param scale of the value that is judged over the one that the deck has (radius, diameter)
+/// The number in other units in which it is usual; empty if there are none.
+/// \param scale  judged value over the value in the deck (radius, diameter)
 std::string otherUnits(double value, const std::string& si, double scale, const UsualRange& range) {
   std::vector<std::string> found;
   for (const auto& unit : deck::unitsLike(si)) {

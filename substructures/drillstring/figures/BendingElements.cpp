@@ -12,8 +12,8 @@
 namespace tooljoint::drillstring {
 namespace {
 
-/// Strain range of the smallest bending cycle that counts: 0.2 MPa in steel. Smaller ones are
-/// rounding errors of a string at rest.
+/// Strain range of the smallest counted bending cycle: 0.2 MPa in steel. Smaller ones are rounding
+/// errors of a string at rest.
 constexpr double leastStrainRange = 1e-6;
 
 /// theta x a = -[a] theta, theta in the nodal frame

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The elements of a string on its path as the figures of bending see them.
+/// Elements of a string on its path for the evaluation of bending.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ namespace tooljoint::drillstring {
 
 std::vector<BendingElement> bendingElements(const DrillString& string, const path::PathState& path);
 
-/// The mean moments of the elements beside those at rest as sums of the rotations of their nodes,
-/// which are numbered from 1.
-/// \param belowReleases  elements (0-based, increasing) that have the moments of the next one
+/// The mean moments of the elements relative to the static state, as sums of the rotations of their
+/// nodes, which are numbered from 1.
+/// \param belowReleases  elements (0-based, increasing) that take the moments of the next one
 std::vector<cases::BendingPlace> bendingPlaces(const DrillString& string,
                                                const path::PathState& path,
                                                const std::vector<int>& belowReleases);

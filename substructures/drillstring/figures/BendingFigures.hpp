@@ -14,16 +14,16 @@
 
 namespace tooljoint::drillstring {
 
-/// Planes that turn with the pipe in which the moment is counted, over half a turn: the fibres at
-/// both ends of a plane have the same ranges.
+/// Planes of the rotating pipe in which the moment is counted, over half a turn: the fibres at both
+/// ends of a plane have the same ranges.
 constexpr std::size_t kBendingPlanes = 4;
 
-/// Bending of one element about the bent path, in two axes across it.
+/// Bending of one element relative to the bent path, in its two lateral axes.
 struct BendingElement {
-  /// Of the string on its path, with its bends straightened [1/m].
+  /// Curvature of the string on its path, with its bends straightened [1/m].
   Eigen::Vector2d pathCurvature = Eigen::Vector2d::Zero();
-  /// theta x a of both ends in these axes, a the axis of the cross section on the path, theta in
-  /// the nodal frame. The spin of a section about its own axis bends nothing.
+  /// theta x a of both ends in these axes, with the axis a of the cross section on the path and
+  /// theta in the nodal frame. The spin of a section about its axis causes no bending.
   std::array<Eigen::Matrix<double, 2, 3>, 2> slope;
   double length = 0.0;           ///< [m]
   double rigidity = 0.0;         ///< E I [N m2]
@@ -33,19 +33,20 @@ struct BendingElement {
 
 /// E I times the turn of the axes of the cross sections a' = a + theta x a from node to node over
 /// the length, in the axes of the element [N m]: the mean moment of element `index`. \param
-/// displacement 6 per node in nodal frames
+/// displacement  6 per node in nodal frames
 Eigen::Vector2d meanMoment(const BendingElement& element, std::size_t index,
                            const Vector& displacement);
 
-/// Counts of one element: of the plane with the largest range, and the damage of the worst plane.
+/// Counts of one element: cycles in the plane with the largest range, and the damage in the worst
+/// plane.
 struct BendingCounts {
   double cycles = 0.0;
   double largestRange = 0.0;  ///< [N m]
-  double damage = 0.0;        ///< share of the life; 0 without an S-N line
+  double damage = 0.0;        ///< fraction of the life; 0 without an S-N line
 };
 
-/// Cycles of the mean moment of the elements. A plane of the pipe at the angle alpha has turned by
-/// phi = int Omega + theta_z, its moment is M_x cos(phi + alpha) + M_y sin(phi + alpha).
+/// Cycles of the mean moment of the elements. A plane of the pipe at the angle alpha is turned by
+/// phi = int Omega + theta_z; its moment is M_x cos(phi + alpha) + M_y sin(phi + alpha).
 class BendingFigures {
  public:
   BendingFigures(std::vector<BendingElement> elements, std::optional<io::SnLine> line);

@@ -10,7 +10,7 @@ namespace tooljoint::drillstring {
 
 namespace {
 
-/// Range over the speed that is taken for rounding: motions at rest in their equations leave 1e-12.
+/// Range of speed over speed that counts as rounding: equations at rest leave motions of 1e-12.
 constexpr double roundingOfSpeeds = 1e-10;
 
 double range(const cases::SignalFigures& signal) { return signal.max() - signal.min(); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Deck list `Bottom-Hole Assembly`: in which hole, under which loads and tool faces the lower part
-/// of the string is computed.
+/// Deck list `Bottom-Hole Assembly`: hole, loads and tool faces for the computation of the lower
+/// part of the string.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ struct BottomHoleSettings {
   std::optional<double> surveyTool;  ///< distance from the bit [m]
   std::optional<double> length;      ///< modelled above the bit [m]; none: found
   double elementLength = 0.0;        ///< longest element [m]
-  int rotatingToolFaces = 0;         ///< that the average of a turning string takes
+  int rotatingToolFaces = 0;         ///< number of tool faces in the average of a turning string
 };
 
 /// Description of the list.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Deck list `Buckling`: how far and how the weight on bit of a string grows.
+/// Deck list `Buckling`: range and control of the growing weight on bit.
 #pragma once
 
 #include <optional>
@@ -13,17 +13,17 @@ class ParameterList;
 
 namespace tooljoint::drillstring {
 
-/// Where a growing weight on bit leaves no stable state near the last one.
+/// Continuation at a limit, where a growing weight on bit leaves no stable state nearby.
 enum class LimitRule {
-  Jump,   ///< the string moves to the stable state it finds under this weight
-  Follow  ///< the path goes on through unstable states
+  Jump,   ///< the string moves to the stable state that it reaches under this weight
+  Follow  ///< the path continues through unstable states
 };
 
 struct BucklingSettings {
   std::optional<double> lastWeight;  ///< on bit [N]; none: that of the list Loads
   std::optional<double> unloadTo;    ///< weight to which the path goes back [N]; none: it ends
-  double crookedness = 0.0;          ///< amplitude, as a part of the clearance
-  std::optional<double> pitch;       ///< of the crookedness [m]; none: that of the first buckling
+  double crookedness = 0.0;          ///< amplitude, as a fraction of the clearance
+  std::optional<double> pitch;       ///< of the crookedness [m]; none: pitch of the first buckling
   LimitRule atLimit = LimitRule::Jump;
   double firstStep = 0.0, largestStep = 0.0, smallestStep = 0.0;  ///< of the path
   int maxSteps = 0, maxIterations = 0;
@@ -32,7 +32,7 @@ struct BucklingSettings {
 /// Description of the list.
 deck::ListSpec bucklingParameters();
 
-/// From the validated list. DeckError: steps or weights do not fit each other.
+/// From the validated list. DeckError: inconsistent steps or weights.
 BucklingSettings readBuckling(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::drillstring

@@ -47,13 +47,14 @@ std::vector<double> lengthsOfParts(const DrillString& drillString) {
   }
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
-  constexpr double rounded = 1e-3;  // down, so that a component of that length is long enough
+  constexpr double rounded = 1e-3;  // rounded down, so that a component of that length is long
+                                    // enough
   std::vector<double> tried{rounded * std::floor(*middle / rounded)};
   while (2.0 * tried.back() <= 0.5 * drillString.length()) tried.push_back(2.0 * tried.back());
   return tried;
 }
 
-/// In metres, whatever units are printed: a length that is rounded up would take two components.
+/// Lengths in metres, whatever units are printed: a length rounded up would need two components.
 std::vector<std::vector<cases::Overrides>> cutsByCost(const Scene& scene) {
   if (!isCutByCost(scene)) return {};
   const auto open = [&scene](const std::string& name) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// `Substructures/Rule` "By cost": what of the cut is left to the predicted cost of a step. Parts
-/// of other lengths are compared where their modes end at one frequency or by one tolerance: with a
-/// number of modes longer parts would cost less because they are less accurate.
+/// `Substructures/Rule` "By cost": choices of the partition that the predicted cost of a step
+/// decides. Parts of different lengths are compared with modes up to the same frequency or
+/// tolerance. With a given number of modes longer parts would cost less only because they are less
+/// accurate.
 #pragma once
 
 #include <vector>
@@ -13,13 +14,14 @@
 
 namespace tooljoint::drillstring {
 
-/// What such a scene must have, and lists that name parts, which are not known before.
+/// Checks such a scene. Lists that name parts are rejected, since the parts are not known
+/// beforehand.
 void checkCutByCost(const Scene& scene, cases::Faults& faults);
 
-/// Lengths [m] that are tried: about one component, two, four, ... up to half of the string.
+/// Trial lengths [m]: about one component, two, four, ... up to half of the string.
 std::vector<double> lengthsOfParts(const DrillString& drillString);
 
-/// The choices of Case::openChoices(); none with other rules.
+/// The choices of Case::openChoices(); empty for other rules.
 std::vector<std::vector<cases::Overrides>> cutsByCost(const Scene& scene);
 
 }  // namespace tooljoint::drillstring

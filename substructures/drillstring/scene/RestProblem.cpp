@@ -21,17 +21,17 @@ Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) 
   return scene.list().isSublist(name) ? scene.list().sublist(name) : Teuchos::ParameterList(name);
 }
 
-/// Halvings of a stage before a string slides to rest.
+/// Halvings of a stage before the string slides to rest.
 constexpr int halvingsBeforeSliding = 1;
 
-/// Why a string slides to no state of rest.
+/// Reason why sliding finds no static state.
 struct Unsettled {
-  std::string why;      ///< a sentence; empty where that is not known
-  bool driven = false;  ///< friction drives it round the hole: there is none
+  std::string why;      ///< a sentence; empty if unknown
+  bool driven = false;  ///< friction drives the string round the hole: there is no static state
 };
 
-/// The state that the string slides to, as where it buckles in a stage of its static state; none
-/// where there is none.
+/// The state that the string reaches by sliding, for strings that buckle in a stage of the static
+/// solution; none if there is no such state.
 std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
                                                     const equilibrium::StaticInput& input,
                                                     const Vector& mass,
@@ -60,7 +60,7 @@ std::optional<equilibrium::StaticState> slideToRest(const Scene& scene,
         "The string buckles, and rests only without the attraction of open points to the wall. "
         "Set Contact/Law to \"Clamped\", which has none.";
   return pulled;
-} catch (const ConvergenceError&) {  // without friction there is no state to slide from
+} catch (const ConvergenceError&) {  // no frictionless state to slide from
   return std::nullopt;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the static equilibrium of a scene is made of: the string bent into its well, its equations
-/// there, and the problem that NOX solves.
+/// Input of the static equilibrium of a scene: the string bent into its well, its equations there,
+/// and the problem that NOX solves.
 #pragma once
 
 #include <vector>
@@ -25,7 +25,7 @@ PathEquations equationsOnPath(const Scene& scene, const path::PathState& path);
 std::vector<double> hangingTension(const PathEquations& equations);
 
 /// \param sliding  of the string on the wall
-/// \param points   the scene's contact points with the friction that acts as mu_s
+/// \param points   contact points of the scene, with mu_s set to the acting friction coefficient
 equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& path,
                                      const PathEquations& equations,
                                      const contact::Sliding& sliding,
@@ -35,12 +35,12 @@ equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& 
 /// Diagonal of the mass matrix, 6 entries per node [kg, kg m2].
 Vector massDiagonal(const StringModel& model);
 
-/// NOX with the deck's list `Static`.
+/// NOX with the parameters of the deck's list `Static`.
 model::NonlinearSolver staticSolver(const Scene& scene);
 
-/// The static state by the stages of its recipe; where one does not converge, as where the string
-/// buckles in it, by sliding (SlidingRest); else by more and smaller stages. ConvergenceError.
-/// \param mass  massDiagonal()
+/// The static state by the stages of its recipe. If one does not converge, for example at buckling,
+/// by sliding (SlidingRest), then by more and smaller stages. ConvergenceError. \param mass
+/// massDiagonal()
 equilibrium::StaticState solveAtRest(const Scene& scene, const equilibrium::StaticInput& input,
                                      const Vector& mass, const model::NonlinearSolver& solver);
 

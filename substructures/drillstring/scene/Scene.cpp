@@ -79,7 +79,7 @@ namespace {
 
 using cases::Faults;
 
-/// What the list Coupling requires of the others.
+/// Requirements of the list Coupling on other lists.
 void crossCheckCoupling(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   if (scene.coupling->ownNumbers)
@@ -101,8 +101,8 @@ void crossCheckCoupling(const Scene& scene, Faults& faults) {
   }
 }
 
-/// Loads at nodes that do not exist (DeckError) or on held dofs. The weight under which a law of
-/// the bit rubs acts in the law alone where the string has no axial dofs.
+/// Loads at nodes that do not exist (DeckError) or on held dofs. Without axial dofs the weight on a
+/// friction bit acts only in the law of the bit.
 void checkLoads(const Scene& scene, Faults& faults) {
   const bool weightOfBit = scene.bit && !scene.bit->law->givesWeight() && !scene.supports.axial;
   for (const auto& load : loads::pointLoads(scene.loads, scene.string.depths(), scene.rotary)) {
@@ -117,7 +117,7 @@ void checkLoads(const Scene& scene, Faults& faults) {
   }
 }
 
-/// A law that gives the weight on bit needs a bit that advances, and that it cuts.
+/// A law that gives the weight on bit needs a bit that advances, and it must cut.
 void checkAdvance(const Scene& scene, Faults& faults) {
   const auto& drive = scene.topDrive;
   const std::string name = inQuotes(scene.bit->name);
@@ -135,21 +135,21 @@ void checkAdvance(const Scene& scene, Faults& faults) {
                                    " cuts forward only. Turn the string in the positive sense.");
 }
 
-/// A law's Radius beside that of the hole at the bit.
+/// A law's Radius against that of the hole at the bit.
 void checkBitRadius(const Scene& scene, Faults& faults) {
   const std::string& name = scene.bit->name;
   const auto& bit = scene.list().sublist("Bit");
   if (!bit.isSublist(name) || !bit.sublist(name).isParameter("Radius")) return;
   const double radius = bit.sublist(name).get<double>("Radius");
   const double hole = scene.well.boreRadius(scene.string.nodes.back().s);
-  if (radius > hole * (1 + 1e-9))  // as wide as the hole, in other units
+  if (radius > hole * (1 + 1e-9))  // the factor allows for other units
     faults.add("Bit/" + name + "/Radius", "is " + deck::printed(radius, "mm", 4) +
                                               ", but the hole at the bit has a radius of " +
                                               deck::printed(hole, "mm", 4) +
                                               ". Give the radius of a bit that fits into it.");
 }
 
-/// What a law at the bit requires of the loads and supports.
+/// Requirements of a bit law on loads and supports.
 void checkBit(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   const auto& law = *scene.bit->law;
@@ -172,14 +172,14 @@ void checkBit(const Scene& scene, Faults& faults) {
   checkBitRadius(scene, faults);
 }
 
-/// Analyses of vibrations about the static state have the equations of the motion.
+/// Analyses of vibrations about the static state use the equations of the motion.
 bool vibrates(const Scene& scene) {
   return scene.moves() || scene.list().isSublist("Response") || scene.list().isSublist("Campbell");
 }
 
 bool hasAxialFriction(const Scene& scene) { return scene.contact && scene.contact->axialFriction; }
 
-/// What an autodriller requires of the others.
+/// Requirements of an autodriller on other lists.
 void checkAutodriller(const Scene& scene, Faults& faults) {
   const std::string path = "Top Drive/Autodriller";
   if (!scene.bit || !scene.bit->law->givesWeight())
@@ -198,7 +198,7 @@ void checkAutodriller(const Scene& scene, Faults& faults) {
                "of Supports/Top.");
 }
 
-/// What the drive requires of the bit and the supports.
+/// Requirements of the drive on bit and supports.
 void checkTopDrive(const Scene& scene, Faults& faults) {
   const auto& drive = scene.topDrive;
   const bool feeds = scene.bit && scene.bit->law->givesWeight();
@@ -241,7 +241,7 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
 }
 
 /// A block that moves a string with friction in a hole that is not vertical drags it along the
-/// wall: the deck has to say whether that counts.
+/// wall; the deck must then say whether axial friction acts.
 void checkAxialFriction(const Scene& scene, Faults& faults) {
   constexpr double vertical = 1e-6;  // [rad]
   if (!scene.contact || !scene.contact->friction) return;
@@ -269,7 +269,7 @@ void checkAxialFriction(const Scene& scene, Faults& faults) {
              "weight that it takes from the bit.");
 }
 
-/// What bends and eccentric gauges require of the other lists.
+/// Requirements of bends and eccentric gauges on other lists.
 void checkSidedFeatures(const Scene& scene, Faults& faults) {
   const auto& string = scene.string;
   const auto refuse = [&](const std::string& what, int node) {
@@ -286,7 +286,7 @@ void checkSidedFeatures(const Scene& scene, Faults& faults) {
                                   "\"Clamped\", or leave Gauge Offset out.");
 }
 
-/// Errors that only several lists together show.
+/// Errors that concern several lists.
 void crossCheck(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   if (list.isSublist("Substructures") && !scene.reduces() && !scene.coupling)
@@ -331,7 +331,7 @@ void crossCheck(const Scene& scene, Faults& faults) {
                "hold every dof of the string; nothing is left to compute. Release some.");
 }
 
-/// The parts of the string before they are made.
+/// Outlines of the parts of the string, before the parts exist.
 std::vector<coupling::PartOutline> outlines(const Scene& scene) {
   requireKnownNodes(scene.string, scene.partition);
   std::vector<coupling::PartOutline> parts;
@@ -343,7 +343,7 @@ std::vector<coupling::PartOutline> outlines(const Scene& scene) {
   return parts;
 }
 
-/// The same for a basis: a node that two parts have is inner to none.
+/// The same for a basis: a node shared by two parts is an inner node of neither.
 std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
   const auto ranges = cutParts(scene.string, scene.partition);
   std::vector<reduction::PartOutline> parts;
@@ -362,8 +362,8 @@ std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
   return parts;
 }
 
-/// With the gains for the components of the uppermost tenth of the string, to which waves of some
-/// kilometres do not see a short one.
+/// With the gains for the components in the upper tenth of the string: waves of some kilometres are
+/// not affected by short components.
 drilling::TopDrive tunedToPipe(const drilling::TopDrive& drive, const DrillString& string) {
   std::vector<std::pair<beam::Section, double>> pieces;
   double length = 0.0;
@@ -377,7 +377,7 @@ drilling::TopDrive tunedToPipe(const drilling::TopDrive& drive, const DrillStrin
   return drilling::tuned(drive, drilling::torsionalImpedance(pieces));
 }
 
-/// The dofs of the top that its drive moves are not among those held by default.
+/// Removes the dofs that the drive moves from those held by default at the top.
 void releaseTop(const drilling::TopDrive& drive, SupportSettings& supports) {
   if (drive.movesFreely()) supports.top[nodal::w] = false;
   if (drive.turnsFreely()) supports.top[nodal::thetaZ] = false;
@@ -393,13 +393,13 @@ double feedOfSetWeight(const Scene& scene) {
   }
 }
 
-/// An autodriller finds the block speed of the static state.
+/// True if an autodriller determines the block speed of the static state.
 bool feedsBySetWeight(const Scene& scene) {
   return scene.bit && scene.bit->law->givesWeight() && scene.topDrive.autodriller &&
          !scene.deck.gives("Top Drive/Block Speed");
 }
 
-/// What can be said of parts and basis before the static state.
+/// Checks of parts and basis that are possible before the static state.
 void checkReduction(const Scene& scene) {
   requireKnownNodes(scene.string, scene.partition);
   const auto& list = scene.deck.list().sublist("Reduction");
@@ -409,7 +409,7 @@ void checkReduction(const Scene& scene) {
   estimate::readEstimateOptions(list);
 }
 
-/// What follows from several lists, and what they must have in common.
+/// Values that follow from several lists, and their consistency.
 void complete(Scene& scene, const drilling::TopDrive& topDrive, Faults& faults) {
   scene.topDrive = tunedToPipe(topDrive, scene.string);
   if (feedsBySetWeight(scene))
@@ -433,7 +433,7 @@ void complete(Scene& scene, const drilling::TopDrive& topDrive, Faults& faults) 
 }  // namespace
 
 Scene turningAt(Scene scene, double speed) {
-  constexpr double slowest = 1e-6;  // [rad/s], beside it every speed of drilling is fast
+  constexpr double slowest = 1e-6;  // [rad/s], far below every speed of drilling
   scene.rotary = loads::RotarySpeed::steady(std::max(speed, slowest));
   if (feedsBySetWeight(scene)) scene.topDrive.blockSpeed = feedOfSetWeight(scene);
   return scene;
@@ -461,7 +461,7 @@ Scene readScene(const deck::Deck& deck) {
   loads::Loads loads;
   loads::RayleighDamping damping;
   SupportSettings supports;
-  std::optional<BucklingSettings> buckling;  // for its faults
+  std::optional<BucklingSettings> buckling;  // read for its faults
   std::optional<drilling::BitSettings> bit;
   drilling::TopDrive topDrive;
   path::PathOptions path;

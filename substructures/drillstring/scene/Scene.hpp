@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A deck of a string in its well, read, checked and turned into typed values: what the stages of a
-/// run start from.
+/// A deck of a string in its well, read, checked and converted to typed values: the input of the
+/// stages of a run.
 #pragma once
 
 #include <memory>
@@ -26,16 +26,16 @@
 
 namespace tooljoint::drillstring {
 
-/// Description of a whole deck: every list any room reads.
+/// Description of a whole deck: all lists of all rooms.
 deck::ListSpec sceneSpec();
 
-/// A deck's lists as plain values. What the deck does not have is not here either.
+/// A deck's lists as typed values. Lists that the deck does not have are absent here too.
 struct Scene {
   deck::Deck deck;
   well::Well well;
   DrillString string;
   SupportSettings supports;
-  std::vector<char> held;  ///< 6 per node: by a support, or since no element there has the dof
+  std::vector<char> held;  ///< 6 per node: by a support, or because no element there has the dof
   std::shared_ptr<const mud::MudModel> mud;  ///< null: no mud
   std::optional<contact::ContactSettings> contact;
   contact::ContactPoints contactPoints;  ///< empty without contact
@@ -47,29 +47,29 @@ struct Scene {
   PartitionRules partition;
   io::OutputSettings output;
   std::optional<coupling::CouplingInput> coupling =
-      std::nullopt;  ///< null: equal node numbers alone join the parts
-  std::optional<drilling::BitSettings> bit = std::nullopt;  ///< null: loads alone act on the bit
+      std::nullopt;  ///< null: parts are joined by equal node numbers only
+  std::optional<drilling::BitSettings> bit = std::nullopt;  ///< null: only loads act on the bit
   drilling::TopDrive topDrive = {};                         ///< with its gains
 
   const Teuchos::ParameterList& list() const { return deck.list(); }
   bool reduces() const { return list().isSublist("Reduction"); }
   bool moves() const { return list().isSublist("Transient"); }
-  /// Time of the static state: that at which the motion starts [s]; 0 without one.
+  /// Time of the static state, the start of the motion [s]; 0 without motion.
   double startTime() const;
   int freeDofs() const;
-  /// WOB that stands in Loads [N].
+  /// WOB of the list Loads [N].
   double weightOnBit() const;
-  /// `held` in the static state: the drive and the hook then hold the top.
+  /// `held` in the static state, in which drive and hook hold the top.
   std::vector<char> heldAtRest() const;
 };
 
 /// Checks a deck read by sceneSpec(). DeckError (one line per fault of the phase that failed),
 /// FileError. Collective.
 Scene readScene(const deck::Deck& deck);
-/// The scene turning at a constant speed [rad/s], 0: as slowly as can be. An autodriller that sets
+/// The scene at a constant rotary speed [rad/s]; 0: the slowest possible. An autodriller that sets
 /// the block speed does so at this speed. DeckError: its weight is not reached.
 Scene turningAt(Scene scene, double speed);
-/// Reads the file first, with overrides.
+/// Reads the file with overrides, then checks it.
 Scene readScene(const std::string& file, const std::vector<std::string>& overrides);
 
 }  // namespace tooljoint::drillstring

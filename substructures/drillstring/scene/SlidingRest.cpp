@@ -21,36 +21,38 @@ using namespace beam::nodal;
 
 namespace {
 
-/// Equal parts in which weight on bit and friction come, so that the string finds the state next to
-/// the one before: all at once, a string with a stable sinusoidal state winds into a helix.
+/// Number of equal increments of weight on bit and friction, so that the string reaches the nearest
+/// state. Applied at once they would wind a string with a stable sinusoidal state into a helix.
 constexpr int slidingSteps = 8;
-/// Iterations in which Newton's method finds the state of a string that does not buckle.
+/// Newton iterations within which a string that does not buckle converges.
 constexpr int nearIterations = 60;
-/// Times that a string is disturbed again because it rests in an unstable state.
+/// Largest number of repeated disturbances of a string that rests in an unstable state.
 constexpr int mostDisturbances = 3;
-/// Residual where a part of them is on.
+/// Residual tolerance of the intermediate increments.
 constexpr double slidingTolerance = 1e-5;
-/// Iterations of a string that slides to rest, over Static/Max Iterations.
+/// Largest number of sliding iterations, over Static/Max Iterations.
 constexpr int slidingEffort = 6;
-/// Helix that disturbs the string before each part: of the clearance, and its pitch [m], two to
-/// four half waves of drill pipe that buckles. The motion picks out the waves that grow; one of
-/// their own length winds a string with a stable sinusoidal state into a helix.
+/// Helix that disturbs the string before each increment: amplitude over clearance, and pitch [m],
+/// two to four half waves of buckling drill pipe. The motion selects the waves that grow; a helix
+/// of their own length would wind a string with a stable sinusoidal state into a helix.
 constexpr double helixSize = 0.05, helixPitch = 25.0;
-/// Elements a half wave of a helix needs.
+/// Elements that resolve a half wave of a helix.
 constexpr double elementsPerHalfWave = 3.0;
-/// Times that a point goes round the hole, the way friction acts on it, on its way to no rest: a
-/// string that winds into a helix and rests turns its points by half of this at most.
+/// A point that has gone round the hole this often, in the direction of friction, shows that the
+/// string does not come to rest. A string that winds into a helix and rests turns its points by at
+/// most half of this.
 constexpr double roundsWithoutRest = 3.0;
-/// Points nearer to the axis than this part of the clearance have no angle that says something.
+/// The angle of points closer to the axis than this fraction of the clearance is not evaluated.
 constexpr double aside = 0.5;
 
-/// How far the points of a string have gone round the hole since the first look.
+/// Rotation of the points of a string about the hole since the first call.
 class Rounds {
  public:
   explicit Rounds(const contact::ContactPoints& points)
       : points_(points), last_(points.node.size()), turned_(points.node.size(), 0.0) {}
 
-  /// The turns of the point that went farthest from x to y, or the other way, as `sense` says.
+  /// Largest number of turns of a point from x to y, or in the other direction if `sense` is
+  /// negative.
   double farthest(const Vector& displacement, double sense) {
     double most = 0.0;
     for (std::size_t p = 0; p < turned_.size(); ++p) {
@@ -105,8 +107,9 @@ equilibrium::SlideRequest SlidingRest::request(double share, double tolerance) c
   return request;
 }
 
-/// The state of rest next to `start`, and the negative pivots of its tangent: by Newton's method,
-/// or against the viscous forces of alpha. None within few iterations, as of a string that buckles.
+/// The static state nearest to `start`, and the negative pivots of its tangent: by Newton's method,
+/// or with the viscous forces of alpha. None if it does not converge in few iterations, as for a
+/// string that buckles.
 std::optional<SlidingRest::Rest> SlidingRest::near(double share, const Vector& start,
                                                    double tolerance, double alpha,
                                                    int& iterations) const {
@@ -133,8 +136,8 @@ Vector SlidingRest::withHelix(const equilibrium::StaticInput& input,
   return x;
 }
 
-/// With weight on bit and friction in equal parts, from the largest number of them at which the
-/// string does not buckle. None where it does not come to rest: `why`.
+/// With weight on bit and friction in equal increments, from the largest number of increments at
+/// which the string does not buckle. None if it does not come to rest; `why` has the reason.
 std::optional<SlidingRest::Rest> SlidingRest::slide(const Vector& start, Found& why) const {
   Vector x = start;
   int stable = 0;
@@ -154,7 +157,7 @@ std::optional<SlidingRest::Rest> SlidingRest::slide(const Vector& start, Found& 
     auto asked = request(share, step < slidingSteps ? slidingTolerance : options_.tolerance);
     asked.mostIterations = left;
     Rounds rounds(input.contact->points());
-    const double against = -input.sliding.rotarySpeed;  // friction
+    const double against = -input.sliding.rotarySpeed;  // sense of friction
     asked.stop = [&](const Vector& full) {
       why.locksUp = compressed(problem, full);
       why.driven =
@@ -199,7 +202,7 @@ std::optional<SlidingRest::Rest> SlidingRest::slide(const Vector& start, Found& 
   }
 }
 
-/// A sentence where elements do not resolve half waves pi sqrt(2 E I/F) of a helix under their
+/// A sentence if elements do not resolve the half waves pi sqrt(2 E I/F) of a helix under their
 /// compression F; else empty.
 std::string SlidingRest::tooLong(const Vector& axialForce) const {
   double worst = 0.0, length = 0.0, wave = 0.0;
@@ -218,7 +221,7 @@ std::string SlidingRest::tooLong(const Vector& axialForce) const {
          ". Use three or more to a half wave.";
 }
 
-/// Some element so much that the string counts as locked up.
+/// True if the compression of an element is so large that the string counts as locked up.
 bool SlidingRest::compressed(const equilibrium::StaticProblem& problem, const Vector& x) const {
   for (int e = 0; e < string_.elementCount(); ++e)
     if (problem.elements().axialForce(e, x) <

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The state of rest of a string that may buckle: it slides there from a slight helix while its
-/// friction and the loads at the bit come in parts.
+/// The static state of a string that may buckle: the string slides there from a slight helix while
+/// its friction and the loads at the bit grow in increments.
 #pragma once
 
 #include <functional>
@@ -14,43 +14,44 @@
 
 namespace tooljoint::drillstring {
 
-/// The static problem with this share, 0 to 1, of the loads at the bit (w and theta_z of the last
-/// node).
+/// The static problem with this fraction, 0 to 1, of the loads at the bit (w and theta_z of the
+/// last node).
 using SharedProblem = std::function<equilibrium::StaticInput(double share)>;
 
 /// The displacement without friction, 6 per node. A string on the axis of a long level hole has
-/// next to nothing that resists sideways: where the stages of the static state fail, it slides down
-/// from there against viscous forces. ConvergenceError.
-/// \param mass  diagonal of the mass matrix, 6 entries per node [kg, kg m2]
+/// almost no lateral stiffness: if the stages of the static solution fail, it slides down from the
+/// axis against viscous forces. ConvergenceError. \param mass  diagonal of the mass matrix, 6
+/// entries per node [kg, kg m2]
 Vector withoutFriction(equilibrium::StaticInput input, const equilibrium::StaticOptions& options,
                        const model::NonlinearSolver& solver, const Vector& mass);
 
-/// States of rest of one string under one problem, walls that only push.
+/// Static states of one string under one problem, with walls that only push.
 class SlidingRest {
  public:
   struct Rest {
     equilibrium::StaticState state;
-    int negativePivots;  ///< of the tangent; 0: stable but for friction
+    int negativePivots;  ///< of the tangent; 0: stable apart from friction
   };
   struct Found {
     std::optional<Rest> rest;
-    int iterations = 0;     ///< of Newton's method, all together
-    bool buckled = false;   ///< it slid to rest from a slight helix
-    bool locksUp = false;   ///< why it found no buckled state
-    bool driven = false;    ///< likewise: friction drives it round the hole
-    std::string unsettled;  ///< the same as a sentence; empty where it found one, or needed none
-    std::string advice;     ///< what may help then; a sentence, or empty
+    int iterations = 0;     ///< Newton iterations, in total
+    bool buckled = false;   ///< reached by sliding from a slight helix
+    bool locksUp = false;   ///< reason why no buckled state was found
+    bool driven = false;    ///< likewise: friction drives the string round the hole
+    std::string unsettled;  ///< the reason as a sentence; empty if a state was found, or none was
+                            ///< needed
+    std::string advice;     ///< possible remedy, a sentence; may be empty
   };
 
   SlidingRest(const DrillString& string, const equilibrium::StaticOptions& options, Vector mass,
               SharedProblem problem);
 
-  /// The state next to `start`, the displacement without friction; where that is unstable, or there
-  /// is none, the one that the string slides to from a slight helix. InterruptedError.
+  /// The state nearest to `start`, the displacement without friction. If it is unstable or does not
+  /// exist, the state that the string reaches by sliding from a slight helix. InterruptedError.
   Found from(const Vector& start) const;
 
-  /// The same state under all that the contact laws do, attraction of open points included. None:
-  /// the string does not come to rest under it.
+  /// The same state under the full contact laws, including the attraction of open points. None: the
+  /// string does not come to rest under it.
   std::optional<equilibrium::StaticState> withPull(const equilibrium::StaticState& state) const;
 
  private:

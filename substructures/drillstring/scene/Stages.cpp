@@ -32,7 +32,8 @@ namespace nodal = beam::nodal;
 
 namespace {
 
-/// The loads that hold bends against the stiffness of the linearised string, -(K_pa + K_gpo) kink.
+/// Loads that balance the bends against the stiffness of the linearised string, -(K_pa + K_gpo)
+/// kink.
 void addBends(const equilibrium::StaticInput& input, const equilibrium::StaticState& state,
               StringModel& model) {
   if (input.kinks.empty()) return;
@@ -56,14 +57,14 @@ ContactBatch contactInMotion(const Scene& scene, const path::PathState& path) {
   return contact;
 }
 
-/// The law of the bit in motion; none without it.
+/// The law of the bit in motion; empty without a law.
 std::vector<drilling::PointOnString> bitInMotion(const Scene& scene) {
   if (!scene.bit) return {};
   return {drilling::bitOnString(*scene.bit, scene.string.nodeCount() - 1, scene.rotary,
                                 scene.topDrive.blockSpeed, scene.weightOnBit())};
 }
 
-/// Adds to F_s what the rock exerts on the bit in steady drilling at the speeds of the start.
+/// Adds the loads of the rock on the bit to F_s: steady drilling at the speeds of the start.
 void addBitAtRest(const Scene& scene, PathEquations& equations) {
   for (const auto& bit : bitInMotion(scene)) {
     const auto load = drilling::steadyLoad(bit, scene.startTime());
@@ -72,7 +73,7 @@ void addBitAtRest(const Scene& scene, PathEquations& equations) {
   }
 }
 
-/// Nodes of a string that hangs bear its tension before they move.
+/// Adds the tension that the nodes of a hanging string carry at zero displacement.
 void addPretension(const equilibrium::StaticInput& input, StringModel& model) {
   Vector forces = equilibrium::pretensionForces(input);
   if (forces.any())
@@ -80,8 +81,8 @@ void addPretension(const equilibrium::StaticInput& input, StringModel& model) {
         {"pretension", model.lawIndex(model::ScalarLaw::one()), std::move(forces)});
 }
 
-/// The inertia of the drive: J theta_z'' on the left, -J dOmega/dt on the right; the mass of the
-/// block, in a frame that advances steadily.
+/// The inertia of the drive: J theta_z'' on the left, -J dOmega/dt on the right. The mass of the
+/// block is in a frame that advances steadily.
 void addDriveInertia(const Scene& scene, StringModel& model) {
   if (const auto& driller = scene.topDrive.autodriller)
     model.mass.front()(nodal::w, nodal::w) += driller->blockMass;
@@ -94,7 +95,7 @@ void addDriveInertia(const Scene& scene, StringModel& model) {
       {"drive spin-up", model.lawIndex(scene.rotary.scalar("dOmega/dt")), std::move(load)});
 }
 
-/// What holds a dof of the first node at rest: K D_s less constant loads and point laws.
+/// Support force on a dof of the first node at rest: K D_s minus constant loads and point laws.
 double reactionAtTop(const StringModel& string, double t, int component) {
   const auto model = assemble(string);
   const Vector& state = model.initialDisplacement;
@@ -128,16 +129,16 @@ void addDrilling(const Scene& scene, StringModel& model) {
         drilling::driveOnString(drive, reactionAtTop(model, scene.startTime(), nodal::thetaZ)));
 }
 
-/// Said of a string that floats where springs seem to hold it.
+/// Explanation for a string that floats although springs seem to hold it.
 std::string notByCoupling(const Scene& scene) {
   return scene.coupling ? " Springs of the list Coupling count from the static state, so they do "
                           "not hold the string."
                         : "";
 }
 
-/// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
-/// can touch, is singular. Throws ModelError naming the dof that moves most. `equations` are the
-/// same afterwards.
+/// Throws ModelError for a string without supports, with the dof that moves most: it has no
+/// equilibrium, since its stiffness, with walls as springs wherever it can touch, is singular.
+/// `equations` are unchanged afterwards.
 void requireHeld(const Scene& scene, StringModel& equations) {
   auto heldInMotion = std::exchange(equations.held, scene.heldAtRest());
   const auto model = assemble(equations);
@@ -162,7 +163,7 @@ void requireHeld(const Scene& scene, StringModel& equations) {
   }
 }
 
-/// Free in every node of a string: what that lets it do.
+/// Motion of a string with a component that is free at every node.
 struct FreeMotion {
   int component;
   const char* does;
@@ -170,10 +171,10 @@ struct FreeMotion {
 constexpr FreeMotion freeMotions[] = {{nodal::w, "slides along the well"},
                                       {nodal::thetaZ, "turns about its axis"}};
 
-/// A string whose w (or theta_z) no support holds is singular in a straight well only: where it
-/// curves, walls and bending resist sliding, but by far too little for the weight. Said of `found`
-/// where that string has no static equilibrium, or one far away: exit code of a model that floats,
-/// not of a solver that failed.
+/// A string with w (or theta_z) unsupported is singular only in a straight well. In a curved well
+/// walls and bending resist sliding, but far too little for the weight. If such a string has no
+/// static equilibrium, or one far away, this reports a floating model, with the exit code for that
+/// instead of that of a failed solver. `found` is the message of the solver.
 void explainFreeMotion(const Scene& scene, const std::string& found) {
   const auto free = freeDirections(scene);
   if (free.empty()) return;
@@ -188,7 +189,7 @@ void explainFreeMotion(const Scene& scene, const std::string& found) {
                    found + ")");
 }
 
-/// Unstable states that "Perturb" leaves before it gives up.
+/// Largest number of unstable states that "Perturb" leaves.
 constexpr int mostPerturbations = 20;
 
 /// The growing mode of the state at all dofs of the string.
@@ -249,7 +250,7 @@ StaticStage findEquilibrium(const Scene& scene) {
                                 scene.damping, contactInMotion(scene, stage.path));
     addBends(input, stage.state, stage.equations);
     addDrilling(scene, stage.equations);
-    if (onlyOnce) input = {}, solver = nullptr;  // an eighth of the peak, which the check makes
+    if (onlyOnce) input = {}, solver = nullptr;  // an eighth of the peak memory, in the check
     stage.stability = stability::assess(assemble(stage.equations), scene.startTime());
   };
   try {
@@ -310,7 +311,7 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
 }
 
 void judgeStretch(const Scene& scene, const StaticStage& stage) {
-  constexpr double worthAWarning = 0.01;  // [rad]: contact forces of a tenth too much
+  constexpr double worthAWarning = 0.01;  // [rad]: contact forces too large by a tenth
   const auto depths = scene.string.depths();
   double turn = 0.0, depth = 0.0, shift = 0.0;
   for (std::size_t node = 0; node < depths.size(); ++node) {
@@ -377,7 +378,7 @@ model::SecondOrderModel fullModel(const StaticStage& stage) { return assemble(st
 namespace {
 
 /// Rotations of the ends in bending. A torque T about the axis of the well bends an end that leans:
-/// E I u'' = -T v', E I v'' = T u' (Greenhill). Interior modes have no moment there, and converge
+/// E I u'' = -T v', E I v'' = T u' (Greenhill). Interior modes have no moment there and converge
 /// slowly without these dofs.
 void insertTwistedEnds(const Scene& scene, const StaticStage& stage, std::set<int>& dofs) {
   constexpr double rounding = 1e-9;  // of the moment that bends the element by one radian
@@ -448,7 +449,7 @@ std::vector<int> elementsBelowReleases(const Scene& scene, const StaticStage& st
   if (!scene.coupling) return {};
   std::vector<int> elements;
   for (const auto& dof : resolvedParts(scene, stage).options.connections.released)
-    if (dof.node > 1 && dof.node < scene.string.elementCount())  // the next one is there
+    if (dof.node > 1 && dof.node < scene.string.elementCount())  // if there is a next element
       elements.push_back(static_cast<int>(dof.node) - 1);
   makeUnique(elements);
   return elements;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The way of the data as calls, each with a typed value in and a typed value out:
-/// scene -> path -> equations and static state -> parts -> reduced parts -> coupled model.
+/// The stages of a run as calls, each with typed input and output: scene -> path -> equations and
+/// static state -> parts -> reduced parts -> coupled model.
 #pragma once
 
 #include <string>
@@ -30,39 +30,39 @@ struct StaticStage {
   int perturbations = 0;  ///< unstable states left on the way (Static/Unstable State "Perturb")
 };
 
-/// Components (2: w, 5: theta_z) that are free at every node, so that nothing but walls and bending
-/// holds the string.
+/// Components (2: w, 5: theta_z) that are free at every node, so that only walls and bending hold
+/// the string.
 std::vector<int> freeDirections(const Scene& scene);
 
-/// Bends the string into the well, finds its static equilibrium and assesses its stability; with
-/// Static/Unstable State "Perturb" it goes on from unstable states until one is stable.
-/// ConvergenceError, ModelError.
+/// Bends the string into the well, computes its static equilibrium and assesses its stability. With
+/// Static/Unstable State "Perturb" it leaves unstable states until one is stable. ConvergenceError,
+/// ModelError.
 StaticStage findEquilibrium(const Scene& scene);
-/// Torque at the top against what loads, friction and supports below give: above 2 % of the
+/// Compares the torque at the top with that of loads, friction and supports below: above 2 % of the
 /// scale of StaticState a warning, above 10 % a ConvergenceError. With the pre-stress "Axial and
 /// torque", or sections that are not round, always a warning: there the model itself resists a spin
 /// about the curved axis.
 void judgeTorqueBalance(const Scene& scene, const StaticStage& stage);
-/// Where the string has moved along a well that turns: a warning above 0.02 rad of turn.
+/// Warns if displacement along a well that turns changes the direction by more than 0.01 rad.
 void judgeStretch(const Scene& scene, const StaticStage& stage);
-/// These two and judgeStability().
+/// These two checks and judgeStability().
 void judgeStatic(const Scene& scene, const StaticStage& stage);
-/// findEquilibrium(), judged.
+/// findEquilibrium() with these checks.
 StaticStage solveStatic(const Scene& scene);
 
 /// The full model of the string alone, in total displacements.
 model::SecondOrderModel fullModel(const StaticStage& stage);
-/// The full model with what the list Coupling adds, always in primal assembly.
+/// The full model with the connections of the list Coupling, always in primal assembly.
 model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage);
 
 /// The parts of the deck's Substructures list.
 std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage);
 
-/// These parts as the list Coupling wants them, and what joins them.
+/// These parts prepared for the list Coupling, and their connections.
 coupling::ResolvedCoupling resolvedParts(const Scene& scene, const StaticStage& stage);
-/// Elements (0-based, increasing) below joints that Coupling/Releases or Hinges set free in part:
-/// results have the motion of the part above there, so what they say of strain and curvature is
-/// that of the next element.
+/// Elements (0-based, increasing) below joints with dofs released by Coupling/Releases or Hinges.
+/// There results have the motion of the part above, so strain and curvature of such an element are
+/// taken from the next one.
 std::vector<int> elementsBelowReleases(const Scene& scene, const StaticStage& stage);
 /// Unreduced parts joined, in primal assembly.
 coupling::Coupling joinUnreduced(const coupling::ResolvedCoupling& resolved);

@@ -11,7 +11,7 @@ namespace tooljoint::drillstring {
 
 namespace {
 
-/// ", 0.25 to 0.28": of the coefficients of points with friction.
+/// ", 0.25 to 0.28": range of the coefficients of points with friction.
 std::string range(const std::vector<double>& coefficients) {
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const double one : coefficients)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the friction of the static state acts against, and with which coefficient.
+/// Direction and coefficient of the friction in the static state.
 #pragma once
 
 #include <string>
@@ -10,13 +10,14 @@
 
 namespace tooljoint::drillstring {
 
-/// Friction of the static state, as Static/Friction and the speeds of drive and block decide it.
+/// Friction of the static state according to Static/Friction and the speeds of drive and block.
 struct StaticFriction {
   double direction = 0.0;       ///< sense of the rotation: +1, -1, or 0 without it
-  double speed = 0.0;           ///< |Omega| whose coefficient acts [rad/s]; 0: the peak mu_s
+  double speed = 0.0;           ///< |Omega| that determines the coefficient [rad/s]; 0: the peak
+                                ///< mu_s
   std::string why;              ///< for the log
-  contact::Sliding sliding{};   ///< what it acts against; none: no friction
-  bool ofSlidingSpeed = false;  ///< the coefficient is that of `sliding`, else the peak
+  contact::Sliding sliding{};   ///< sliding velocity it acts against; none: no friction
+  bool ofSlidingSpeed = false;  ///< coefficient at the speed of `sliding`, otherwise the peak
 };
 StaticFriction staticFriction(const Scene& scene);
 

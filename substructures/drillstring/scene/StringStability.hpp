@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a run says and does about the stability of the static state of a string.
+/// Messages and actions for the stability of the static state of a string.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace tooljoint::drillstring {
 
-/// What is known of the stability of the state, in words: verdict, mode and growth rate.
+/// Stability of the state in words: verdict, mode and growth rate.
 std::string describeStability(const StaticStage& stage);
 
 /// The keys static.stable, .stability_without, .negative_pivots, .growth_rate, .growth_hz,
 /// .unstable_node, .unstable_half_waves and .perturbations.
 void summariseStability(const StaticStage& stage, io::Summary& summary);
 
-/// A static state that is unstable: a warning, or a ConvergenceError where Static/Unstable State is
+/// For an unstable static state a warning, or a ConvergenceError if Static/Unstable State is
 /// "Refuse".
 void judgeStability(const Scene& scene, const StaticStage& stage);
 

@@ -29,10 +29,10 @@ const std::string here = "Bottom-Hole Assembly";
 /// The cut is held on the axis of the hole; the tilt is free.
 constexpr DofFlags heldAtCut = {true, true, true, false, false, true};
 
-/// Elements of a segment at most, as in the deck.
+/// Largest number of elements of a segment, as in the deck.
 constexpr double mostPieces = 10000;
 
-/// The whole string with elements of at most this length [m]. Nodes of the deck stay.
+/// The whole string with elements of at most this length [m]. Nodes of the deck remain.
 DrillString divided(const Scene& scene, double longest) {
   auto settings = readDrillstring(scene.deck);
   for (auto& [name, component] : settings.library)
@@ -50,7 +50,7 @@ DrillString divided(const Scene& scene, double longest) {
   return buildDrillString(settings, scene.well);
 }
 
-/// What stands at nodes from `first` on (0-based), counted from there.
+/// Features at nodes from `first` on (0-based), renumbered from there.
 std::vector<SidedNode> lowerNodes(const std::vector<SidedNode>& all, int first, double turned) {
   std::vector<SidedNode> lower;
   for (const auto& one : all)
@@ -69,7 +69,8 @@ std::vector<Instance> lowerInstances(const std::vector<Instance>& all, int first
   return lower;
 }
 
-/// The string from the node `first` on (0-based); bends and eccentric gauges turn, pads do not.
+/// The string from the node `first` on (0-based); bends and eccentric gauges are turned, pads are
+/// not.
 DrillString lowerString(const DrillString& whole, int first, double turned) {
   DrillString lower;
   lower.nodes.assign(whole.nodes.begin() + first, whole.nodes.end());
@@ -86,8 +87,8 @@ DrillString lowerString(const DrillString& whole, int first, double turned) {
   return lower;
 }
 
-/// Hole of constant curvature kappa = B h + T sin(I) r that ends at this inclination I and azimuth;
-/// above the end, t(-x) = t cos(kappa x) - n sin(kappa x).
+/// Hole of constant curvature kappa = B h + T sin(I) r that ends at this inclination I and azimuth.
+/// Above the end, t(-x) = t cos(kappa x) - n sin(kappa x).
 std::shared_ptr<const well::Trajectory> arcTo(double inclination, double azimuth,
                                               const BottomHoleSettings& settings, double length) {
   const Vector3 tangent = well::direction(inclination, azimuth);
@@ -113,7 +114,8 @@ std::shared_ptr<const well::Trajectory> arcTo(double inclination, double azimuth
   return chain;
 }
 
-/// Weight on bit and torque of the deck; nothing that has its own place or changes in time.
+/// Weight on bit and torque of the deck; loads with their own position or time dependence are
+/// omitted.
 loads::Loads loadsWith(const Scene& scene, double weight) {
   Teuchos::ParameterList list = scene.list().sublist("Loads");
   list.set("Weight On Bit", weight);
@@ -140,7 +142,7 @@ void requireWithin(const Scene& scene, const std::string& name, std::optional<do
                deck::printed(whole, "m", 8) + " long. Give a distance on the string.");
 }
 
-/// What the list says by itself.
+/// Checks of the list alone.
 void requireSense(const Scene& scene, const BottomHoleSettings& settings, double whole) {
   requireWithin(scene, "Length", settings.length, whole);
   requireWithin(scene, "Survey Tool", settings.surveyTool, whole);

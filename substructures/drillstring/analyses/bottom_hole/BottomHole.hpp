@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// `tooljoint bha`: the lower part of a string at rest in its hole. Sides of the hole at a place
-/// are those of its own high side h and of its right side t x h (t down the hole).
+/// `tooljoint bha`: the lower part of a string at rest in its hole. Sides of the hole at a depth
+/// are its local high side h and its right side t x h (t down the hole).
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@
 
 namespace tooljoint::drillstring {
 
-/// To the high side and to the right side.
+/// Components to the high side and to the right side.
 using Sides = Eigen::Vector2d;
 
-/// What is varied.
+/// The varied quantities.
 struct BottomHolePoint {
   std::optional<double> inclination;  ///< at the bit [rad]; none: the deck's hole
   double weight = 0.0;                ///< on bit [N]
@@ -61,11 +61,11 @@ struct BottomHoleState {
   Sides sag = Sides::Zero();        ///< of the string against the hole at the survey tool [rad]
   std::vector<GaugeContact> gauges;
   std::vector<BottomHoleStation> stations;
-  /// Distance from the bit of the lowest place where the body touches the wall above all gauges
-  /// that touch; negative: none [m].
+  /// Tangency point: distance from the bit of the lowest contact of the body above all gauges in
+  /// contact; negative: none [m].
   double tangency = -1.0;
-  /// Forces that do not balance, of the buoyed weight and the weight on bit; moments likewise, of
-  /// the sum of the moments of all forces across the string about the bit.
+  /// Imbalance of forces, relative to the buoyed weight and the weight on bit. Imbalance of
+  /// moments, relative to the sum of the moments of all lateral forces about the bit.
   double forceDefect = 0.0, momentDefect = 0.0;
   bool stable = true;
 
@@ -75,25 +75,25 @@ struct BottomHoleState {
   }
 };
 
-/// What of the string is computed.
+/// The computed lower part of the string.
 class BottomHole {
  public:
-  /// DeckError: no weight or no wall, supports or forces at nodes of their own, lengths beyond the
+  /// DeckError: no weight or no wall, supports or forces at separate nodes, lengths beyond the
   /// string. The scene must outlive the object. Collective.
   BottomHole(const Scene& scene, const BottomHoleSettings& settings);
 
   /// The static state of this length of string above the bit, with bends and eccentric gauges
   /// turned by `turned` [rad] from the tool face. ConvergenceError, ModelError.
   BottomHoleState solve(const BottomHolePoint& point, double length, double turned = 0.0) const;
-  /// The average over evenly spaced angles; stresses and defects are the largest ones.
+  /// The average over evenly spaced angles; stresses and defects are the largest values.
   BottomHoleState rotating(const BottomHolePoint& point, double length) const;
 
-  /// Whether anything of this length turns with the string.
+  /// True if a feature in this length turns with the string.
   bool turns(double length) const;
   double wholeLength() const { return string_.length(); }  ///< [m]
 
  private:
-  /// The node (0-based) where this length above the bit begins.
+  /// The node (0-based) at the top of this length above the bit.
   int topNode(double length) const;
   Scene lowerPart(const BottomHolePoint& point, double length, double turned) const;
 
@@ -102,7 +102,7 @@ class BottomHole {
   DrillString string_;  ///< whole, with divided elements
 };
 
-/// The length modelled, and what is known of it.
+/// The modelled length and its accuracy.
 struct ModelledLength {
   double length = 0.0;          ///< above the bit [m]
   double checkedAgainst = 0.0;  ///< another length [m]
@@ -117,7 +117,7 @@ struct BottomHoleRow {
   BottomHoleState state;
 };
 
-/// A point without an equilibrium.
+/// A combination without an equilibrium.
 struct MissingRow {
   BottomHolePoint point;
   bool rotating = false;
@@ -130,15 +130,15 @@ struct BottomHoleSweep {
   std::vector<MissingRow> missing;
 };
 
-/// The deck's list `Bottom-Hole Assembly`; its defaults where the deck has none. DeckError: it
-/// makes no sense for this string.
+/// The deck's list `Bottom-Hole Assembly`, or its defaults if the deck has none. DeckError if it
+/// does not fit this string.
 BottomHoleSettings bottomHoleSettings(const Scene& scene);
 
-/// Every combination of the settings, dealt to the ranks one by one; all ranks end with all of
-/// them. States that the folder holds for the same deck and program are not solved again. A string
-/// on which nothing turns has no rows of its own for rotating. A combination without an equilibrium
-/// is among the missing ones; ConvergenceError when none has one; InterruptedError after a signal.
-/// Collective.
+/// Every combination of the settings, distributed to the ranks one by one; at the end all ranks
+/// have all of them. States that are stored for the same deck and program are not solved again. A
+/// string without turning features has no separate rows for rotating. Combinations without an
+/// equilibrium are listed as missing; ConvergenceError when none has one; InterruptedError after a
+/// signal. Collective.
 BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings,
                                 const cases::RowFolder& store);
 

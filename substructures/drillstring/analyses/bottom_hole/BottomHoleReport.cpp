@@ -14,7 +14,7 @@
 namespace tooljoint::drillstring {
 namespace {
 
-/// Imbalance of forces or moments, and change with the length, that are worth a warning.
+/// Imbalance of forces or moments, and change with the length, above which a warning is given.
 constexpr double largestDefect = 0.02, largestChange = 0.02;
 
 double degrees(double angle) { return angle / constants::degree; }
@@ -81,7 +81,7 @@ class Report {
   }
 
  private:
-  /// "12.3 m", or in the unit lengths are printed in.
+  /// "12.3 m", or in the printed unit of length.
   std::string metres(double length) const {
     return fmt::format("{:.1f} {}", length_(length), length_.name());
   }

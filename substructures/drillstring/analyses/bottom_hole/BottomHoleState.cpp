@@ -59,15 +59,15 @@ class Findings {
   }
 
  private:
-  /// Components in the nodal frame as components to the sides.
+  /// Converts components in the nodal frame to components to the sides.
   Sides toSides(int n, const Eigen::Vector2d& inFrame) const {
     return sides_[at(n)].transpose() * (stage_.path.frame[at(n)].leftCols<2>() * inFrame);
   }
 
   Eigen::Vector2d lateral(int n) const { return d_.segment<2>(nodal::perNode * n); }
-  /// Axis of a section on the path, in the nodal frame.
+  /// Axis of a section in the path state, in the nodal frame.
   Vector3 sectionAxis(int n) const { return stage_.path.axisInFrame(at(n)); }
-  /// Of a section against the hole: that of the path, and theta x axis.
+  /// Slope of a section relative to the hole: that of the path state plus theta x axis.
   Eigen::Vector2d slope(int n) const {
     const Vector3 axis = sectionAxis(n);
     const Vector3 theta = d_.segment<3>(nodal::perNode * n + nodal::thetaX);
@@ -78,7 +78,7 @@ class Findings {
     return toSides(n, stage_.state.reaction.segment<2>(nodal::perNode * n));
   }
 
-  /// Linear between nodes: the rotation of a section.
+  /// Rotation of a section, linear between nodes.
   Sides sagAt(double depth) const {
     const auto depths = part_.string.depths();
     const auto below = std::upper_bound(depths.begin(), depths.end(), depth) - depths.begin();
@@ -98,8 +98,8 @@ class Findings {
     return one;
   }
 
-  /// D of an element with its bend, without spins of the sections about their axes, which bend
-  /// nothing.
+  /// D of an element with its bend, without spins of the sections about their axes, which cause no
+  /// bending.
   beam::Vector12 bending(int e) const {
     beam::Vector12 d = d_.segment<12>(nodal::perNode * e);
     if (!kinks_.empty()) d += kinks_[at(e)];
@@ -111,8 +111,8 @@ class Findings {
     return d;
   }
 
-  /// E I times the curvature vector at both ends of an element, global axes [N m]: that of the
-  /// path, and the end moments of K_a D less those of the weight.
+  /// E I times the curvature vector at both ends of an element, global axes [N m]: that of the path
+  /// state plus the end moments of K_a D minus those of the weight.
   std::array<Vector3, 2> endMoments(int e) const {
     const auto& path = stage_.path;
     const auto& element = *part_.string.elements[at(e)].formulation;
@@ -129,7 +129,7 @@ class Findings {
             triad * lower + Vector3(onPath.segment<3>(9)).cross(axis)};
   }
 
-  /// Moments at nodes are the mean of both sides, stresses the larger one.
+  /// Moments at a node are the mean of both sides, stresses the larger value.
   void addBending(BottomHoleState& found) const {
     for (int e = 0; e < last_; ++e) {
       const auto moments = endMoments(e);
@@ -169,14 +169,14 @@ class Findings {
     }
   }
 
-  /// Where a node is, displaced.
+  /// Displaced position of a node.
   Vector3 position(int n) const {
     return stage_.path.position[at(n)] +
            stage_.path.frame[at(n)] * d_.segment<3>(nodal::perNode * n);
   }
 
-  /// Sum of walls, supports, pads, buoyed weight and weight on bit, whose direction is that of the
-  /// hole at the bit; and the sum of their moments about the bit.
+  /// Sum of the forces of walls, supports, pads, buoyed weight and weight on bit (in the direction
+  /// of the hole at the bit), and the sum of their moments about the bit.
   void checkBalance(BottomHoleState& found) const {
     const auto& state = stage_.state;
     Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
@@ -222,7 +222,7 @@ class Findings {
   const Vector& d_;
   std::vector<beam::Vector12> kinks_;
   int last_;  ///< node at the bit, 0-based
-  /// Buoyed, and other loads, per length of every element, global axes [N/m].
+  /// Buoyed weight and other loads per length of every element, global axes [N/m].
   std::vector<Vector3> weight_;
   std::vector<Eigen::Matrix<double, 3, 2>> sides_;  ///< high and right side at every node
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The static state of a bottom-hole assembly: figures.
+/// Results of the static state of a bottom-hole assembly.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,12 @@
 namespace tooljoint::drillstring {
 
 /// Forces, tilt, sag, bending and balance of a static state without friction.
-/// \param surveyTool  its distance from the bit [m]
+/// \param surveyTool  distance of the survey tool from the bit [m]
 BottomHoleState bottomHoleState(const Scene& part, const StaticStage& stage,
                                 std::optional<double> surveyTool);
 
-/// Sums of states with the same stations; of stresses, defects and tangency points the largest.
+/// Adds a state with the same stations to a sum; keeps the largest stresses, defects and tangency
+/// point.
 void addState(const BottomHoleState& one, BottomHoleState& sum);
 void divideState(double count, BottomHoleState& sum);
 

@@ -15,14 +15,13 @@
 namespace tooljoint::drillstring {
 namespace {
 
-/// First length tried, and factor from one to the next. A tangency point lies within some tens of
-/// metres.
+/// First trial length and growth factor. A tangency point lies within some tens of metres.
 constexpr double firstLength = 30.0, growth = 1.5;
-/// Change of force and tilt at the bit below which a length is long enough.
+/// A length is sufficient if force and tilt at the bit change by less than this.
 constexpr double enough = 0.01;
 
-/// Largest of the changes of the force on the bit, by the largest force on a wall, and of its tilt,
-/// by the largest slope of the string against its hole.
+/// The larger of two changes: of the force on the bit, relative to the largest force on a wall, and
+/// of its tilt, relative to the largest slope of the string against its hole.
 double changeOf(const BottomHoleState& from, const BottomHoleState& to) {
   double force = to.sideForce.norm(), slope = to.tilt.norm();
   for (std::size_t i = 0; i < to.stations.size(); ++i) {
@@ -64,7 +63,7 @@ ModelledLength lengthFor(const BottomHole& assembly, const BottomHolePoint& poin
   return found;
 }
 
-/// The longest that any hole needs, under the largest weight on bit with an equilibrium.
+/// The longest length that any hole needs, under the largest weight on bit with an equilibrium.
 ModelledLength modelledLength(const BottomHole& assembly, const BottomHoleSettings& settings,
                               const std::vector<std::optional<double>>& holes) {
   auto weights = settings.weights;
@@ -93,7 +92,7 @@ struct Job {
   bool rotating = false;
 };
 
-/// What was found: a state, or the reason why there is none.
+/// The result: a state, or the reason why there is none.
 struct Outcome {
   BottomHoleState state;
   std::string reason;
@@ -116,10 +115,10 @@ std::vector<Job> jobsOf(const BottomHole& assembly, const BottomHoleSettings& se
   return jobs;
 }
 
-constexpr int storeFormat = 1;  ///< raised when the meaning of a kept state changes
+constexpr int storeFormat = 1;  ///< raised when the meaning of a stored state changes
 
-/// What decides the states: the deck but its analyses, what of the own list is no point, and the
-/// length.
+/// Data that determine the states: the deck without its analyses, the settings of this list that
+/// are not varied, and the length.
 cases::RowKeys keysOf(const cases::Case& owner, const BottomHoleSettings& settings, double length,
                       const std::vector<Job>& jobs) {
   const auto number = [](const std::optional<double>& value) {
