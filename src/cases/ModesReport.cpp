@@ -257,7 +257,7 @@ ListedModes listComparedModes(const model::SecondOrderModel& full, const std::ve
   log::info(dampedHeading(t) + ", errors of s:");
   log::info(estimate::comparisonTable(damped, true));
   if (synthesis.coupled.wholeInterfaces)
-    log::info("Errors of damped modes are not estimated beside an interface reduction.");
+    log::info("Errors of damped modes are not estimated with an interface reduction.");
   std::vector<std::complex<double>> values, coupled;
   for (const auto& mode : damped) {
     values.push_back(mode.full);

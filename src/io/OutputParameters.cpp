@@ -55,7 +55,7 @@ deck::ListSpec parameters() {
   using deck::Range;
   const OutputSettings defaults;
   return deck::ListSpec("Output",
-                        "What a run leaves behind; results.h5 and summary.json are always written.")
+                        "Files that a run writes; results.h5 and summary.json are always written.")
       .text("Folder", deck::Optional{},
             "Folder for the results, relative to where the program runs; --output on the command "
             "line goes first.")
@@ -63,11 +63,12 @@ deck::ListSpec parameters() {
                  {"displacement", "velocity", "acceleration", "normal_force"},
                  "Motions and forces of nodes recorded at every sample; {} records none.")
       .realArray("Depths", "m", deck::Optional{}, Range::nonNegative(),
-                 "Of a string: measured depths whose nearest nodes are recorded. By default all "
-                 "nodes are.")
+                 "For a string: measured depths whose nearest nodes are recorded. By default all "
+                 "nodes are recorded.")
       .textArray("Nodes", deck::Optional{}, {},
-                 "Of parts: nodes that are recorded, each as part:node. By default all nodes are.")
-      .boolean("CSV", defaults.csv, "Write tables for spreadsheets beside results.h5.")
+                 "For parts: nodes that are recorded, each as part:node. By default all nodes are "
+                 "recorded.")
+      .boolean("CSV", defaults.csv, "Write tables for spreadsheets in addition to results.h5.")
       .boolean("Report", defaults.report,
                "Write report.html at the end of `tooljoint run` and of the analyses: figures, "
                "plots and a 3-D view of the results in one file.")

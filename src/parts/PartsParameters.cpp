@@ -35,7 +35,7 @@ ListSpec importedParameters() {
                  "Fixed dofs: a node or the name of an interface set, followed by components (all "
                  "of them without), for example {1, 5 u v, clamp}.")
       .textArray("Retained", Optional{}, {},
-                 "Retained dofs beside those of the file, written as in \"Fixed\".")
+                 "Retained dofs in addition to those of the file, written as in \"Fixed\".")
       .boolean("Reduce", true,
                "Let the list Reduction reduce this part; false keeps all its dofs, for a part that "
                "was reduced before.")
@@ -119,7 +119,7 @@ deck::ListSpec parameters() {
               "\"From files\": initial displacements of the files, zero where a file has none. "
               "\"Equilibrium\": static equilibrium under the loads of the start time; parts are "
               "reduced about it.");
-  ListSpec loads("Loads", "Loads on single dofs, beside those of the files.");
+  ListSpec loads("Loads", "Loads on single dofs, in addition to those of the files.");
   loads.namedLists(loadParameters());
   list.list(loads);
   ListSpec starts("Starts", "Initial displacements and velocities of single dofs.");

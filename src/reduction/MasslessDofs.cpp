@@ -38,11 +38,11 @@ void warnOfUnsymmetricMassless(const model::Substructure& part) {
   for (const int i : part.interior())
     if (mass[i] == 0.0 && skew[i] > roundingOfRows * stiffness[i]) found.push_back(i);
   if (!found.empty())
-    log::warn("Part \"" + part.name + "\" has " + std::to_string(found.size()) +
-              " interior dofs without mass whose stiffness is not symmetric (first " +
-              model::dofName(model, found.front()) +
-              "). No basis holds how they follow, not even all modes. Retain them, or give them "
-              "mass.");
+    log::warn(
+        "Part \"" + part.name + "\" has " + std::to_string(found.size()) +
+        " interior dofs without mass whose stiffness is not symmetric (first " +
+        model::dofName(model, found.front()) +
+        "). No basis contains their motion, not even all modes. Retain them, or give them mass.");
 }
 
 void warnOfDampedMassless(const model::Substructure& part) {

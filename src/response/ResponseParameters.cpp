@@ -196,7 +196,7 @@ ListSpec responseParameters() {
   declareCommon(list);
   ListSpec loads("Loads", "Harmonic loads, or dofs of transfer functions.");
   loads.namedLists(loadParameters());
-  ListSpec unbalances("Unbalance", "Masses off the axis, beside those of the scene.");
+  ListSpec unbalances("Unbalance", "Masses off the axis, in addition to those of the scene.");
   unbalances.namedLists(unbalanceParameters());
   ListSpec outputs("Outputs", "Dofs whose amplitude and phase are written.");
   outputs.namedLists(outputParameters());

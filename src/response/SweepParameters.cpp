@@ -12,13 +12,12 @@ namespace tooljoint::response {
 
 void declareCommon(deck::ListSpec& list) {
   list.choice("Friction", std::string("None"), {"None", "Sliding"},
-              "Of contacts at rest: None takes closed contacts as springs and dashpots along their "
+              "Contacts at rest: None takes closed contacts as springs and dashpots along their "
               "normals; Sliding adds the tangent of friction at the speed of sliding, which is not "
               "symmetric and can make a motion grow.")
-      .integer(
-          "Spot Checks", 3, deck::Range::nonNegative(),
-          "Points at which the full model is solved beside the reduced one; of a response also at "
-          "the highest peak of each output, unless 0.")
+      .integer("Spot Checks", 3, deck::Range::nonNegative(),
+               "Points at which the full model is solved as well as the reduced one; of a response "
+               "also at the highest peak of each output, unless 0.")
       .expert()
       .choice(
           "Axis", std::string("z"), {"x", "y", "z"},

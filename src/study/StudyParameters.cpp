@@ -39,7 +39,7 @@ ListSpec method() {
               "Full: the lists Reduction and Substructures are taken out of the deck. Reduced: "
               "they stay.")
       .textArray("Set", Texts{}, {},
-                 std::string("What this method changes in the deck. ") + overrideDoc);
+                 std::string("Changes of the deck by this method. ") + overrideDoc);
   ListSpec sweep("Sweep",
                  "The runs of this method: the product of all dimensions; the last one runs along "
                  "a line of the plots. Without it there is one run.");
@@ -54,7 +54,7 @@ ListSpec published() {
                  "CPU time of each point per simulated second.")
       .realArray("Error", "", deck::Optional{}, Range::positive(),
                  "Error of each point; without it the points stand at the edge of the plot.")
-      .textArray("Points", deck::Optional{}, {}, "What to write beside each point.");
+      .textArray("Points", deck::Optional{}, {}, "Label to write at each point.");
 }
 
 Texts texts(const Teuchos::ParameterList& list, const char* name) {
@@ -253,9 +253,9 @@ ListSpec parameters() {
       .real("Time Limit", "s", deck::Optional{}, Range::positive(),
             "CPU time after which a run is given up and counts as failed; the reference has none.")
       .integer("Frequencies", 0, Range{0, 1000, false, false},
-               "How many of the lowest frequencies of the full model are sought in each "
-               "reduced one, by shape (largest MAC); their errors stand beside those of "
-               "the motion. What that costs is in no column. 0 for none.")
+               "How many of the lowest frequencies of the full model are sought in each reduced "
+               "one, by shape (largest MAC); their errors stand in the table with those of the "
+               "motion. Their cost is in no column. 0 for none.")
       .boolean("Pictures", true, "Draw the plots when the study is done.");
   ListSpec reference(
       "Reference",
@@ -263,16 +263,16 @@ ListSpec parameters() {
       "shortest step of the runs; RK4 at half its stability limit where all runs are explicit or "
       "choose their steps themselves, or where a Check alone is given.");
   reference.textArray("Set", deck::Required{}, {},
-                      std::string("What the reference changes in the deck. ") + overrideDoc);
+                      std::string("Changes of the deck by the reference. ") + overrideDoc);
   ListSpec check("Check",
                  "A second run, tighter than the reference or different from it: their difference "
                  "is the error of the reference. By default half the step of the reference.");
   check.textArray("Set", deck::Required{}, {},
                   std::string("What it changes in the deck of the reference. ") + overrideDoc);
-  ListSpec methods("Methods", "What is compared, one list for each method.");
+  ListSpec methods("Methods", "Methods to compare, one list for each.");
   methods.namedLists(method());
   ListSpec others("Published",
-                  "Published points to show beside the runs, as those of another machine.");
+                  "Published points to show with the runs, for example those of another machine.");
   others.namedLists(published());
   return spec.list(reference).list(check).requiredList(methods).list(others);
 }

@@ -13,17 +13,16 @@ namespace {
 void addLimits(deck::ListSpec& spec) {
   const TransientOptions usual;
   spec.real("Step Error Warning", "", usual.stepErrorWarning, deck::Range::positive(),
-            "Of equal steps: a step error above this is a warning. The step error is an estimate "
+            "With equal steps, a step error above this is a warning. The step error is an estimate "
             "of the error of the vibration after 3 s or the whole motion, whichever is shorter.")
       .expert()
-      .real(
-          "Step Error Limit", "", usual.stepErrorLimit, deck::Range::positive(),
-          "Of equal steps: a run with a step error above this fails. Where the estimate is above "
-          "half of this, or contact rests on walls too stiff for the step, the first 3 s of the "
-          "motion are integrated again in half the step, or in shorter ones that resolve such "
-          "contact. The step error is then the difference of both motions, or, where the motion is "
-          "chaotic, that of their speeds over 2.5. A limit of 1 and more compares nothing: it is "
-          "one of the estimate.")
+      .real("Step Error Limit", "", usual.stepErrorLimit, deck::Range::positive(),
+            "With equal steps, a run with a step error above this fails. Where the estimate is "
+            "above half of this, or contact rests on walls too stiff for the step, the first 3 s "
+            "of the motion are integrated again in half the step, or in shorter ones that resolve "
+            "such contact. The step error is then the difference of both motions, or, where the "
+            "motion is chaotic, that of their speeds over 2.5. A limit of 1 and more compares "
+            "nothing: it is one of the estimate.")
       .formerly("Generalized-alpha/Accept Coarse Steps")
       .expert()
       .real("Energy Residual Warning", "", usual.energyResidualWarning, deck::Range::positive(),
@@ -69,9 +68,9 @@ deck::ListSpec parameters() {
             "anew at each of them and go on only from there.")
       .expert()
       .choice("Ranks", std::string("Automatic"), {"Automatic", "Divide", "Alike"},
-              "Of several MPI ranks: each computes a piece of the model (Divide), or all do the "
-              "same (Alike). Automatic divides models of 1500 dofs and more. The integrators of "
-              "SUNDIALS do not divide a motion and refuse Divide.")
+              "Work of several MPI ranks: each computes a piece of the model (Divide), or all do "
+              "the same (Alike). Automatic divides models of 1500 dofs and more. The integrators "
+              "of SUNDIALS do not divide a motion and refuse Divide.")
       .expert();
   addLimits(spec);
   for (const auto& [name, entry] : registry.entries()) {

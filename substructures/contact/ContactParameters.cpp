@@ -123,7 +123,7 @@ deck::ListSpec parameters() {
   auto names = registry.names();
   for (const auto& name : pointLaws.names()) names.push_back(name);
   spec.choice("Law", std::string("Clamped"), names,
-              "Law of the normal force, or a point law with forces of its own (" +
+              "Law of the normal force, or a point law with its own forces (" +
                   quotedList(pointLaws.names()) +
                   "), which takes no other parameter of this list but Stiffness, as that of the "
                   "wall in checks.");

@@ -45,9 +45,9 @@ deck::ListSpec partitionParameters() {
   list.real("Retained Gap", "m", 0.008, Range::nonNegative(),
             "Static gap below which a node is retained by the choice \"Gap\".");
   list.real("Keep Full Below", "m", deck::Optional{}, Range::nonNegative(),
-            "Depth below which every node is retained, beside those of Retained Nodes: where the "
-            "action is (the bottom-hole assembly and the pipes that strike "
-            "the wall above it) stays as it is while the long string above is reduced.")
+            "Depth below which every node is retained, in addition to those of Retained Nodes: the "
+            "bottom-hole assembly and the pipes above it that strike the wall are not reduced, the "
+            "long string above is.")
       .formerly("Whole Below");
   list.integer(
           "Minimum Reduced Run", 1, Range::atLeast(1),

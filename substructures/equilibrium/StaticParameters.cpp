@@ -50,11 +50,11 @@ deck::ListSpec parameters() {
                "Number of equal steps in which \"Continuation\" adds friction.")
       .expert();
   spec.choice("Unstable State", std::string("Warn"), {"Warn", "Perturb", "Refuse"},
-              "What is done with a static state that is unstable: buckled on the axis of the bore, "
-              "or with a growing vibration about it. \"Warn\": the state is used and a warning "
-              "names mode and growth rate. \"Perturb\": the string is moved along the unstable "
-              "mode and settles on the wall, again until the state is stable; a growing vibration "
-              "is warned of. \"Refuse\": the run ends with exit code 4.");
+              "Treatment of an unstable static state: buckled on the axis of the bore, or with a "
+              "growing vibration about it. \"Warn\": the state is used and a warning names mode "
+              "and growth rate. \"Perturb\": the string is moved along the unstable mode and "
+              "settles on the wall, again until the state is stable; a growing vibration is warned "
+              "of. \"Refuse\": the run ends with exit code 4.");
   spec.passThrough("NOX", "Parameters passed to NOX unchanged.");
   spec.passThrough("Belos", "Parameters passed to Belos unchanged.");
   return spec;

@@ -5,8 +5,9 @@ namespace tooljoint::loads {
 
 deck::ListSpec dampingParameters() {
   using deck::Range;
-  return deck::ListSpec("Damping",
-                        "Rayleigh damping of the string; without this list it has none of its own.")
+  return deck::ListSpec(
+             "Damping",
+             "Rayleigh damping of the string; without this list the string itself has no damping.")
       .real("Mass Coefficient", "1/s", 0.0, Range::nonNegative(),
             "Factor of the string's mass matrix in the damping matrix.")
       .real("Stiffness Coefficient", "s", 0.0, Range::nonNegative(),

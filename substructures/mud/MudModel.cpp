@@ -12,7 +12,7 @@ deck::ListSpec parameters() {
                       "Drilling mud inside and around the string; without this list nothing of "
                       "it is modelled.");
   deck::declareVariants<MudModel, const Teuchos::ParameterList&, const MudProperties&>(
-      spec, "Model", std::string("Annular flow"), "What the mud adds to the elements.")
+      spec, "Model", std::string("Annular flow"), "Terms that the mud adds to the elements.")
       .expert();
   spec.real("Density", "kg/m3", deck::Required{}, Range::nonNegative(),
             "Mass density of the mud: added lateral mass inside and outside, and buoyancy.")

@@ -50,7 +50,8 @@ deck::ListSpec torqueDragParameters() {
                "Number of bit depths, evenly spaced from the surface to the bit of the deck.");
   list.realArray("Depths", "m", deck::Optional{}, deck::Range::positive(),
                  "Bit depths, in place of Count.");
-  list.textArray("Operations", operationNames(), operationNames(), "What is done with the string.");
+  list.textArray("Operations", operationNames(), operationNames(),
+                 "The operation: what is done with the string.");
   list.real("Block Weight", "N", 0.0, deck::Range::nonNegative(),
             "Weight of block, hook and top drive, which the hook load includes.");
   list.real("Rotary Speed", "rad/s", deck::Optional{}, deck::Range::positive(),
@@ -73,15 +74,13 @@ deck::ListSpec torqueDragParameters() {
             "Length of a joint of pipe: side forces are summed over it, since its tool joint bears "
             "them.")
       .expert();
-  list.boolean(
-          "After Run", false,
-          "Computes this at the end of `tooljoint run`, too: its report shows torque, drag and "
-          "buckling limits beside the motion.")
+  list.boolean("After Run", false,
+               "Computes this at the end of `tooljoint run`, too: its report shows torque, drag "
+               "and buckling limits with the motion.")
       .expert();
-  list.choice(
-      "Stiff String", std::string("Deepest Bit"), {"None", "Deepest Bit", "All Depths"},
-      "Depths at which the string with bending stiffness, clearance and contact (Static) is "
-      "computed beside the soft string.");
+  list.choice("Stiff String", std::string("Deepest Bit"), {"None", "Deepest Bit", "All Depths"},
+              "Depths at which the string with bending stiffness, clearance and contact (Static) "
+              "is computed in addition to the soft string.");
   list.text(
           "Measured", deck::Optional{},
           "CSV file of measured hook loads and surface torques (columns bit depth, operation, hook "
@@ -89,10 +88,10 @@ deck::ListSpec torqueDragParameters() {
           "weight are fitted. Relative to the folder of the deck.")
       .expert();
   list.real("Hook Load Uncertainty", "N", 1e4, deck::Range::positive(),
-            "Of a measured hook load: the weight of its error in the fit.")
+            "Weight of the error of a measured hook load in the fit.")
       .expert();
   list.real("Torque Uncertainty", "N m", 1e3, deck::Range::positive(),
-            "Of a measured surface torque.")
+            "Weight of the error of a measured surface torque in the fit.")
       .expert();
   list.realArray(
       "Broomstick", "", deck::Optional{}, deck::Range::nonNegative(),

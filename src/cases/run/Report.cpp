@@ -116,16 +116,15 @@ std::vector<std::string> remarks(const transient::TransientReport& report) {
   if (report.missingEnergy > largeCutOffEnergy)
     out.push_back("The parts without modes of their own would have " +
                   percent(report.missingEnergy) +
-                  " of the kinetic energy in their first modes, which the basis does not have: the "
-                  "motion is too fast for static condensation. Keep modes, retain more nodes, or "
-                  "see the error with Reduction/Error Estimate = Transient.");
+                  " of the kinetic energy in their first modes, which the basis lacks: the motion "
+                  "is too fast for static condensation. Keep modes, retain more nodes, or see the "
+                  "error with Reduction/Error Estimate = Transient.");
   if (report.cutOffEnergy > largeCutOffEnergy)
     out.push_back(
         percent(report.cutOffEnergy) +
-        " of the kinetic energy of the reduced motion is in modes above half the "
-        "frequency at which those of their parts end: vibration that the basis does not "
-        "have is likely to matter. Raise the cut-off, retain more nodes, or see the error "
-        "with Reduction/Error Estimate = Transient.");
+        " of the kinetic energy of the reduced motion is in modes above half the highest mode "
+        "frequency of their parts: vibration outside the basis is likely to matter. Raise the "
+        "cut-off, retain more nodes, or see the error with Reduction/Error Estimate = Transient.");
   return out;
 }
 

@@ -148,10 +148,10 @@ deck::ListSpec pointLawSpec() {
 
 deck::ListSpec parameters() {
   deck::ListSpec list("Coupling",
-                      "Connections between parts beside equal node numbers. Displacements are "
-                      "relative to the reference (static) states of the parts. A node "
-                      "is written PART:NODE with the name of the part, as tooljoint check lists "
-                      "them, or NODE alone where all parts that have it are joined.");
+                      "Connections between parts in addition to equal node numbers. Displacements "
+                      "are relative to the reference (static) states of the parts. A node is "
+                      "written PART:NODE with the name of the part, as tooljoint check lists them, "
+                      "or NODE alone where all parts that have it are joined.");
   list.choice("Assembly", std::string("Primal"), {"Primal", "Dual"},
               "Primal: joined dofs become one coordinate. Dual: every reduced part keeps its own "
               "dofs, joined by Lagrange multipliers (the interface forces); this needs an implicit "

@@ -290,8 +290,8 @@ class Planner {
             if (part.reference.size() == 0 || !done.insert({part.name, label}).second) return;
             if (frameOf(part.name, label.entity) != nullptr)
               throw ModelError("Node " + std::to_string(label.entity) + " of part \"" + part.name +
-                               "\" is released in a frame of its own, where static forces cannot "
-                               "be kept. Set \"Keep Static Forces\" to false.");
+                               "\" is released in a rotated frame, where static forces cannot be "
+                               "kept. Set \"Keep Static Forces\" to false.");
             const double value = force(part)[i];
             put(part, i, value);
             if (one.node.part.empty()) return;  // released in every part: each keeps its own force

@@ -49,7 +49,7 @@ NastranBulkData::NastranBulkData(const std::string& path) : path_(path), in_(pat
       throw DeckError(path_ + ":" + std::to_string(line) +
                       " begins a second section of bulk data; the first begins in line " +
                       std::to_string(begin_) +
-                      ". A part is one of them: give each a file of its own.");
+                      ". A part is one of them: write each to a separate file.");
     begin_ = line;
   }
 }

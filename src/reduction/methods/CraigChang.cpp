@@ -24,11 +24,11 @@ class CraigChang : public ReductionMethod {
   }
 };
 
-const bool craigChangRegistered = addMethod<CraigChang>(
-    "Craig-Chang",
-    "Free-interface modes and residual attachment modes (Craig and Chang 1976, 1977): the space of "
-    "\"Rubin\", with the amplitudes of the free-interface modes as coordinates beside the "
-    "interface dofs.");
+const bool craigChangRegistered =
+    addMethod<CraigChang>("Craig-Chang",
+                          "Free-interface modes and residual attachment modes (Craig and Chang "
+                          "1976, 1977): the space of \"Rubin\", with the amplitudes of the "
+                          "free-interface modes as coordinates in addition to the interface dofs.");
 
 }  // namespace
 

@@ -72,7 +72,7 @@ class Herting : public ReductionMethod {
 };
 
 deck::ListSpec hertingParameters() {
-  deck::ListSpec list("Herting", "Modes beside the constraint modes.");
+  deck::ListSpec list("Herting", "Modes in addition to the constraint modes.");
   list.choice("Mode Supports", std::string("Free"), {"Free", "Fixed"},
               "Support of interface and retained dofs while the modes are computed: with \"Free\" "
               "and inertia relief the space is that of \"Rubin\", with \"Fixed\" and "

@@ -36,9 +36,9 @@ deck::ListSpec campbellParameters() {
             "at critical speeds. Default: the last speed.")
       .expert()
       .choice("Static State", std::string("One"), {"One", "Each Speed"},
-              "What the equations are linearised about: one state, that of the start, or the state "
-              "of steady rotation at each speed, with its contacts, friction and law of the bit. "
-              "The latter costs a static state, and a reduction, at every speed.")
+              "State about which the equations are linearised: one state, that of the start, or "
+              "the state of steady rotation at each speed, with its contacts, friction and law of "
+              "the bit. The latter costs a static state, and a reduction, at every speed.")
       .realArray("Orders", "", std::vector<double>{1.0, 2.0, 3.0}, deck::Range::positive(),
                  "Excitation frequencies over the rotary speed: 1 unbalance, 3 a bit of three "
                  "cones. Where a mode meets one there is a critical speed.")

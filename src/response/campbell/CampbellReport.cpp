@@ -50,7 +50,7 @@ Columns crossingTable(const CampbellDiagram& diagram, const CampbellSettings& se
   const auto& rows = diagram.crossings;
   const auto& lines = settings.lines;
   Columns table{{
-      {"order", "1", "Of the excitation, frequency = order x speed / 2 pi + offset",
+      {"order", "1", "Order of the excitation, frequency = order x speed / 2 pi + offset",
        collect(rows, [&](const auto& r) { return lines[r.line].order; })},
       {"offset", "Hz", "Of the excitation",
        collect(rows, [&](const auto& r) { return lines[r.line].offset / twoPi; })},
@@ -60,7 +60,7 @@ Columns crossingTable(const CampbellDiagram& diagram, const CampbellSettings& se
        collect(rows, [](const auto& r) { return r.at.frequency(); })},
       {"damping", "1", "Damping ratio there",
        collect(rows, [](const auto& r) { return r.at.damping(); })},
-      {"whirl", "1", "Of the mode there; without refinement at the next speed of the diagram",
+      {"whirl", "1", "Whirl of the mode there; without refinement at the next speed of the diagram",
        collect(rows, [](const auto& r) { return r.at.whirl; })},
       {"refined", "1", "0: by linear interpolation",
        collect(rows, [](const auto& r) { return r.refined ? 1.0 : 0.0; })},

@@ -205,7 +205,8 @@ ListSpec axisParameters() {
 }
 
 ListSpec valueParameters() {
-  return ListSpec("Value", "What is mapped, named as you like: the name of its column and picture.")
+  return ListSpec("Value",
+                  "The mapped quantity; the name is free and names its column and picture.")
       .text("Key", deck::Required{},
             "A number of summary.json: transient.figures.stick_slip_index, static.top_torque ...")
       .real("Unsafe Above", "", deck::Optional{}, Range::any(),
@@ -236,7 +237,7 @@ ListSpec mapParameters() {
                 "The axes, one list for each; the first two span the pictures, each point of the "
                 "others has one of its own.");
   grid.namedLists(axisParameters());
-  ListSpec values("Values", "What is mapped, one list for each.");
+  ListSpec values("Values", "Mapped quantities, one list for each.");
   values.namedLists(valueParameters());
   return spec.requiredList(grid).requiredList(values);
 }

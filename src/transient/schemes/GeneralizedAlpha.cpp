@@ -105,8 +105,8 @@ deck::ListSpec generalizedAlphaParameters() {
             "default 1/1024 of Transient/Step.")
       .expert()
       .boolean("Phase Correction", true,
-               "Make up for the period error of the scheme: vibration is then accurate to fourth "
-               "order in the step (to second beside strong gyroscopic or other damping terms), at "
+               "Correct the period error of the scheme: vibration is then accurate to fourth order "
+               "in the step (to second order with strong gyroscopic or other damping terms), at "
                "about a third more work per step.")
       .boolean(
           "Resolve Impacts", true,

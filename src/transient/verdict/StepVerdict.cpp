@@ -153,7 +153,7 @@ void compare(StepComparison motions, Findings& found) {
 void warnOfDamping(const Findings& found, const StepError& error, double step) {
   std::ostringstream text;
   text << "The scheme damps vibration: steps of " << step << " s take " << percent(found.damped)
-       << " of its amplitude in " << error.span() << " s. What friction makes grow may stay small. "
+       << " of its amplitude in " << error.span() << " s. Growth caused by friction may be hidden. "
        << error.damping().scheme()->dampingAdvice();
   log::warn(text.str());
 }

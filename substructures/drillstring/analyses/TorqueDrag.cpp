@@ -399,7 +399,8 @@ bool actsBetween(const loads::Loads& one, const Scene& scene) {
 
 void warnOfForces(const Scene& scene) {
   const std::string without =
-      "has no part in torque and drag, which knows the weight of the string, the bit and the wall.";
+      "is not part of torque and drag, which considers the weight of the string, the bit and the "
+      "wall.";
   for (const auto& load : scene.loads) {
     if (!load->list().empty()) {
       log::warn(scene.deck.error(load->list(), without));

@@ -306,7 +306,7 @@ deck::ListSpec componentParameters() {
   deck::ListSpec spec("Component",
                       "A component: one segment (Length and a section), several (Segments), or "
                       "other components (Parts).");
-  spec.text("Description", Optional{}, "What it is, for people.");
+  spec.text("Description", Optional{}, "Description for readers.");
   addSegmentParameters(spec, Optional{});
   deck::ListSpec segment("Segment", "A uniform piece.");
   addSegmentParameters(segment, Required{});

@@ -93,7 +93,7 @@ std::string StringSettings::bitAt(double bit) const {
 
 deck::ListSpec drillstringParameters() {
   const beam::Material steel;
-  deck::ListSpec spec(here, "What the string is made of.");
+  deck::ListSpec spec(here, "Components of the string.");
   spec.text("Library", deck::Optional{},
             "Component library: \"api_pipes\", which is built in, or an XML file relative to the "
             "deck.")
@@ -102,8 +102,9 @@ deck::ListSpec drillstringParameters() {
             "name, as \"5 in 19.50 S-135 NC50\", with a stand of three, \"5 in 19.50 S-135 NC50 "
             "stand\".")
       .expert()
-      .list(deck::ListSpec("Components",
-                           "Components defined in the deck itself, beside those of the Library.")
+      .list(deck::ListSpec(
+                "Components",
+                "Components defined in the deck itself, in addition to those of the Library.")
                 .namedLists(componentParameters()))
       .textArray(
           "Assembly", deck::Required{}, {},

@@ -349,12 +349,11 @@ void judgeRounding(const Scene& scene, const StaticStage& stage) {
   constexpr double worthAWarning = 10;  // of the tolerance
   const double residual = stage.state.report.residual;
   if (residual > worthAWarning * scene.statics.tolerance)
-    log::warn(
-        "The residual of the static state ends at " + linalg::scientific(residual) +
-        " of the largest load, where " + linalg::scientific(scene.statics.tolerance) +
-        " is the tolerance: double precision leaves as much where elements are short beside what "
-        "the string stretches. Take longer elements, or set Static/Reference to "
-        "\"Hanging\".");
+    log::warn("The residual of the static state ends at " + linalg::scientific(residual) +
+              " of the largest load, where " + linalg::scientific(scene.statics.tolerance) +
+              " is the tolerance: rounding to double precision causes it where elements are short "
+              "compared with the stretch of the string. Use longer elements, or set "
+              "Static/Reference to \"Hanging\".");
 }
 
 }  // namespace

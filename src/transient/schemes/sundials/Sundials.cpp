@@ -48,9 +48,9 @@ void addCommon(deck::ListSpec& spec, double tolerance) {
             "Error of a step allowed in each coordinate and velocity, relative to its size. A "
             "coordinate counts up to 1 m or 1 rad: turns made before do not loosen it.")
       .real("Absolute Tolerance", "m", deck::Optional{}, deck::Range::positive(),
-            "Error of a step allowed in displacements beside that, and by the same number in "
-            "rotations (rad), coordinates of "
-            "modes and states of point laws; by default 0.01 m times Relative Tolerance.")
+            "Error of a step allowed in displacements in addition to that, and by the same number "
+            "in rotations (rad), coordinates of modes and states of point laws; by default 0.01 m "
+            "times Relative Tolerance.")
       .expert()
       .real("Absolute Velocity Tolerance", "m/s", deck::Optional{}, deck::Range::positive(),
             "The same for velocities; by default 1 m/s times Relative Tolerance.")
