@@ -20,8 +20,8 @@ namespace tooljoint::coupling {
 /// where n is the number of negative eigenvalues, A_c that of the coupled model, L_p takes its
 /// coordinates to those of the part and m counts the multipliers of dual assembly (two coordinates
 /// each). Compare W. H. Wittrick and F. W. Williams, Q. J. Mech. Appl. Math. 24 (1971) 263-284.
-/// Interfaces are those of the coupled model: if they were reduced, the count is that of the
-/// full parts on the reduced interfaces. Two factorisations for each part with missing modes.
+/// Interfaces are those of the coupled model: if they were reduced, the count is that of the full
+/// parts on the reduced interfaces. Two factorisations for each part with missing modes.
 ///
 /// For bases with their own mass only (MethodTraits::ownMass). ConvergenceError if `bound` is an
 /// eigenvalue of the model or of the interior of a part. Collective; every rank gets the same.

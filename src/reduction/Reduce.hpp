@@ -79,8 +79,8 @@ struct ReductionCache {
       cores;  ///< by class and requested number of modes
 };
 
-/// The same with the cache of earlier rounds: only parts with a new number of modes are reduced if
-/// the cache contains the others; this needs ModeRule::Kind::PerPart.
+/// The same with the reductions of earlier rounds. If the cache stores them (`remembers`), only
+/// parts with a new number of modes are reduced; this needs ModeRule::Kind::PerPart.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
                                            const ReductionMethod& basis,
                                            const ReductionOptions& options, ReductionCache& cache);

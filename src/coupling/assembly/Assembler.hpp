@@ -70,10 +70,10 @@ struct Coupling {
 ///         + [K -B' -B'; -B -S S; -B S -S] z = [F; -g; -g],   z = (q, lambda_1, lambda_2)
 ///
 /// This means B q = g and lambda_1 = lambda_2, each half of the force; S is its stiffness at that
-/// dof. Multipliers have the node number of that dof, so that block solvers keep them together.
-/// The start contains consistent multipliers. Parts with reduction::DerivedInterface have
-/// interface displacements that are not coordinates, u_b = B_p q_p; if their coordinates contain
-/// interface forces (dual Craig-Bampton), these become the multipliers.
+/// dof. Multipliers have the node number of that dof, so that block solvers keep them together. The
+/// start contains consistent multipliers. Parts with reduction::DerivedInterface have interface
+/// displacements that are not coordinates, u_b = B_p q_p; if their coordinates contain interface
+/// forces (dual Craig-Bampton), these become the multipliers.
 ///
 /// Throws ModelError, naming parts and dofs: labels that join nothing, occur twice in a part or
 /// belong to an inner dof of another part; different component names; reference or initial states

@@ -10,7 +10,7 @@
 
 namespace tooljoint::coupling {
 
-/// Such a dof moves by
+/// The displacement of a dof whose motion contains the forces between parts is
 ///
 ///     u = Phi_b p + G (C' lambda + f),
 ///

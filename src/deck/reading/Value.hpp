@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Strict lexical reading of one value: the whole text must match its type. (Teuchos
-/// alone would read type="double" value="12abc" as 12, "1,5" as 1, "" as 0, and type="int"
-/// value="3.7" as 3.)
+/// Strict lexical reading of one value: the whole text must match its type. (Teuchos alone would
+/// read type="double" value="12abc" as 12, "1,5" as 1, "" as 0, and type="int" value="3.7" as 3.)
 #pragma once
 
 #include <optional>

@@ -37,7 +37,7 @@ class MassCheck {
                      what);
   }
 
-  /// m_ij - m_ji| <= 1e-10 sqrt(m_ii m_jj), or relative to the largest entry if a diagonal is
+  /// |m_ij - m_ji| <= 1e-10 sqrt(m_ii m_jj), or relative to the largest entry if a diagonal is
   /// missing
   void symmetric() const {
     const Sparse transposed = M_.transpose();

@@ -20,8 +20,9 @@ constexpr double nothingLeft = 1e-12;
 /// D = Phi p + Psi g, where Psi is the residual flexibility of the interface dofs; with g = C'
 /// lambda (coupling::Assembly::Dual)
 ///
-///     [I 0; 0 C M_r C'] (p, lambda)'' + [Lambda  -Phi_b' C'; -C Phi_b  -C F_r C'] (p, lambda) =
-///     ... F_r = Psi_b, M_r = Psi' M Psi,
+///     [I 0; 0 C M_r C'] (p, lambda)''
+///         + [Lambda  -Phi_b' C'; -C Phi_b  -C F_r C'] (p, lambda) = ...
+///     F_r = Psi_b, M_r = Psi' M Psi,
 ///
 /// for symmetric parts; every matrix is projected completely, on Phi and Psi of the symmetric part
 /// of K.

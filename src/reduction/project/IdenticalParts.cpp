@@ -23,7 +23,7 @@ bool sameIntegers(const int* a, const int* b, Eigen::Index n) {
   return n == 0 || std::memcmp(a, b, sizeof(int) * static_cast<std::size_t>(n)) == 0;
 }
 
-/// x_k - y_k| <= room_k for all k < n; false if one of them is not a number.
+/// |x_k - y_k| <= room_k for all k < n; false if one of them is not a number.
 bool near(const double* x, const double* y, const double* room, Eigen::Index n) {
   for (Eigen::Index k = 0; k < n; ++k)
     if (!(std::abs(x[k] - y[k]) <= room[k])) return false;

@@ -34,10 +34,9 @@ Sparse project(const Sparse& A, const Sparse& Phi);
 /// All matrices of `part`. If m_DD = I and sym(k_DD) is diagonal to 1e-10 for an orthonormal basis,
 /// these and the block k_DC (and k_CD for symmetric K) are set to their theoretical values;
 /// otherwise they are left as projected, and the defects are reported. Entries of the constant
-/// stiffness below 1e-14 of
-/// phi_i|' |K| |phi_j| are rounding and are omitted. Mass and damping are projected on
-/// basis.inertial if the basis has it. A damping matrix that is a combination a M + b K of the part
-/// (Rayleigh damping) becomes a m + b k.
+/// stiffness below 1e-14 of |phi_i|' |K| |phi_j| are rounding and are omitted. Mass and damping are
+/// projected on basis.inertial if the basis has it. A damping matrix that is a combination a M + b
+/// K of the part (Rayleigh damping) becomes a m + b k.
 ProjectedMatrices projectMatrices(const PartView& part, const Basis& basis);
 
 }  // namespace tooljoint::reduction

@@ -21,7 +21,7 @@ struct KrylovOptions {
 };
 
 /// Ritz vectors of the Krylov space of every interior block; blocks that touch no boundary dof keep
-/// their lowest modes. A cut-off frequency takes as many vectors as there are fixed-interface
+/// their lowest modes. With a cut-off frequency there are as many vectors as fixed-interface
 /// modes below it. ModelError when the expansion point is a natural frequency.
 InteriorVectors krylovVectors(const PartView& part, const ModeRequest& request,
                               const KrylovOptions& options);

@@ -108,8 +108,8 @@ struct Divergence {
 struct ModeShape {
   CampbellRow at;
   int line = -1;           ///< excitation of its crossing; -1: a mode of the diagram
-  Eigen::VectorXcd shape;  ///< rows of the recovery; of its largest displacement across the axis
-                           ///< (any, where there is none) the size is 1 and the phase 0
+  Eigen::VectorXcd shape;  ///< rows of the recovery; its largest displacement normal to the axis
+                           ///< (or any, if there is none) has magnitude 1 and phase 0
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -21,7 +21,7 @@ namespace tooljoint::study {
 namespace {
 
 /// A trial of this CPU time is long enough to predict the time of a motion [s]; a shorter one is
-/// repeated with more steps.
+/// repeated over a longer time.
 constexpr double enoughCpu = 0.05;
 constexpr double trialGrowth = 4.0;
 

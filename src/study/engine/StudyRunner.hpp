@@ -51,8 +51,8 @@ struct Execution {
   double setupCpu = 0.0, setupWall = 0.0;  ///< of the conversion to kernel form
   long missedNodes = 0;
   double maxPenetration = 0.0;
-  std::optional<double> estimatedVibration;  ///< where Reduction/Error Estimate has that of
-                                             ///< the transient; its time is not in `cpu` and `wall`
+  std::optional<double> estimatedVibration;  ///< if Reduction/Error Estimate includes the
+                                             ///< transient; its time is not in `cpu` and `wall`
 };
 
 /// A run that exceeded its time limit.

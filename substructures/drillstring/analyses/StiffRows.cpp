@@ -15,7 +15,7 @@ namespace {
 
 using Row = std::vector<StiffLoads>;
 
-constexpr int storeFormat = 4;  ///< raised when the meaning of a kept depth changes
+constexpr int storeFormat = 4;  ///< raised when the meaning of a stored depth changes
 
 /// Without an equilibrium there is no start for sliding: the first operation reports that failure,
 /// the others refer to it.

@@ -173,8 +173,8 @@ constexpr FreeMotion freeMotions[] = {{nodal::w, "slides along the well"},
 
 /// A string with w (or theta_z) unsupported is singular only in a straight well. In a curved well
 /// walls and bending resist sliding, but far too little for the weight. If such a string has no
-/// static equilibrium, or one far away, this reports a floating model, with the exit code for that
-/// instead of that of a failed solver. `found` is the message of the solver.
+/// static equilibrium, or only a distant one, this reports a floating model, with the exit code for
+/// that instead of that of a failed solver. `found` is the message of the solver.
 void explainFreeMotion(const Scene& scene, const std::string& found) {
   const auto free = freeDirections(scene);
   if (free.empty()) return;

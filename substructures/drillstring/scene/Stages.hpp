@@ -40,7 +40,7 @@ std::vector<int> freeDirections(const Scene& scene);
 StaticStage findEquilibrium(const Scene& scene);
 /// Compares the torque at the top with that of loads, friction and supports below: above 2 % of the
 /// scale of StaticState a warning, above 10 % a ConvergenceError. With the pre-stress "Axial and
-/// torque", or sections that are not round, always a warning: there the model itself resists a spin
+/// torque", or sections that are not round, always a warning: such a model resists a spin
 /// about the curved axis.
 void judgeTorqueBalance(const Scene& scene, const StaticStage& stage);
 /// Warns if displacement along a well that turns changes the direction by more than 0.01 rad.
@@ -61,8 +61,8 @@ std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stag
 /// These parts prepared for the list Coupling, and their connections.
 coupling::ResolvedCoupling resolvedParts(const Scene& scene, const StaticStage& stage);
 /// Elements (0-based, increasing) below joints with dofs released by Coupling/Releases or Hinges.
-/// There results have the motion of the part above, so strain and curvature of such an element are
-/// taken from the next one.
+/// At the joint, results contain the motion of the part above, so strain and curvature of such an
+/// element are taken from the next one.
 std::vector<int> elementsBelowReleases(const Scene& scene, const StaticStage& stage);
 /// Unreduced parts joined, in primal assembly.
 coupling::Coupling joinUnreduced(const coupling::ResolvedCoupling& resolved);

@@ -106,8 +106,8 @@ class BottomHole {
 struct ModelledLength {
   double length = 0.0;          ///< above the bit [m]
   double checkedAgainst = 0.0;  ///< another length [m]
-  double change = 0.0;  ///< between the two: of the force on the bit by the largest force on a
-                        ///< wall, or of the tilt by the largest slope of the string
+  double change = 0.0;  ///< between the two: of the force on the bit over the largest force on a
+                        ///< wall, or of the tilt over the largest slope of the string
 };
 
 /// A row of the sweep.
