@@ -53,11 +53,11 @@ The expert parameter `Leave Out` takes strategies out of a run, and `transient.s
 
 ![CPU time without each strategy over that with all](figures/strategies.svg)
 
-Numbers are CPU times of the motion over those with all strategies, the least of {repeats} runs of
-each. A difference of the motion is stated where it exceeds {same:g} % (vibration error) and three
-times the change by half the tolerance of the iterations. *Refused* is a run without a result. A
-dash marks a strategy that the case does not use. The first table leaves out strategies that no case
-uses.
+Numbers are CPU times of the motion relative to those with all strategies, the smaller of {repeats}
+runs each. A difference of the motion is stated if it exceeds {same:g} % (vibration error) and three
+times the change by half the tolerance of the iterations. *Refused* means that the run had no
+result. A dash marks a strategy that the case does not use. The first table omits strategies that no
+case uses.
 
 """
 
