@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The damped modes nearest zero, found by Krylov subspaces, against all of them found dense.
+/// The damped modes nearest zero by Krylov subspaces, against all modes of a dense solver.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -81,7 +81,7 @@ TEST(LowestDampedModes, AreTheOnesNearestZeroOfAll) {
 }
 
 /// s and -s of a divergence have the same size as the lowest vibration: a shift of that size would
-/// be the growing one itself.
+/// equal the growing value.
 TEST(LowestDampedModes, BesideOneThatGrowsWithoutVibrationAreAllAccurate) {
   for (const double share : {1.02, 1.3, 3.0}) {
     Shaft s = shaft(50, 0.0, 0.0, false);
@@ -114,8 +114,8 @@ TEST(LowestDampedModes, RefusesWhatIsNoPencil) {
 
 Sparse sparse(const Matrix& A) { return A.sparseView(0.0, 0.0); }
 
-/// Grid of nx x ny equal masses on equal springs, every one moving across it: omega^2 = k/m (4 - 2
-/// cos a - 2 cos b), most values twice.
+/// Grid of nx x ny equal masses on equal springs that move normal to it: omega^2 = k/m (4 - 2 cos a
+/// - 2 cos b), most values twice.
 Shaft membrane(int nx, int ny, bool free) {
   const int n = nx * ny;
   Triplets k;
@@ -168,8 +168,7 @@ void expectAmong(const QuadraticModes& modes, std::vector<std::complex<double>> 
   }
 }
 
-// Repeated values, with every kind of damping; a value that is asked for twice has to be there
-// twice.
+// Repeated values, with every kind of damping; a double value must be listed twice.
 TEST(LowestDampedModes, FindEveryCopyOfARepeatedValue) {
   struct Case {
     const char* name;
@@ -210,8 +209,8 @@ TEST(LowestDampedModes, FindMoreCopiesThanABlockHas) {
     EXPECT_NEAR(std::abs(modes.values[j]), j < copies ? 1.0 : 2.0, 1e-9) << j;
 }
 
-// A free body moves at zero twice in a Jordan chain: every motion is listed once, as zero, with
-// gyroscopics and without.
+// A rigid-body motion of a free body is zero twice in a Jordan chain: it is listed once, as zero,
+// with and without gyroscopics.
 TEST(LowestDampedModes, RigidBodyMotionsAreZeroAndListedOnce) {
   for (const auto& [n, g] : {std::pair(90, 0.0), std::pair(90, 0.4), std::pair(40, 0.4),
                              std::pair(130, 0.3), std::pair(90, 1.3), std::pair(130, 5.0)}) {
@@ -282,8 +281,8 @@ TEST(LowestDampedModes, DofsWithoutMassAreCondensed) {
   }
 }
 
-// Where neither mass nor damping acts the values are infinite: who asks for more modes than are
-// finite gets the finite ones, be the massless directions dofs or combinations of them.
+// Directions without mass and damping have infinite values. A request for more modes than finite
+// ones returns the finite ones, whether the massless directions are dofs or combinations of them.
 TEST(LowestDampedModes, InfiniteValuesAreNoModes) {
   const int n = 6;
   for (double g : {0.0, 0.4, 60.0})
@@ -307,7 +306,7 @@ TEST(LowestDampedModes, InfiniteValuesAreNoModes) {
 }
 
 /// K = B'B has as many motions at zero as B has columns more than rows, each twice in a chain: all
-/// of them are listed, once, with K phi = 0, whatever rounding makes of the chains.
+/// of them are listed once, with K phi = 0, despite the rounding of the chains.
 TEST(LowestDampedModes, AllMotionsAtZeroOfABodyWithMasslessDofsAreFound) {
   const int n = 46, massless = 4, zeros = 6, count = 10;
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -364,8 +363,8 @@ std::vector<std::complex<double>> finiteValues(const Matrix& M, const Matrix& C,
   return values;
 }
 
-// A dof with damping alone has one finite value, its neighbour with neither has none. Those of the
-// damped one are real where it relaxes alone, and lie as far out as its damping is small.
+// A dof with damping but no mass has one finite value; its neighbour without both has none. The
+// value is real if the dof relaxes alone, and is the larger the smaller the damping is.
 TEST(LowestDampedModes, OfMasslessDofsTheDampedOnesHaveFiniteValues) {
   for (const int n : {6, 50})
     for (const double damping : {0.002, 0.02, 1.0, 50.0})
@@ -400,7 +399,7 @@ TEST(LowestDampedModes, OfMasslessDofsTheDampedOnesHaveFiniteValues) {
       }
 }
 
-// Damping so faint that its value, -k/c, is ten powers of ten above the vibrations.
+// Damping so small that its value, -k/c, is ten orders of magnitude above the vibrations.
 TEST(LowestDampedModes, FaintDampingOnAMasslessDofIsFound) {
   const int n = 6;
   const Shaft s = shaft(n, 0.4, 0.05, false);
@@ -445,8 +444,8 @@ TEST(LowestDampedModes, BoundaryDofsWithoutMassMayBeStiffBeyondAllModes) {
   }
 }
 
-// A free body, C = beta K: its motions at zero are no modes that relax at the rounding of a part of
-// the mass that the damping does not have.
+// A free body, C = beta K: its rigid-body motions must not appear as relaxing modes because of
+// rounding in directions that have mass but no damping.
 TEST(LowestDampedModes, StiffnessDampingLeavesWhatRestsAtRest) {
   constexpr int n = 40;
   Matrix K = Matrix::Zero(n, n);
@@ -478,8 +477,8 @@ TEST(LowestDampedModes, OverdampedDofsHaveTwoValuesEach) {
     EXPECT_LT(std::abs(found.values[j] - exact[static_cast<std::size_t>(j)]), 1e-7) << j;
 }
 
-// Without damping the stage has nothing to do but to repeat the undamped modes: s = i omega, and
-// +-sqrt(-omega^2) where omega^2 < 0.
+// Without damping the values are those of the undamped modes: s = i omega, and +-sqrt(-omega^2)
+// where omega^2 < 0.
 TEST(LowestDampedModes, WithoutDampingTheyAreTheSymmetricModes) {
   Shaft s = membrane(11, 13, false);
   const double shift = 400.0 * 0.4;  // the lowest ones become negative
