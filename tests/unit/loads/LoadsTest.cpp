@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Loads: the unbalance force against the momentum of the mass it comes from, directions of weight
-/// and torque on bit, nodal forces in time, places by number and by depth, and what decks are
-/// refused.
+/// Loads: the unbalance force against the momentum of its mass, directions of weight and torque on
+/// bit, nodal forces in time, positions by number and by depth, and refused decks.
 #include <Teuchos_Array.hpp>
 #include <cmath>
 #include <functional>
