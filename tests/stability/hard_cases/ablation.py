@@ -42,7 +42,7 @@ WINS = 0.05  # of the time, below which a strategy does not earn its place
 # tolerance
 SAME, NOISE = 0.01, 3.0
 JUDGED_ELSEWHERE = {"Transient/Energy Residual Limit": 1e9,
-                    "Transient/Step Error Limit": 1e9}  # what is wrong with a case by itself
+                    "Transient/Step Error Limit": 1e9}  # errors of a case without any change
 HEAD = """# Strategies of a step
 
 A step of `Generalized-alpha` has strategies for hard contact; [theory](theory.md) describes each.

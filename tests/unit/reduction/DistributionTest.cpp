@@ -48,8 +48,7 @@ TEST(AssignOwners, BalancesHeaviestFirst) {
   EXPECT_TRUE(assignOwners({}, 3).empty());
 }
 
-/// Parts that would take one rank longer than all other parts take the others, if messages cost
-/// little.
+/// Large parts whose work exceeds the share of a rank.
 TEST(DividedParts, AreLargeAndMoreThanTheShareOfARank) {
   EXPECT_EQ(dividedParts({90000}, 1), (std::vector<char>{0}));
   EXPECT_EQ(dividedParts({90000}, 2), (std::vector<char>{1}));
