@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// GoogleTest main for one or several ranks. Rank 0 prints the versions, its own log and, at the
-/// end, what failed on the other ranks; the exit code is the worst of all ranks. A failed ASSERT_*
+/// end, the failures of the other ranks; the exit code is the worst of all ranks. A failed ASSERT_*
 /// on one rank alone before a collective call would hang the others: use EXPECT_* in tests of
 /// several ranks.
 #include <Tpetra_Core.hpp>
@@ -26,7 +26,7 @@ class FailureCollector : public ::testing::EmptyTestEventListener {
     test_ = std::string(test.test_suite_name()) + "." + test.name();
   }
   void OnTestEnd(const ::testing::TestInfo& /*test*/) override { test_ = "outside of a test"; }
-  // GoogleTest holds its lock here: asking it for the current test would wait for ever.
+  // GoogleTest holds its lock here: a request for the current test would wait forever.
   void OnTestPartResult(const ::testing::TestPartResult& result) override {
     if (!result.failed()) return;
     std::ostringstream entry;
@@ -40,7 +40,7 @@ class FailureCollector : public ::testing::EmptyTestEventListener {
   std::string text_;
 };
 
-/// Prints on rank 0 what failed on the other ranks. Collective.
+/// Prints on rank 0 the failures of the other ranks. Collective.
 void printFailuresOfOthers(const std::string& mine, int rank, int ranks) {
   const int length = static_cast<int>(mine.size());
   std::vector<int> lengths(static_cast<std::size_t>(ranks));

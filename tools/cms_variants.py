@@ -24,7 +24,7 @@ import subprocess
 import sys
 import time
 
-sys.dont_write_bytecode = True  # no traces beside the script
+sys.dont_write_bytecode = True  # no __pycache__ beside the script
 import plot_study  # noqa: E402
 import plots  # noqa: E402
 import redraw_studies  # noqa: E402
@@ -35,7 +35,7 @@ PROJECT = pathlib.Path(__file__).resolve().parent.parent
 FREQUENCIES = 20
 FACTOR = 3.0  # an estimate is to lie within this factor of the true error
 ROUNDING = 1e-9  # true errors of frequencies below this are rounding
-# a vibration error below this is what the tolerance of the steps leaves, with all modes kept too
+# a vibration error below this is due to the tolerance of the steps, even with all modes kept
 STEPS = 5e-5
 STUDIES = {"helical": ("reference scene", "cms_variants"), "frame": ("frame", "cms_variants_frame")}
 # scene, window [s], what the motion is run with
@@ -217,7 +217,7 @@ def estimate_rows(study, scene):
     """Counts for each line, and every exception."""
     counts, exceptions = {}, []
     for run in reduced_runs(study):
-        if "interfaces" in run.line:  # estimates do not see what an interface reduction leaves out
+        if "interfaces" in run.line:  # estimates do not contain the error of an interface reduction
             continue
         count = counts.setdefault(run.line, [0, 0, [], 0, 0, []])
         for number, mac, error, estimate, complete, ratio in frequency_ratios(run):

@@ -43,7 +43,7 @@ def shown(rows):
 
 
 def draw_string(axes, rows, profile, side):
-    """Deflection to a side, between the walls as the axis of the string sees them."""
+    """Deflection to a side, between the walls offset to the axis of the string."""
     x = profile["from_bit"][0]
     for sign in (-1, 1):
         axes.fill_between(x, sign * 1e3 * profile["clearance"][0],
@@ -63,7 +63,8 @@ def draw_moment(axes, rows, profile):
 
 
 def draw_forces(axes, rows):
-    """Side force against what has most values; a line for each combination of the others."""
+    """Side force against the parameter with most values; a line for each combination of the
+    others."""
     along = max(AXES, key=lambda name: len(np.unique(rows[name])))
     others = [name for name in AXES if name != along]
     keys = sorted({

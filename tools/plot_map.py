@@ -61,7 +61,7 @@ class Map:
         for k, axis in enumerate(self.axes):
             texts = list(dict.fromkeys(row[axis["name"]] for row in rows))
             axis["texts"] = texts
-            # points that are no numbers stand in their order
+            # points that are not numbers keep their order
             axis["places"] = np.array([float(text) for text in texts
                                        ]) if axis["numeric"] else np.arange(shape[k], dtype=float)
             axis["label"] = axis["name"] + (f" [{axis['unit']}]" if axis["unit"] else "")

@@ -181,8 +181,8 @@ def draw(results):
 
 
 def lateral_names(results):
-    """What u and v are called: the frames of the nodes are carried along the well without spin,
-    from north and east where it starts downwards."""
+    """Names of u and v: the frames of the nodes are carried along the well without spin, from north
+    and east if it starts downwards."""
     frame = results.get("/model/frame")
     known = frame is not None and frame[0, 0, 0] > ALONG
     if known:

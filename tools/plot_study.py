@@ -106,7 +106,7 @@ def published(study):
 
 def draw_speed(study):
     """vibration error against CPU time per simulated second: down and left is better.
-    Names stand beside the lines where all have room there."""
+    Names are beside the lines if all fit there."""
     xs = [run.number("cpu_per_simulated_s") for run in study.methods]
     ys = [run.number("vibration_error") for run in study.methods]
     if not xs:
@@ -252,13 +252,13 @@ def draw_modes(study):
 
 
 def known(runs, x, y):
-    """Points of a line where both numbers are known and can stand on logarithmic axes."""
+    """Points of a line with two known positive numbers, for logarithmic axes."""
     return [(x(run), y(run)) for run in runs if x(run) > 0 and y(run) > 0]
 
 
 def draw_bases(study):
-    """What a reduced model costs and how wrong it is: one line per basis, or per variant of one.
-    Failed motions show the frequencies they had."""
+    """Cost and error of a reduced model: one line per basis, or per variant of one. Failed motions
+    show the frequencies they had."""
     lines = {}
     for run in study.all:
         if run.kind == "method" and run.reduced and run.row["reduced_dofs"]:

@@ -89,7 +89,7 @@ def study(name, rows, attributes):
 
 
 def speed(name):
-    """Of docs/tables/speed_NAME.csv, and what the page says of its reference."""
+    """Figure of docs/tables/speed_NAME.csv, with the text of the page on its reference."""
     page = (PROJECT / "docs/speed-against-error.md").read_text(encoding="utf-8")
     said = re.search(
         rf"xml/{SPEED[name]}\.xml`\. .*?vibration error of (\S+) over (\S+) to (\S+) s",
@@ -115,7 +115,7 @@ def speed(name):
 
 
 def variants(name):
-    """Of docs/tables/cms_variants_NAME.csv, and what the section of the page says of machine and
+    """Figure of docs/tables/cms_variants_NAME.csv, with the text of the page on machine and
     steps."""
     page = (PROJECT / "docs/cms-variants.md").read_text(encoding="utf-8")
     section = page[page.index(f"<!-- {name} -->"):]

@@ -63,7 +63,7 @@ model::Substructure part(const std::string& name, int first, int last) {
   rod.mass.setFromTriplets(mass.begin(), mass.end());
   rod.initialDisplacement = rod.initialVelocity = Vector::Zero(n);
   rod.recovery.resize(0, n);
-  for (int i = 0; i < n; ++i)  // the node both halves know
+  for (int i = 0; i < n; ++i)  // the node of both halves
     if (rod.dofs[static_cast<std::size_t>(i)].entity == kElements / 2 + 1)
       half.interface.push_back(i);
   return half;

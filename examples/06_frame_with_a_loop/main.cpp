@@ -161,7 +161,7 @@ model::Substructure part(const std::string& name, const std::vector<Member>& som
   return out;
 }
 
-/// Which axes each part has: columns in the common frame.
+/// Axes of each part: columns in the common frame.
 std::vector<coupling::Frame> frames() {
   std::vector<coupling::Frame> list;
   for (const auto& member : members) {

@@ -7,7 +7,7 @@ moved (`integrate`). Decks are read, changed and run in this process (`Deck`, `r
 `read`). Bases and point laws may be written in Python (`basis`, `point_law`).
 
 MPI begins with the import and ends with the interpreter; under mpirun every rank makes the same
-calls. Errors are exceptions of the class `Error` with the sentence of the program.
+calls. Errors are exceptions of the class `Error` with the message of the program.
 """
 import sys as _sys
 
@@ -45,7 +45,7 @@ def point_laws():
 __all__ += ["bases", "point_laws"]
 
 if ranks() > 1:
-    # A rank that fails alone must not let the others wait for it in the next collective call.
+    # If one rank fails alone, the others must not wait for it in the next collective call.
     def _abort(kind, error, trace, _before=_sys.excepthook):
         _before(kind, error, trace)
         _sys.stderr.flush()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments of calls: one that makes no sense is a UsageError that names the call, the argument and
-what is expected."""
+"""Arguments of calls: an invalid one is a UsageError that names the call, the argument and the
+expected value."""
 from __future__ import annotations
 
 import math
@@ -59,6 +59,6 @@ def list_of(values: Any, kinds: tuple[str, ...], call: str, name: str) -> list:
 
 
 def model_of(value: Any, call: str) -> _core.Model:
-    """The model of what has one."""
+    """The model of an object that has one."""
     one_of(value, tuple(KINDS), call, "of")
     return value if isinstance(value, _core.Model) else value.model

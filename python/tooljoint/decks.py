@@ -52,7 +52,7 @@ class Deck:
         self._read = _core.read_deck(self._source())
 
     def _source(self, text=None, overrides=None):
-        """What the toolkit reads, also after a change of the working folder."""
+        """The deck for the toolkit, also after a change of the working folder."""
         file = self.file if os.getcwd() == self._folder else os.path.join(self._folder, self.file)
         return _core.DeckSource(file, self._text if text is None else text,
                                 self.overrides if overrides is None else overrides)
@@ -68,7 +68,7 @@ class Deck:
         return value
 
     def _value(self, path):
-        """What stands at a path, given or default, or _NOTHING."""
+        """The value at a path, given or default, or _NOTHING."""
         value = self._read.to_dict()
         for name in _pieces(path):
             if not isinstance(value, dict) or name not in value:
@@ -77,7 +77,7 @@ class Deck:
         return value
 
     def _absence(self, path):
-        """Why there is nothing at a path: of a wrong name the sentence of the program."""
+        """The reason why a path has no value: for a wrong name the message of the program."""
         try:
             _core.read_deck(self._source(overrides=[*self.overrides, f"{path}=0"]))
         except DeckError as error:
@@ -107,7 +107,7 @@ class Deck:
                                              name=each) if inner is None else inner
             description = _described(description, each)
         overrides = list(self.overrides)
-        if f"!{path}" in overrides:  # a list that was deleted is replaced, with what was set in it
+        if f"!{path}" in overrides:  # a deleted list is replaced, with the values set in it
             deleted = overrides.index(f"!{path}")
             overrides = [
                 one for i, one in enumerate(overrides)
@@ -128,7 +128,7 @@ class Deck:
                                       parser), json.loads(self._read.description)[0]
 
     def _whole(self, root):
-        """The text of a tree, with the comments that stand before its root."""
+        """The text of a tree, with the comments before its root."""
         prolog = re.match(r"(\s|<!--.*?-->|<\?.*?\?>)*", self._read.text, re.DOTALL).group()
         ElementTree.indent(root)
         return "\n".join([
@@ -177,7 +177,7 @@ class Deck:
         return Results(_core.run(self._source(), str(output), str(restart), quiet))
 
     def at_rest(self) -> _core.RestingCase:
-        """The case at rest: `full()` is its full model, `parts()` its parts and what joins them
+        """The case at rest: `full()` is its full model, `parts()` its parts and their connections
         (for `synthesise`), `displacement` its state at rest. ConvergenceError, ModelError."""
         return _core.solve_static(self._source())
 
@@ -222,7 +222,7 @@ def run(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None,
         without: Iterable[str] = (), output: str | os.PathLike = "",
         restart: str | os.PathLike = "", quiet: bool = True) -> Results:
     """Run a deck (a file or a Deck) in this process: its Results. set: {"Transient/End Time":
-    "2 s"}; without: lists to take out. The errors are those of the program, with the same sentence.
+    "2 s"}; without: lists to take out. The errors are those of the program, with the same message.
     Collective under MPI."""
     return _with(deck, set, without).run(output, restart, quiet)
 

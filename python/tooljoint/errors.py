@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Errors a user can act on: the sentence says what was found, what is expected and what to change.
+"""Errors a user can correct: the message states the value found, the expected value and the remedy.
 
 An interrupt (Ctrl-C, or SIGTERM, which mpirun sends in its place) ends a long call with
 KeyboardInterrupt.
 """
 
 not_finite: dict[str, str] = {
-}  # point laws in Python whose last forces were no numbers, each with a sentence
+}  # point laws in Python whose last forces were not finite, each with a message
 
 
 class Error(Exception):
@@ -36,8 +36,8 @@ class ModelError(Error):
 
 
 class ConvergenceError(Error):
-    """A solver did not converge: what was tried and what to change (exit code 4).
-    Point laws that gave it no numbers are named first."""
+    """A solver did not converge; the message states the attempts and the remedy (exit code 4).
+    Point laws without finite forces are named first."""
 
     code = 4
 

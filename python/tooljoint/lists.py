@@ -64,8 +64,8 @@ def write(name: str, values: Mapping[str, Any], description: Mapping[str, Any]) 
 def placed(description: Mapping[str, Any], values: Mapping[str, Any],
            places: Sequence[str | None]) -> dict[str, Any]:
     """Values by keyword in the lists they belong to: the list described, else the first of its
-    lists `places` that knows the keyword. One that none knows goes where the most similar is, so
-    that the reader can suggest that.
+    lists `places` that has the keyword. An unknown keyword goes to the list with the most similar
+    name, so that the reader can suggest that name.
 
     >>> values = {"modes": 6, "basis_checks": False, "mods": 6}
     >>> placed(describe("Reduction"), values, ["Mode Selection"])
@@ -93,7 +93,7 @@ def _names(description):
 
 
 def checked(name: str, values: Mapping[str, Any]) -> _core.DeckList:
-    """The list `name` with these values, checked. DeckError with the sentence of the program."""
+    """The list `name` with these values, checked. DeckError with the message of the program."""
     try:
         return _core.parse_list(write(name, values, describe(name)), name)
     except DeckError as error:
@@ -124,8 +124,8 @@ def text_of(value: Any) -> str:
 
 
 def type_of(value: Any, kind: str = "") -> str:
-    """The type attribute of a value: what the parameter is (`kind`, empty when not known) decides
-    for whole numbers and texts."""
+    """The type attribute of a value: for whole numbers and texts the `kind` of the parameter
+    decides (empty if unknown)."""
     if isinstance(value, bool):
         return "bool"
     if isinstance(value, str):

@@ -95,9 +95,9 @@ def compare_modes(synthesis: _core.Synthesis, count: int, full: HasModel | None 
                   t: float | None = None) -> list[dict[str, Any]]:
     """Modes of the full model, each with the coupled mode of its shape: a list of dicts with
     full_hz, coupled_hz, mac, error (relative, of the frequency) and estimate (of the error, without
-    the full model; None where the basis has none); None where no coupled mode corresponds. full:
-    the model to compare with; by default the unreduced parts, coupled. t: compare damped modes at
-    that time instead.
+    the full model; None if the basis has none); None if no coupled mode corresponds. full: the
+    model to compare with; by default the unreduced parts, coupled. t: compare damped modes at that
+    time instead.
     """
     call = "compare_modes"
     time = None if t is None else real(t, call, "t")

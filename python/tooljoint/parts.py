@@ -118,7 +118,7 @@ def read_part(path: str | os.PathLike, name: str = "part",
     DeckError for what is malformed, ModelError.
 
     laws: of every law of time that terms of the file name, its function of the time [s], or a
-    number: `laws={"Omega": 12.5}`. Point laws, which a file cannot hold, are warned of.
+    number: `laws={"Omega": 12.5}`. A file cannot contain point laws; a warning names omitted ones.
     """
     functions = {
         law: value if callable(value) else (lambda t, value=real(value, "read_part", law): value)
@@ -177,8 +177,8 @@ def _joining(coupling):
 def couple(parts: Iterable[Any], coupling: dict | _core.Connections | None = None) -> _core.Model:
     """The model of parts joined by equal labels of their interface dofs: unreduced parts give the
     full model, reduced parts the reduced one. coupling: the deck list Coupling as a dict (unreduced
-    parts), for springs, hinges, constraints, frames and point laws. ModelError names what cannot be
-    joined.
+    parts), for springs, hinges, constraints, frames and point laws. ModelError names dofs that
+    cannot be joined.
     """
     parts = list_of(parts, ("Part", "ReducedPart"), "couple", "parts")
     reduced = [isinstance(part, _core.ReducedPart) for part in parts]
@@ -197,8 +197,8 @@ def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton",
                coupling: dict | _core.Connections | None = None,
                **parameters: Any) -> _core.Synthesis:
     """Component mode synthesis: reduce the parts, couple them, augment bases that need the coupled
-    model, reduce the interface where asked for. parameters: as `reduction()`; with
-    frequency_tolerance the modes are chosen by the estimated error. Collective under MPI.
+    model, reduce the interface if requested. parameters: as `reduction()`; with frequency_tolerance
+    the modes are chosen by the estimated error. Collective under MPI.
 
     >>> import numpy as np, tooljoint as tj
     >>> K = 2 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays that know their unit."""
+"""Arrays with a unit."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -13,8 +13,7 @@ if TYPE_CHECKING:
 class Quantity(np.ndarray):
     """A numpy array with `unit`, a text in SI, and `long_name`, a sentence; both may be empty.
 
-    Parts of it keep the unit; what is computed from it is a plain array or number, whose unit is
-    the caller's to know.
+    Parts of it keep the unit; results of computations are plain arrays or numbers without a unit.
 
     >>> length = Quantity([1.0, 2.0], "m", "Length")
     >>> length.unit, length[1:].unit

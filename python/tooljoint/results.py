@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run has left."""
+"""Results of a run."""
 from __future__ import annotations
 
 import csv

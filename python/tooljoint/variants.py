@@ -27,7 +27,7 @@ class Parameter:
         self.default, self.unit, self.doc = default, unit, doc
 
     def row(self, name: str) -> tuple:
-        """As the description of a deck list takes it: name, kind, unit, default, sentence."""
+        """In the form of a description of a deck list: name, kind, unit, default, sentence."""
         kinds = {bool: "boolean", int: "integer", str: "text"}
         return (name, kinds.get(type(self.default), "real"), self.unit, self.default, self.doc
                 or f"Parameter {name} of the function.")
@@ -50,9 +50,9 @@ def _sentence(function):
 
 
 def _checked_force(name, force, states):
-    """The function of a point law, whose forces are checked: ModelError for None and for a wrong
-    number of them. Forces that are not finite may come of a trial that the integrator takes back,
-    so they are noted until finite ones follow or a solver gives up."""
+    """The function of a point law with checked forces: ModelError for None and for a wrong number
+    of forces. Forces that are not finite may belong to a trial that the integrator rejects, so they
+    are recorded until finite ones follow or a solver fails."""
     who = f'The point law "{name}"'
 
     @functools.wraps(force)
@@ -80,8 +80,8 @@ def _checked_force(name, force, states):
 
 
 def _first_not_finite(arrays, points):
-    """(value, point) of the first number that is not finite in arrays of so many points; None for
-    none, and for what holds no numbers."""
+    """(value, point) of the first number that is not finite in arrays of this many points; None if
+    all are finite, or without numbers."""
     for each in arrays:
         try:
             rows = np.asarray(each, float).reshape(points, -1)

@@ -247,6 +247,7 @@ struct GrowingMode {
 /// number of dofs, because each takes about twenty factorisations.
 constexpr std::size_t mostReleased = 24;
 constexpr int dofsReleased = 60000;
+
 /// Whether the growth of a motion without work is rounding: |s|^2 |phi'M phi| is of the size of the
 /// rounding error of phi'K phi.
 bool isRigidMotion(const estimate::Linearised& tangent, const linalg::DampedMode& mode) {

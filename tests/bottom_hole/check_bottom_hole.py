@@ -305,8 +305,8 @@ def example():
 
 
 def lying():
-    """A string that lies on the wall of a horizontal hole: what walls and bit bear is the buoyed
-    weight of all of it but near the cut."""
+    """A string on the wall of a horizontal hole: walls and bit carry its whole buoyed weight except
+    near the cut."""
     file = deck("lying", {}, more=listed("Mud", parameter("Density", "1200 kg/m3")))
     row = run(file)[0]
     weight = WEIGHT * (1 - 1200 / DENSITY)
@@ -323,7 +323,7 @@ def lying():
 
 
 def missing():
-    """A weight without an equilibrium is warned of; the others keep their rows."""
+    """A weight without an equilibrium gives a warning; the others keep their rows."""
     scene = str(SOURCES / "tests/effects/bottom_hole.xml")
     settings = ("--set", "Bottom-Hole Assembly/Weight On Bit={10 kN, 20000 kN}", "--set",
                 "Static/Max Iterations=10")
@@ -346,7 +346,7 @@ def missing():
 
 
 def refused():
-    """Decks that have no answer, each with a sentence."""
+    """Decks without a solution, each with a message."""
     good = deck("good", {2.0: gauge(0.107), 4.0: bend(0.5)})
     survey = "Bottom-Hole Assembly/Survey Tool"
     for wanted, settings, without in (
@@ -411,8 +411,8 @@ def refused():
 
 
 def documented():
-    """The table of docs/guide/bottom-hole-assembly.md about xml/bha_motor_1500m.xml is what the
-    program says."""
+    """The table of docs/guide/bottom-hole-assembly.md about xml/bha_motor_1500m.xml agrees with the
+    program."""
     text = (SOURCES / "docs/guide/bottom-hole-assembly.md").read_text(encoding="utf-8")
     table = text[text.index("| `Build Rate` [deg/30 m] | tool face |"):].split(
         "\n\n")[0].splitlines()[2:]

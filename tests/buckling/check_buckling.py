@@ -28,7 +28,7 @@ def summary(folder):
 
 
 def run(file, *settings, folder=None, ranks=1):
-    """Rows of buckling.csv and what the summary says."""
+    """Rows of buckling.csv and values of the summary."""
     folder = folder or "out_" + pathlib.Path(file).stem
     done = tooljoint("buckling", file, "--output", folder,
                      *(part for one in settings for part in ("--set", one)), ranks=ranks)
@@ -267,7 +267,7 @@ def followed():
 
 
 def documented():
-    """The table of docs/guide/buckling.md about xml/buckling_100m.xml is what the program says."""
+    """The table of docs/guide/buckling.md about xml/buckling_100m.xml agrees with the program."""
     root = pathlib.Path(__file__).resolve().parents[2]
     text = (root / "docs/guide/buckling.md").read_text(encoding="utf-8")
     section = text[text.index("`xml/buckling_100m.xml` is a 5 in drill pipe"):]

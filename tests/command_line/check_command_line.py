@@ -169,7 +169,8 @@ def white_share(picture):
 
 
 def pictures():
-    """Of parts that move, that rest, with forces between them, and of a string."""
+    """Pictures of moving parts, of parts at rest, of parts with forces between them, and of a
+    string."""
     runs = {
         "parts": (PARTS_DECK, ["--set", "Transient/End Time=0.2"]),
         "resting parts": (PARTS_DECK, ["--without", "Transient"]),
@@ -192,7 +193,7 @@ def pictures():
 
 
 def reports():
-    """What check, modes and export print of a string and of parts."""
+    """Output of check, modes and export for a string and for parts."""
     for deck in (DECK, PARTS_DECK):
         for command, arguments in (("check", []), ("modes", ["--count", "6"]),
                                    ("export", ["--output", "exported"])):

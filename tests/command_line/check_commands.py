@@ -123,8 +123,8 @@ def run_pages(folder):
 
 
 def run_validation(folder):
-    """One of the commands that differ in numbers alone is run; of the others, decks and overrides
-    are read."""
+    """Runs one of the commands that differ only in numbers; reads decks and overrides of the
+    others."""
     seen, alike, ran = set(), set(), 0
     for line, _ in blocks(VALIDATION, ("sh", "")):
         words = words_of(line)
@@ -158,7 +158,7 @@ def helped(*words):
 
 
 def spelled(text, page, targets):
-    """A command as it stands in a page: what it names exists."""
+    """A command of a page: everything it names exists."""
     text = text.split("#")[0].replace("\\|", "|")
     options = re.findall(r"(?<![\w-])--[a-z][\w-]*", text)
     if match := re.match(r"(?:mpirun -np \S+ |mpiexec -n \S+ )?(?:\S*/)?tooljoint(?: ([a-z-]+))?\b",

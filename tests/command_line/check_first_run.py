@@ -71,7 +71,7 @@ def main():
     check("largest side force [N]", found["side_force"]["value"],
           force.max() * (1 - 1e-9),
           force.max() * (1 + 1e-9))
-    # What reduction is for. CPU times vary by a fifth or so on a busy machine; 3.5 was measured on
+    # Speed-up by reduction. CPU times vary by about a fifth on a busy machine; 3.5 was measured on
     # an idle one.
     check("dofs left", found["dofs"]["reduced"] / found["dofs"]["full"], 0.0, 0.2)
     check("vibration error", found["vibration_error"], 1e-6, 0.01)

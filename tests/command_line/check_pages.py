@@ -79,7 +79,7 @@ def manual(names):
 
 
 def completed(*words):
-    """What bash offers for the last of the words."""
+    """Completions of bash for the last of the words."""
     script = (
         'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _tooljoint; '
         'printf "%s\\n" "${COMPREPLY[@]}"')

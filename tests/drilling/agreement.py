@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers of a run beside true ones."""
+"""Numbers of a run compared with true ones."""
 from checks import expect
 
 

@@ -126,7 +126,7 @@ class Rod:
                                load)[-1]
 
     def roots(self, feed):
-        """Of s^2 M + s (C + mu'(U) N) + K = 0 with a positive imaginary part."""
+        """Roots of s^2 M + s (C + mu'(U) N) + K = 0 with a positive imaginary part."""
         n, inverse = len(self.K), np.linalg.inv(self.M)
         A = np.block([
             [np.zeros((n, n)), np.eye(n)],
@@ -144,8 +144,8 @@ PARTS = {
 
 
 def slipping(program):
-    """The static state has no friction and the motion has: the string slows down almost to rest and
-    goes on. The normal forces do not change."""
+    """The static state has no friction but the motion has: the string slows down almost to rest and
+    continues. The normal forces do not change."""
     feed, end = 0.03, 0.2
     settings = {
         "Transient/End Time": end, "Transient/Sampling Interval": 0.002, "Static/Friction": "None"

@@ -36,7 +36,7 @@ def critical_speed(drive):
 
 
 def growth(program, name, drive, speed):
-    """Of a small disturbance of steady drilling, simulated [1/s]."""
+    """Simulated growth of a small disturbance of steady drilling [1/s]."""
     deck = models.string_deck(
         ((PIPE, 3), (COLLAR, 2)), **{
             "Loads": {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks of bits and drives, and what their motions should be: independent integrations and
-characteristic equations."""
+"""Decks of bits and drives, and reference motions: independent integrations and characteristic
+equations."""
 import math
 
 import numpy as np
@@ -171,8 +171,8 @@ def cycles(t, w, width):
 
 
 class Chatter:
-    """m s^2 + c s + k + A (1 - exp(-s tau)) = 0: a mass on a spring that cuts what it left a delay
-    ago."""
+    """m s^2 + c s + k + A (1 - exp(-s tau)) = 0: a mass on a spring that cuts the surface it left
+    one delay earlier."""
     def __init__(self, mass, damping, stiffness):
         self.m, self.c, self.k = mass, damping, stiffness
         self.natural = math.sqrt(stiffness / mass)

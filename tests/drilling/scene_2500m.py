@@ -113,8 +113,8 @@ def late_of(program, name, settings, without):
 
 
 def limits(program):
-    """Speed below which steady drilling is unstable by the torsional line, and what the program
-    says of the steady state 3 % below and above; prints a table."""
+    """Speed below which steady drilling is unstable by the torsional line, and the verdict of the
+    program on the steady state 3 % below and above; prints a table."""
     print("\n| drive | unstable below [rpm] | growth 3 % below, line; program [1/s] | 3 % above |\n"
           "|---|---|---|---|")
     for name, ratio in (("stiff", None), ("matched, `Impedance Ratio` 1", 1),
@@ -208,7 +208,7 @@ def stick_slip_2500m(program):
                abs(peaks[name] / truth - 1) < error, f"{peaks[name]:.2f}, {truth:.2f}")
     limits(program)
     alone(program)
-    # damping that rises with the frequency leaves nothing to the step
+    # with damping that rises with the frequency the step has no effect
     shares = [
         late_of(program, f"steps of {step}", {"Transient/Step": step}, ())[2]
         for step in ("2 ms", "1 ms", "0.5 ms")

@@ -89,7 +89,7 @@ class LumpedString:
         self.springs, self.masses, self.line = np.array(springs), np.array(masses), line
 
     def eigenvalues(self, slope, drive):
-        """Of the motion about steady drilling above a bit of the slope dT/domega."""
+        """Eigenvalues of the motion about steady drilling above a bit of the slope dT/domega."""
         n = len(self.masses)
         K, M = np.zeros((n, n)), np.diag(self.masses)
         for i, spring in enumerate(self.springs):

@@ -73,7 +73,7 @@ class Runs:
                           ] if override.startswith("!") else ["--set", override]
             result = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                     text=True, check=False)
-            pointless = command == "map" and result.returncode == 4  # its tables say why
+            pointless = command == "map" and result.returncode == 4  # its tables give the reason
             if result.returncode != 0 and not pointless:
                 raise RuntimeError(unwrapped(result.stdout).strip().splitlines()[-1])
             self.done[key] = folder

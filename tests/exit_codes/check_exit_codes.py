@@ -63,7 +63,7 @@ def exit_codes():
 
 
 def template_is_a_deck():
-    """What `tooljoint template scene` prints is accepted and runs as it is."""
+    """The output of `tooljoint template scene` is accepted and runs unchanged."""
     printed = tooljoint("template", "scene")
     pathlib.Path("template.xml").write_text(printed.stdout, encoding="utf-8")
     checked = tooljoint("check", "template.xml")
@@ -75,8 +75,8 @@ def template_is_a_deck():
 
 
 def optional_integrators():
-    """A build without SUNDIALS knows its integrators, and says what is missing and how to get
-    it."""
+    """A build without SUNDIALS lists its integrators, and its message states what is missing and
+    how to install it."""
     for name in ("SUNDIALS ARKODE", "SUNDIALS CVODE"):
         asked = ["--set", f"Transient/Integrator={name}"]
         if WITHOUT_SUNDIALS:

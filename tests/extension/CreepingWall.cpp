@@ -30,7 +30,7 @@ struct CreepingWall : model::Formula<1, 1> {  // one coordinate, one state
     (*this)(at, &f, &g);
     Power power;
     power.stored = 0.5 * k * p * p;
-    power.damping = (f - k * p) * (p > 0.0 ? -at.v[0] : 0.0);  // what does not come back
+    power.damping = (f - k * p) * (p > 0.0 ? -at.v[0] : 0.0);  // the part not returned
     return power;
   }
 };

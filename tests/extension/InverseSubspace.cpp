@@ -10,8 +10,8 @@
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-/// Constraint modes and a subspace of the interior that inverse steps X <- K_II^-1 M_II X draw
-/// towards the lowest fixed-interface modes (Bathe and Wilson 1973): in the limit the span of
+/// Constraint modes and a subspace of the interior that converges by inverse iteration X <- K_II^-1
+/// M_II X to the lowest fixed-interface modes (Bathe and Wilson 1973): in the limit the span of
 /// Craig-Bampton.
 class InverseSubspace final : public ReductionMethod {
  public:

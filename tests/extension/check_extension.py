@@ -83,7 +83,7 @@ def load(*names):
 
 
 def output(deck, folder, *arguments, ranks=1, command="run", code=0):
-    """What a command prints."""
+    """Output of a command."""
     done = tooljoint(command, str(deck), "--output", folder, *arguments, ranks=ranks)
     expect(f"{folder} ends with {code}", done.returncode == code, done.stdout + done.stderr)
     return done.stdout + done.stderr

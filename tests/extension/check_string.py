@@ -124,7 +124,7 @@ def close(found, exact, tolerance, what):
 
 
 def call(*words, code=0):
-    """What a command prints."""
+    """Output of a command."""
     done = tooljoint(*words)
     expect(f"tooljoint {' '.join(words)} ends with {code}", done.returncode == code,
            done.stdout + done.stderr)
@@ -154,8 +154,7 @@ def rest(name, **choices):
 
 
 def stretch_under_weight(length_above, length, stiffness, area):
-    """How much longer a piece becomes by gravity, with as much string as `length_above` below
-    it."""
+    """Elongation of a piece by gravity, with a string of `length_above` below it."""
     return RHO * area * G * (length_above * length + length**2 / 2) / stiffness
 
 
@@ -228,7 +227,7 @@ def a_load():
 
 
 def a_load_that_fails_on_one_rank():
-    """The others wait for it in their next message: it ends them, with its sentence and code."""
+    """The other ranks wait for it in their next message: it ends them with its message and code."""
     os.environ["WALL_DRAG_FAILS_ON"] = "1"
     deck = written("fails", loads=DRAG.format(drag=50.0))
     done = tooljoint("run", deck, "--output", "fails", ranks=2, seconds=60)

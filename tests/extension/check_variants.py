@@ -34,7 +34,7 @@ def run_chain(source, name, *arguments, **keywords):
 
 
 def explicit(source):
-    """Heun errs by O(h^2), RK4 at a tenth of its step by nothing beside that."""
+    """The error of Heun is O(h^2); that of RK4 at a tenth of the step is negligible."""
     exact, _ = run_chain(source, "rk4", "RK4", 1e-4)
     errors = []
     for step in (1e-3, 5e-4):
@@ -50,7 +50,7 @@ def explicit(source):
 
 def implicit(source):
     """Generalized-alpha with spectral radius 1 and without phase correction is the trapezoidal
-    rule; what is left are the iterations."""
+    rule; the difference comes from the iterations."""
     alpha = """<ParameterList name="Generalized-alpha">
       <Parameter name="Spectral Radius" type="double" value="1"/>
       <Parameter name="Phase Correction" type="bool" value="false"/>
@@ -89,7 +89,7 @@ def coarse_steps(source):
 
 
 def restart(source, integrator):
-    """An interrupted run that goes on ends with the same numbers as one that was not."""
+    """An interrupted and continued run ends with the same numbers as an uninterrupted one."""
     name = f"restart_{integrator}"
     deck = pathlib.Path(f"{name}.xml")
     deck.write_text(chain(source, integrator, 1e-4, end=150.0), encoding="utf-8")
@@ -129,7 +129,7 @@ def frequencies(source, name, basis, own=""):
 
 
 def basis(source):
-    """What the kept modes lack falls by (w_k / w_j)^2 with each step, j being the first vector
+    """The error of the kept modes falls by (w_k / w_j)^2 with each step, j being the first vector
     beyond the subspace."""
     known = frequencies(source, "craig_bampton", "Craig-Bampton")
     errors = []

@@ -203,8 +203,8 @@ def many_attributes():
 
 
 def check_refuses_what_run_refuses():
-    """One row: the deck, what is changed in it, and what both commands say.
-    The exit codes are the same."""
+    """One row: the deck, its change, and the message of both commands. The exit codes are the
+    same."""
     dual = ["--set", "Reduction/Basis=Dual Craig-Bampton"]
     macneal = ["--set", "Reduction/Basis=MacNeal"]
     calm = ["--without", "Parts/Starts"]

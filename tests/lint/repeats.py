@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Code that stands twice: six lines or more that are the same in two places, of product code, of
-the Python package or of tools."""
+"""Repeated code: six lines or more that are the same in two places, of product code, of the Python
+package or of tools."""
 import re
 
 LEAST = 6  # lines of code that count as a repeat
 WHERE = ("src/", "substructures/", "python/", "tools/")
-# Lines that say nothing by themselves: comments, what is included, braces, and the functions that
-# every implementation of an interface declares.
+# Lines that are ignored: comments, includes, braces, and the functions that every implementation of
+# an interface declares.
 NO_CODE = re.compile(r"(//|#|using |namespace |import |from \S+ import |return;|[{}();\])]*$|else "
                      r"\{|\} else \{|public:|private:)|.*\boverride\b")
 

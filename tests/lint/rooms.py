@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The rooms of the house and what each may include. docs/architecture.md shows this table
-(`lint.py --rooms`)."""
+"""The folders and what each may include. docs/architecture.md shows this table (`lint.py
+--rooms`)."""
 
 GROUND = "common deck linalg model statics"
 MODELS = f"{GROUND} coupling io reduction"

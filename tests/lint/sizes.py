@@ -41,7 +41,7 @@ def statements(text, begin):
 
 
 def members(statement):
-    """How many data members a statement of a class declares."""
+    """Number of data members declared by a statement of a class."""
     statement = re.sub(r"^((public|private|protected)\s*:\s*)+", "", statement)
     while (shorter := re.sub(r"<[^<>]*>", "", statement)) != statement:
         statement = shorter

@@ -40,7 +40,7 @@ def filled(first, rest, text):
 
 
 def end_of(line):
-    """What ends the block that the line opens; "" where it opens none or ends it itself."""
+    """The end mark of the block that the line opens; "" if it opens none or also ends it."""
     start = FENCE.match(line)
     if not start:
         return ""

@@ -160,7 +160,7 @@ def of_itself():
            rows["surface"]["computed_max"] > 0)
     expect("the lines of the log say so", "stick-slip index" in done.stdout
            and "computed less measured" in done.stdout, done.stdout[-600:])
-    # at rest hook load and torque are those of the static state, which the motion leaves
+    # at rest hook load and torque are those of the static state, where the motion starts
     static = json.loads(pathlib.Path("plain/summary.json").read_text(encoding="utf-8"))["static"]
     near("hook load at the start", signals["hook"][0], static["hook_load"], 1e-6)
     near("surface torque at the start", signals["torque"][0], -static["top_torque"], 1e-6)

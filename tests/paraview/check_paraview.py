@@ -29,7 +29,7 @@ SINGLE = 1e-6  # relative, of numbers of four bytes
 
 
 def array(element):
-    """Values of a DataArray; its header must say how many bytes stand behind it."""
+    """Values of a DataArray; its header must state the number of bytes after it."""
     data = base64.b64decode(element.text, validate=True)
     length = int(np.frombuffer(data[:8], "<u8")[0])
     if length != len(data) - 8 or element.get("format") != "binary":

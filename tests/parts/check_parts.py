@@ -219,7 +219,7 @@ def bad_parts_on_ranks():
 
 
 def goes_on():
-    """An interrupted run of parts goes on to the numbers of one that was not."""
+    """An interrupted run of parts continues to the numbers of an uninterrupted one."""
     deck = str(ROOT / "xml" / "frame.xml")
     long = [
         "--set", "Transient/End Time=200", "--set", "Transient/Sampling Interval=0.1", "--set",
@@ -243,8 +243,8 @@ def goes_on():
 
 
 def cost_energy_and_remarks():
-    """A run of parts says what a run of a string says: cost of a step, energy balance, remarks of
-    the coupling; a failed one leaves a summary."""
+    """A run of parts prints the same as a run of a string: cost of a step, energy balance, remarks
+    of the coupling; a failed one leaves a summary."""
     deck = ROOT / "xml" / "frame.xml"
     short = ["--set", "Transient/End Time=0.2"]
     done = tooljoint("run", str(deck), "--output", "said", "--verbose", *short)
@@ -272,7 +272,7 @@ def cost_energy_and_remarks():
 
 
 def refused():
-    """A study of parts without a Study list is refused with a sentence;
+    """A study of parts without a Study list is refused with a message;
     tests/study/check_frame_study.py has one that runs."""
     done = tooljoint("study", str(ROOT / "xml" / "frame.xml"))
     expect("a study of parts needs a Study list", done.returncode == 2

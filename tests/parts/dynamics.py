@@ -65,8 +65,8 @@ def floating_beams():
 
 
 def creeping_dofs():
-    """Massless interior dofs with dampers, or that follow through an unsymmetric stiffness, are in
-    no basis, and that is said."""
+    """Massless interior dofs with dampers, or coupled through an unsymmetric stiffness, are in no
+    basis, and a message says so."""
     deck = bars("creep",
                 Reduction={"Basis": "Craig-Bampton", "Mode Selection": {"All Modes": True}})
     part = json.loads(pathlib.Path("bar10.json").read_text(encoding="utf-8"))
@@ -98,8 +98,8 @@ def creeping_dofs():
 
 
 def unstable_equilibria():
-    """An equilibrium that the parts leave is told, with the growth rate of the matrices; so is one
-    that a negative damper drives."""
+    """An unstable equilibrium is reported with the growth rate of the matrices, also one with a
+    negative damper."""
     deck = bars("leaves", {"Initial State": "Equilibrium"})
     bar = json.loads(pathlib.Path("bar10.json").read_text(encoding="utf-8"))
     count = len(bar["dofs"])

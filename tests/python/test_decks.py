@@ -24,8 +24,8 @@ SHORT = {"Transient/End Time": "0.05 s", "Output/XDMF": False}
 
 
 def sentence_of_program(*arguments):
-    """What the program prints on standard error, without its name and its breaks of lines, and its
-    exit code."""
+    """Output of the program on standard error, without its name and line breaks, and its exit
+    code."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
                           check=False)
     return re.sub(r"\n {2,}", " ",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The blocks of docs/python.md run as they stand, and what it promises of them holds."""
+"""The blocks of docs/python.md run unchanged, with the stated results."""
 import os
 import pathlib
 import re

@@ -343,7 +343,7 @@ class Motions(unittest.TestCase):
         with self.assertRaisesRegex(tj.ConvergenceError,
                                     '^The point law "No Rate" returned nan at t = '):
             motion("No Rate", lambda t, d, v, x: (-d, np.nan + x), states=1)
-        # A trial that is taken back is no fault, and nothing of a call is left for the next one.
+        # A rejected trial is no error, and a call has no effect on the next one.
         motion("In Bounds", lambda t, d, v: np.where(abs(d) < 1.5, -d, np.nan))
         self.assertEqual(str(tj.ConvergenceError("Another one.")), "Another one.")
 

@@ -74,7 +74,7 @@ class Style(unittest.TestCase):
         self.addCleanup(plots.plt.close, "all")
 
     def check(self, made):
-        """What holds for every figure."""
+        """Checks of every figure."""
         self.assertEqual(plots.overlaps(made), [])
         for axes in made.axes:
             for axis in (axes.xaxis, axes.yaxis):

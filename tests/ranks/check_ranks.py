@@ -31,9 +31,9 @@ from checks import expect, finish, of_ranks, tooljoint  # noqa: E402
 from same_results import datasets, difference  # noqa: E402
 
 FULL = ["--without", "Reduction", "--without", "Substructures"]
-# An acceleration is what is left of displacements divided by the square of the step.
+# An acceleration is a difference of displacements divided by the square of the step.
 BOUNDS = {"static": 1e-10, "motion": 1e-9, "figures": 1e-6}
-# Velocities [m/s] and figures below these are what iterations leave of a motion that rests.
+# Velocities [m/s] and figures below these are errors of iterations in a motion at rest.
 REST = {"veloc": 1e-8, "figures": 1e-3}
 # What rounding leaves in 200 steps, which do not damp it, per displacement [m, rad]. An element of
 # a metre turns 94 rad with the string (extended_reach_5000m) and holds with terms of 8e7 N m: 1e-16
@@ -142,7 +142,7 @@ def first_rank(parent):
 
 
 def full_disk():
-    """What one rank cannot write ends all of them, with a sentence and the code of bad files."""
+    """A write error of one rank ends all ranks, with a message and the code of bad files."""
     folder = pathlib.Path("full")
     shutil.rmtree(folder, ignore_errors=True)  # of an earlier test
     command = [

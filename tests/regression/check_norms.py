@@ -100,8 +100,7 @@ def compare(norm, found):
 
 
 def faults_of(gold):
-    """What is wrong with a gold: what cannot fail, cannot be read, or does not say why it is
-    right."""
+    """Errors of a gold: norms that cannot fail, cannot be read, or have no reason."""
     norms, arguments = gold.get("norms", {}), gold.get("rests_on", {})
     if not norms:
         yield "no norms, so nothing would be compared."

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A headless Chromium that is driven through its pipe: pages at a given width, what they say on the
-console, pixels, values."""
+"""A headless Chromium that is driven through its pipe: pages at a given width, their console
+output, pixels, values."""
 import base64
 import json
 import os

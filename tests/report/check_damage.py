@@ -25,7 +25,7 @@ def words(text):
     return b"\n".join((head, b",".join(b"fast" for _ in first.split(b",")), rest))
 
 
-# file, damage, what is said of it, a figure that goes with it, one that stays
+# file, damage, message, a figure removed by it, one that stays
 DAMAGES = (
     ("modes.csv", lambda text: text[:-30], "row 5 has ", "modes-frequencies",
      "damped-modes-frequencies"),

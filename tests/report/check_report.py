@@ -116,7 +116,7 @@ def strings(chromium):
 
 
 def lesser_strings():
-    """Runs without what a deck may leave out; "full" is what other tests damage."""
+    """Runs without optional contents of a deck; other tests damage "full"."""
     for name, arguments in {
             "bare": ["--set", "Output/Fields={}"],
             "free": ["--without", "Contact", "--without", "Mud"],
@@ -139,7 +139,7 @@ def lesser_strings():
 
 
 def old_results():
-    """Results without what other programs may leave out: a report of the rest."""
+    """Results without contents that other programs may omit: a report of the rest."""
     for gone in (
         [
             "/model/young_modulus", "/model/component_names", "/model/outer_radius",
@@ -380,7 +380,7 @@ def failed():
 
 
 def interrupted():
-    """What an interrupted run left is reported on, with that on top."""
+    """The results of an interrupted run are reported, with a note on top."""
     shutil.rmtree("interrupted", ignore_errors=True)
     process = subprocess.Popen(
         [sys.argv[1], "run", STRING, "--output", "interrupted", "--set", "Transient/End Time=2000"],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Signs and senses of what turns, in the quantities of a report."""
+"""Signs and senses of rotations in the quantities of a report."""
 import re
 from unittest import mock
 
@@ -30,7 +30,7 @@ def sides():
 
 
 def rounding():
-    """What does not vibrate has no orbits, spectra and whirl; no number is minus zero."""
+    """Without vibration there are no orbits, spectra and whirl; no number is minus zero."""
     figures_ = {
         "begin": 1.0, "end": 2.0, "stick_slip_index": 0.0, "stuck_share": 0.25,
         "stuck_speed_rpm": 4.77, "weight_on_bit": {"mean": 444822.16152605, "min": 4e5,

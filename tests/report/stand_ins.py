@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What stands in the place of a run: a pipe, a string of three nodes."""
+"""Substitutes for a run: a pipe, a string of three nodes."""
 import numpy as np
 
 from checks import expect

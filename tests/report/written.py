@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports that the checks write, and what stands in them."""
+"""Reports written by the checks, and their contents."""
 import base64
 import json
 import pathlib

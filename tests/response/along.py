@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of what is shown along a string and of which modes: windows of frequencies, shapes,
+"""Checks of quantities along a string and of the chosen modes: windows of frequencies, shapes,
 bending moments, distances to the wall."""
 import pathlib
 

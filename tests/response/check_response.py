@@ -453,7 +453,7 @@ def string():
 
 
 def pictures():
-    """Both kinds of results are drawn; a folder without either is told."""
+    """Both kinds of results are drawn; a folder without either gives a message."""
     for folder, name in (
         ("nelson", "campbell"),
         ("laval_response", "response"),

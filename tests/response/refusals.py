@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lists Campbell and Response that are refused, each with a sentence."""
+"""Refused lists Campbell and Response, each with a message."""
 from scenes import SOURCES, expect, tooljoint
 
 STRING = str(SOURCES / "xml/helical_170m.xml")

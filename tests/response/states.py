@@ -12,7 +12,7 @@ EACH = "Campbell/Static State=Each Speed"
 
 
 def shaft():
-    """Without anything that follows the speed the diagram is that of one state."""
+    """If nothing depends on the speed, the diagram is that of one state."""
     pathlib.Path("states_shaft.xml").write_text(SHAFT, encoding="utf-8")
     run("campbell", "states_shaft.xml", "states_shaft_one")
     run("campbell", "states_shaft.xml", "states_shaft_each", EACH)

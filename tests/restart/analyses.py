@@ -23,8 +23,8 @@ def stopped_analysis(signum, folder, plural, least, *arguments):
 
 
 def analyses():
-    """Analyses that are interrupted, or killed, go on with the same command to the same tables, and
-    say so."""
+    """Interrupted or killed analyses continue with the same command to the same tables, and print a
+    message."""
     assembly, string = str(ROOT / "xml/bha_motor_1500m.xml"), str(ROOT / "xml/helical_170m.xml")
     bha = [
         word
@@ -89,7 +89,7 @@ def analyses():
             f"{name}: two ranks know it, with the same tables",
             "are known from before" in again.stdout
             and read("stopped_table") == read("whole_table"), again.stderr[-300:])
-        if name in ("response", "buckling"):  # the others have the same two ways of going on
+        if name in ("response", "buckling"):  # the other analyses continue in the same two ways
             continue
         other = run(*arguments, "--output", "stopped_table", "--set", "Loads/Gravity=9.8")
         expect(

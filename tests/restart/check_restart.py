@@ -220,8 +220,8 @@ def two_runs_in_one_folder():
 
 
 def restart_killed_early():
-    """A restart that is killed, or fails, before its own first checkpoint leaves what it went on
-    from."""
+    """A restart that is killed, or fails, before its own first checkpoint keeps its starting
+    checkpoint."""
     fresh("early")
     whole = whole_run(STRING, LONG)
     stop(signal.SIGKILL, "early", "run", STRING, "--output", "early", *LONG)
@@ -254,7 +254,7 @@ def elsewhere():
 
 
 def other_decks():
-    """A checkpoint goes on with its own run only, and the message names what differs."""
+    """A checkpoint restarts its own run only, and the message names the difference."""
     fresh("deck", "kept")
     shutil.copytree(ROOT / "xml" / "frame", "deck/frame")
     shutil.copy(FRAME, "deck/frame.xml")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of datasets in docs/file-formats.md, and the datasets of a file beside them."""
+"""The tables of datasets in docs/file-formats.md, compared with the datasets of a file."""
 import pathlib
 import re
 
@@ -47,8 +47,8 @@ def fits(shape, found, sizes):
 
 
 def faults(file, table, sizes=None):
-    """Sentences on datasets without a row or with another unit or shape than it says; and the rows
-    that were met."""
+    """Messages on datasets without a row, or with another unit or shape than their row; and the
+    rows found."""
     wrong, met = [], set()
 
     def look(name, dataset):

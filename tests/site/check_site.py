@@ -116,7 +116,7 @@ def elsewhere(pages):
 
 
 def self_test(folder):
-    """The checks find a page that lacks an anchor, a file and a place in the navigation."""
+    """The checks detect a page without an anchor, a file and an entry in the navigation."""
     folder.mkdir(exist_ok=True)
     (folder / "a.html").write_text(
         '<div class="sidebar-tree"><div><a href="a.html">a</a></div></div><a '
@@ -158,7 +158,7 @@ def main():
     cmake, build, project = sys.argv[1], *(pathlib.Path(argument).resolve()
                                            for argument in sys.argv[2:4])
     self_test(pathlib.Path("self_test"))
-    for folder in ("docs", "examples"):  # Sphinx leaves the pages of sources that are gone
+    for folder in ("docs", "examples"):  # Sphinx keeps the pages of removed sources
         shutil.rmtree(build / "docs/html" / folder, ignore_errors=True)
     done = subprocess.run([cmake, "--build", str(build), "--target", "docs"],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)

@@ -198,7 +198,7 @@ def failures():
 
 
 def refusals():
-    """What a law refuses at every speed of the grid is told once, with a count."""
+    """A refusal at every speed of the grid is printed once, with a count."""
     driller = {
         "Bit/Law": "Cutting", "Bit/Cutting/Radius": "0.1", "Bit/Cutting/Blades": "3",
         "Top Drive/Autodriller/Weight On Bit": "10 kN",

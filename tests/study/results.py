@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a study leaves in its folder, and says of what it found there."""
+"""Results of a study in its folder, and its messages on earlier results."""
 import csv
 import json
 import pathlib
@@ -20,6 +20,6 @@ def table(folder):
 
 
 def known(done):
-    """How many runs a study says it has from before."""
+    """Number of earlier runs reported by a study."""
     match = re.search(r"(\d+) of (\d+) runs are known", done.stdout)
     return int(match.group(1)) if match else 0

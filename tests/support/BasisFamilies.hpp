@@ -19,7 +19,7 @@ namespace tooljoint::samples {
 /// A basis with its parameters.
 struct Family {
   std::string basis;
-  std::string parameter;  ///< name of a parameter that is not at its default; empty: none
+  std::string parameter;  ///< name of a parameter not at its default; empty: none
   std::string text;       ///< its value, when it is a text
   bool flag = false;      ///< its value, when `text` is empty
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// A plain Newton iteration with a direct factorisation, so that tests of the physics do not depend
-/// on the solvers they would otherwise test along with it.
+/// on the solvers of the library.
 #pragma once
 
 #include <Eigen/SparseLU>

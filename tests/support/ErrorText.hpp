@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The sentence a piece of work fails with.
+/// The message of a failure.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace tooljoint {
 
-/// What `work` fails with; empty where it does not fail. Other exceptions pass.
+/// Message with which `work` fails; empty if it does not fail. Other exceptions pass.
 inline std::string errorText(const std::function<void()>& work) {
   try {
     work();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Lists as a room receives them from the deck reader: every parameter that has a default is there.
+/// Lists as returned by the deck reader: every parameter with a default is present.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -9,8 +9,8 @@
 
 namespace tooljoint::test {
 
-/// Defaults of the parameters of `spec` (optional sublists stay absent); required ones are for the
-/// test to set.
+/// Defaults of the parameters of `spec` (optional sublists stay absent); the test sets the required
+/// ones.
 inline Teuchos::ParameterList defaultsOf(const deck::ListSpec& spec) {
   Teuchos::ParameterList list;
   deck::withDefaults(spec, Teuchos::ParameterList(spec.name()),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The NOX driver as the solver of a room's nonlinear problems, as the program binds it.
+/// The NOX driver as the solver of nonlinear problems, bound as in the program.
 #pragma once
 
 #include "model/NonlinearSolve.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The scenes of xml/ taken through the stages of a run in memory.
+/// The stages of a run in memory for the scenes of xml/.
 #pragma once
 
 #include <algorithm>

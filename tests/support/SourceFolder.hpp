@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Where the sources are. One source knows it, so that a clone in another folder compiles no other.
+/// Path of the sources. Only one source file contains it, so that a clone in another folder
+/// recompiles no other.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The decks of a folder that belong to the project. A deck that git does not know is a user's own
-/// and no test's concern.
+/// The decks of a folder that belong to the project. Decks that git does not track belong to the
+/// user and are not tested.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace tooljoint::testing_ {
 
-/// What a shell command prints, line by line; nothing when it fails.
+/// Output of a shell command, line by line; empty if it fails.
 inline std::optional<std::vector<std::string>> linesOf(const std::string& command) {
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return std::nullopt;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the scripts that check the program share: running it, saying what held, how it ended."""
+"""Functions shared by the scripts that check the program: run it, print results, exit."""
 import os
 import re
 import subprocess
@@ -51,7 +51,7 @@ def tooljoint(*arguments, ranks=1, seconds=240):
 
 
 def expect(what, condition, shown=""):
-    """Notes a fault where `condition` does not hold; `shown` is what was found instead."""
+    """Records a fault if `condition` does not hold; `shown` is the value found."""
     print(f"{'ok    ' if condition else 'FAILED'} {what} {'' if condition else shown}", flush=True)
     if not condition:
         FAULTS.append(what)

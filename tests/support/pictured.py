@@ -36,7 +36,7 @@ def figures_of(text):
 
 
 def parted(value):
-    """A number and what stands behind it; (nan, text) of a text."""
+    """A number and the text after it; (nan, text) for a text."""
     found = re.fullmatch(r"(-?[\d.]+(?:e[-+]?\d+)?)(.*)", value)
     return (float(found.group(1)), found.group(2)) if found else (float("nan"), value)
 

@@ -18,7 +18,7 @@ def numbers(folder):
 
 
 def differences(whole, other, tolerance=0.0):
-    """Names of what is not the same in two results folders."""
+    """Names of the differences of two results folders."""
     a, b = numbers(whole), numbers(other)
     names = sorted(a.keys() ^ b.keys())
     for name in sorted(a.keys() & b.keys()):

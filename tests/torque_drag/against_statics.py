@@ -144,7 +144,7 @@ def level():
 
 
 def buckled():
-    """Where its weight on bit buckles it, the stiff string slides to a stable state on the wall."""
+    """If its weight on bit buckles it, the stiff string slides to a stable state on the wall."""
     for weight, buckles, most in (("60 kN", False, 150), ("200 kN", True, 900)):
         done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output",
                          "buckled", "--without", "Torque and Drag", "--set",

@@ -165,8 +165,8 @@ def intervals():
 
 
 def bounds():
-    """Drag as of a coefficient of 1.2, beyond what is taken for one: it ends at 1, without an
-    interval, and that is said."""
+    """Drag of a coefficient of 1.2, beyond the allowed range: the fit ends at 1, without an
+    interval, with a message."""
     table = pathlib.Path("measured_bound.csv").resolve()
     done = run(STRAIGHT, "bound_truth", "Contact/Friction/Static=0.4",
                "Contact/Friction/Dynamic=0.4", "Torque and Drag/Depths={400, 800}",

@@ -147,7 +147,7 @@ def backward():
 
 
 def documented(table):
-    """The table of docs/guide/torque-drag.md is what the program prints."""
+    """The table of docs/guide/torque-drag.md agrees with the output of the program."""
     lines = [
         line.split("|")[1:-1] for line in (SOURCES / "docs/guide/torque-drag.md").read_text(
             encoding="utf-8").splitlines() if line.startswith("| ") and line.count("|") == 6
@@ -167,7 +167,7 @@ def documented(table):
 
 
 def pulled():
-    """A force of the deck has no part in torque and drag, and that is said."""
+    """Torque and drag ignores a force of the deck, with a message."""
     force = ('<ParameterList name="Loads"><ParameterList name="Forces"><ParameterList name="pull">'
              '<Parameter name="Node" type="int" value="20"/><Parameter name="Component" '
              'type="string" value="w"/><Parameter name="Value" type="double" value="-3e4"/>'
@@ -283,7 +283,7 @@ pressure()
 grades()
 stiff("build_hold_1400m", 0.01, 0.03)
 stiff("extended_reach_5000m", 0.01, 0.05)
-# A vertical string hardly touches: what torque the bit does not ask for is small.
+# A vertical string hardly touches: the torque in addition to that of the bit is small.
 alone = stiff("vertical_5000m", 0.005, 0.01)
 together = static_state("vertical_5000m", ranks=2)
 for key in ("hook_load", "top_torque_equilibrium"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of `tooljoint torque-drag` and of scenes at rest, and what they print."""
+"""Runs of `tooljoint torque-drag` and of scenes at rest, and their output."""
 import csv
 import json
 import pathlib

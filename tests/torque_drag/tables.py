@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What torque and drag writes and prints: tables, refusals, an interrupted command that goes on."""
+"""Output of torque and drag: tables, refusals, an interrupted command that continues."""
 import json
 import pathlib
 import shutil
@@ -15,7 +15,7 @@ from runs import DECK, SOURCES, near, rows, run
 
 
 def announced():
-    """`tooljoint check` says what torque-drag will do."""
+    """`tooljoint check` describes the computations of torque-drag."""
     done = tooljoint("check", DECK, "--set", "Torque and Drag/Depths={400, 800}", "--set",
                      "Torque and Drag/Operations={Trip in}", "--set",
                      "Torque and Drag/Stiff String=All Depths")
@@ -90,7 +90,7 @@ def resumed():
     arguments = [part for setting in settings for part in ("--set", setting)]
     for how in (signal.SIGTERM, signal.SIGKILL):
         folder = f"stopped_{how.name}"
-        shutil.rmtree(folder, ignore_errors=True)  # what a test that was cut off has left
+        shutil.rmtree(folder, ignore_errors=True)  # remains of an interrupted test
         code, left = stopped(folder, how, settings)
         expect(f"{how.name}: it stops with some depths done",
                code == (130 if how == signal.SIGTERM else -9) and 2 <= left < 6, f"{code} {left}")

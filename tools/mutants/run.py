@@ -148,7 +148,7 @@ class Tree:
         self.build_folder = folder / "build" / preset
 
     def update(self):
-        """Copy what differs, remove what is gone, configure once."""
+        """Copy changed files, delete removed ones, configure once."""
         listed = subprocess.run(
             ["git", "-C", PROJECT, "ls-files", "-z", "-co", "--exclude-standard"], check=True,
             capture_output=True).stdout
@@ -189,7 +189,7 @@ class Tree:
         environment.pop("GTEST_FILTER", None)
         if filters:
             environment["GTEST_FILTER"] = filters
-        # analyses go on with the rows that another mutant has left
+        # analyses would continue with rows of another mutant
         scratch = self.build_folder / "tests/scratch" / test
         if scratch.is_dir():
             shutil.rmtree(scratch)

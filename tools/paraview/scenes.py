@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run is in space: points, cells and fields of a string and its well, or of parts."""
+"""A run in space: points, cells and fields of a string and its well, or of parts."""
 import numpy as np
 
 from report import results
@@ -19,7 +19,7 @@ class Scene:
         self.times = run.time if run.moves else np.zeros(1)
 
     def row(self, name, sample):
-        """A field of the nodes at a sample of the motion, or of the static state; None where it was
+        """A field of the nodes at a sample of the motion, or of the static state; None if it was
         not recorded."""
         if not self.run.moves:
             return self.run.get(f"/static/{name}")
@@ -81,8 +81,8 @@ class String(Scene):
         return fields
 
     def wall(self, magnification):
-        """(points, quadrilaterals) of the bore, its clearance magnified as the displacements are:
-        what touches is drawn on the wall."""
+        """(points, quadrilaterals) of the bore, its clearance magnified like the displacements:
+        nodes in contact are drawn on the wall."""
         angle = 2 * np.pi * np.arange(SECTORS) / SECTORS
         contact, clearance = self.run.get("/model/contact_radius"), self.run.get("/model/clearance")
         radius = (contact + magnification * clearance)[:, None, None]

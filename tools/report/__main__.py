@@ -37,7 +37,7 @@ class Arguments(argparse.ArgumentParser):
 
 
 def page_of(folder):
-    """The page of what the folder holds."""
+    """The page for the contents of the folder."""
     if not folder.is_dir():
         raise Unreadable(f"\"{folder}\" is no folder. Name the results folder of a run, a study, a "
                          "map, torque-drag, bha, buckling, campbell, response or modes.")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run is checked for, from its summary.json."""
+"""Checks of a run, from its summary.json."""
 
 ENERGY = 1e-2  # share of the energy supplied that the integration may lose or make
 # A name, the value in a summary, the bound.

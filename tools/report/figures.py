@@ -10,8 +10,7 @@ from report.quantities import fixed
 BLUE, ORANGE, GREEN = COLOURS[:3]
 PICTURE_ROWS = 240  # of contact forces over time and depth
 JOINT = 15.0  # [m]: longer than a joint of drill pipe (API range 3, with its tool joint)
-# rows of the picture for each joint of pipe: then the pipe body between its tool joints is seen on
-# its own
+# rows of the picture for each joint of pipe, so that the pipe body between tool joints is visible
 RESOLVED = 8
 STRETCHES = 100  # of a profile that changes from element to element; longer than a joint of pipe
 MOST_BARS = 400  # of nodes along a profile
@@ -249,7 +248,7 @@ def contact_shares(run, found):
 
 
 def vibration(run, motion):
-    """Along the string, of what vibrates."""
+    """Vibration along the string."""
     found = []
     for name, label, values, colour, caption in (
         ("rms", "lateral vibration [mm rms]", 1e3 * motion.lateral_rms(), GREEN,
@@ -268,7 +267,7 @@ def vibration(run, motion):
 
 
 def whirl(run, motion, number, turned):
-    """What a caption says of the mean precession of a chosen node: positive in the sense of the
+    """Text of a caption on the mean precession of a chosen node: positive in the sense of the
     rotation. `turned`: of results.sides."""
     half = slice(motion.first, None)
     time = run.time[half]
@@ -344,7 +343,7 @@ def draw_spectrum(axes, values, interval, **line):
 
 
 def spectra(run, motion, chosen):
-    """Of the lateral motion of the chosen nodes and of the bit speed, where they vibrate."""
+    """Spectra of the lateral motion of the chosen nodes and of the bit speed, if they vibrate."""
     half = slice(motion.first, None)
     interval = float(np.median(np.diff(run.time)))
     found = []

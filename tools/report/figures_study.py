@@ -153,7 +153,7 @@ def draw_statistics(study):
 
 
 def draw_static(study):
-    """Where every run starts from."""
+    """The initial state of every run."""
     if "profile" not in study.file:
         return None
     profile = {name: values[:] for name, values in study.file["profile"].items()}
@@ -190,7 +190,7 @@ def draw_static(study):
 
 
 def draw_reference(study):
-    """How far the reference can be trusted: growth of a small change, and distance to its check."""
+    """Reliability of the reference: growth of a small change, and distance to its check."""
     curves = [(kind, study.companion(kind), text, colour) for kind, text, colour in (
         ("check", "distance to the check run", COLOURS[0]),
         ("sensitivity", f"growth of a change of {float(study.attribute('perturbation', 0)):.0e} m",

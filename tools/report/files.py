@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that are read and written, and the sentences about those that cannot be."""
+"""Reading and writing of files, and the messages for failures."""
 import contextlib
 import csv
 import errno
@@ -11,7 +11,7 @@ import sys
 USAGE, FILES = 1, 5  # exit codes of the program and its tools
 AGAIN = "Run the deck again, or restore the file from a copy."
 DAMAGE = (OSError, RuntimeError, LookupError, ArithmeticError, AttributeError, TypeError,
-          ValueError, csv.Error)  # what a damaged file raises while it is read and drawn
+          ValueError, csv.Error)  # errors raised by a damaged file during reading and drawing
 REASONS = {
     errno.ENOSPC: "the disk is full", errno.EDQUOT: "the quota of the disk is used up",
     errno.EFBIG: "the file would be larger than the limit of the process (ulimit -f)"
@@ -19,7 +19,7 @@ REASONS = {
 
 
 class Unreadable(Exception):
-    """A sentence on what is missing or damaged."""
+    """A message on missing or damaged data."""
 
 
 class Unwritable(Exception):
@@ -33,7 +33,7 @@ def fail(sentence, code=FILES):
 
 @contextlib.contextmanager
 def failing():
-    """Ends with the sentence on a file that cannot be read or written."""
+    """Ends with the message on a file that cannot be read or written."""
     try:
         yield
     except (Unreadable, Unwritable) as fault:
@@ -51,7 +51,7 @@ def unreadable(path, why):
 
 @contextlib.contextmanager
 def reading(path):
-    """What goes wrong inside is the fault of this file: Unreadable."""
+    """Errors inside the block are attributed to this file: Unreadable."""
     try:
         yield
     except DAMAGE as error:

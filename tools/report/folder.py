@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The main of the tools that draw the folder a command has left, and what stands above their
+"""The main function of tools that draw the results of a command, and the titles of their
 figures."""
 import argparse
 import pathlib

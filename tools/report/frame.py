@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What stands around the sections of every page: notes first, the deck and where the page comes
-from last."""
+"""The frame of every page: notes before the sections, the deck and the origin of the page after
+them."""
 from report import checks, deck, tables
 
 ENDS = {"failed": "failed", "interrupted": "was interrupted"}
 
 
 def notes(page, results, what="run"):
-    """What a reader must know first; nothing of a folder without a summary."""
+    """The most important notes for a reader; empty for a folder without a summary."""
     if not results.summary:
         return
     status = results.value("status")

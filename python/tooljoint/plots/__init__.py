@@ -17,8 +17,7 @@ Text(..., 'bit speed [rpm]')
 import logging as _logging
 import os as _os
 
-# Where its own folder cannot be written, matplotlib takes a temporary one, and warns of that while
-# it is imported.
+# If its folder is not writable, matplotlib uses a temporary one and warns during import.
 _log = _logging.getLogger("matplotlib")
 _level = _log.level
 _log.setLevel(_logging.ERROR)

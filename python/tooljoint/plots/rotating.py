@@ -19,7 +19,7 @@ NO_LATERAL = 1e-3  # of the largest displacement: less across the axis is no lat
 
 
 def columns(results: Any, group: str) -> dict[str, Any] | None:
-    """The datasets of a group by name; None where there is none."""
+    """The datasets of a group by name; None if there is no group."""
     return {name: data[:] for name, data in results[group].items()} if group in results else None
 
 
@@ -32,7 +32,7 @@ def whirl_colour(whirl: float) -> str:
 
 
 def whirl_word(whirl: float) -> str:
-    """What is said of a mode beside its frequency."""
+    """The words for a mode beside its frequency."""
     return "forward" if whirl > CLEAR_WHIRL else "backward" if whirl < -CLEAR_WHIRL else "in a line"
 
 
@@ -172,8 +172,8 @@ def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
 
 
 def axial_or_torsional(shape: Any) -> tuple[Any, str]:
-    """What moves of a shape (nodes x components) without motion across the axis, over its largest,
-    and the word for it."""
+    """The axial or torsional component of a shape (nodes x components) without lateral motion, over
+    its largest value, and its name."""
     along, about = np.max(np.abs(shape[:, 2])), np.max(np.abs(shape[:, 5]))
     part, said = (shape[:, 2], "axial") if along > about else (shape[:, 5], "torsional")
     return part.real / np.max(np.abs(part)), said
@@ -279,8 +279,7 @@ def profile_figure(results: Any) -> Any:
 
 
 def over(rows: dict[str, Any]) -> tuple[Any, str]:
-    """What a response is drawn over, and its label: the rotary speed, or the frequency at one
-    speed."""
+    """The abscissa of a response and its label: the rotary speed, or the frequency at one speed."""
     if np.ptp(rows["speed"]) > 0:
         return RPM * rows["speed"], label("rotary speed", "rpm")
     return rows["frequency"], label("frequency", "Hz")

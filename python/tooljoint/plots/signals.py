@@ -29,8 +29,8 @@ def envelope(times: Any, values: Any, most: int = 1200) -> tuple[Any, Any]:
 
 def stretches(depth: Any, values: Any, most: int = 240) -> tuple[Any, Any, Any]:
     """Values along an increasing depth in at most `most` equal stretches of it: middle, smallest
-    and largest value of each that holds some. Where values change from element to element, a line
-    through all of them is a smear."""
+    and largest value of each that holds some. If values change from element to element, a line
+    through all of them is unreadable."""
     depth, values = np.asarray(depth, float), np.asarray(values, float)
     edges = np.linspace(depth[0], depth[-1], most + 1)
     first = np.unique(np.searchsorted(depth, edges[:-1]))

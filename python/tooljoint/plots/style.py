@@ -13,7 +13,7 @@ from matplotlib import ticker
 from matplotlib.transforms import ScaledTranslation
 
 RPM = 30 / np.pi
-# Okabe and Ito (2008), which all can tell apart, darkened where they are too light for thin lines.
+# Okabe and Ito (2008), distinguishable by everyone, darkened if too light for thin lines.
 COLOURS = [
     "#0072B2", "#C24E00", "#009E73", "#B8860B", "#CC4C99", "#3F9BD4", "#7A3E9D", "#4D4D4D",
     "#8C2D04", "#5C7A00", "#E69F00", "#117733", "#882255", "#1B9E9E", "#6B4C2A", "#9A6FB0"
@@ -54,7 +54,8 @@ def tick(value: float, _: Any = None) -> str:
 
 def figure(width: float = WIDE, height: float = 3.0) -> tuple[Any, Any]:
     """A figure and its axes, without overlaps.
-    The number of ticks is given: one that grew with the axes would change the room they leave."""
+    The number of ticks is fixed: if it depended on the size of the axes, it would change that
+    size."""
     made, axes = plt.subplots(figsize=(width, height), constrained_layout=True)
     whole_ticks(axes, 8 if width > SLENDER else 4, 8 if height > 2.9 else 5)
     return made, axes
@@ -69,8 +70,8 @@ def whole_ticks(axes: Any, across: int, up: int) -> None:
 
 
 def headline(made: Any, what: str, conditions: str = "") -> None:
-    """Above a figure with constrained layout: what it shows, and below that, smaller, the
-    conditions under which it holds."""
+    """Title of a figure with constrained layout: its content, and below, smaller, its
+    conditions."""
     lines = textwrap.wrap(conditions, int(17 * made.get_figwidth()))
     made.suptitle("\n".join([what, *(" " for _ in lines)]), x=0.01, ha="left", fontsize=10,
                   fontweight="bold")
@@ -214,7 +215,7 @@ def log_log(axes: Any, x: Callable[..., str] = plain, y: Callable[..., str] = pl
 
 def error_band(axes: Any, x: Any, low: Any, high: Any, colour: str = GREY, text: str | None = None,
                sideways: bool = False) -> None:
-    """What is uncertain about a curve, pale behind it: between `low` and `high` at each `x`;
-    `sideways`: at each y, where the abscissa is uncertain."""
+    """The uncertainty of a curve, pale behind it: between `low` and `high` at each `x`; `sideways`:
+    at each y, where the abscissa is uncertain."""
     fill = axes.fill_betweenx if sideways else axes.fill_between
     fill(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=0, label=text)

@@ -37,7 +37,7 @@ class RunDeck : public ::testing::Test {
   }
 };
 
-/// The first of thirty elements of 3 m carries in its middle what hangs below: rho A g 88.5 m.
+/// The first of thirty elements of 3 m carries in its middle the weight below: rho A g 88.5 m.
 TEST_F(RunDeck, aStringGivesItsSummary) {
   const auto results = runDeck(pipes, {}, MPI_COMM_WORLD, {folder("pipes"), ""});
   const double perMetre = 7850 * constants::pi * (0.0635 * 0.0635 - 0.054 * 0.054) * 9.81;
@@ -78,7 +78,7 @@ TEST_F(RunDeck, importedPartsMoveFullAndReduced) {
   EXPECT_DOUBLE_EQ(time.back(), 0.05);
 }
 
-/// Every rank runs a deck of its own, at the same time as the others.
+/// Every rank runs its own deck at the same time.
 TEST_F(RunDeck, ranksOfACommunicatorWorkAlone) {
   MPI_Comm mine = MPI_COMM_NULL;
   const int rank = parallel::rank();

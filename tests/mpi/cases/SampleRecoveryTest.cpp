@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Samples of a motion that ranks divide: rank 0 has what one rank would have recovered.
+/// Samples of a motion divided among ranks: rank 0 has the samples that one rank would recover.
 #include "cases/recording/SampleRecovery.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ model::SecondOrderModel betweenMasses() {
   return model;
 }
 
-/// Divided samples to a step of 1 ms: five of them.
+/// Five divided samples per step of 1 ms.
 transient::TransientOptions manySamples() {
   auto options = transient::testing::options("Generalized-alpha", 0.01, 1e-3, 2e-4);
   options.ranks = transient::RankUse::Divide;
@@ -79,7 +79,7 @@ TEST(SampleRecovery, RankZeroHasTheSamplesOfADividedMotion) {
   EXPECT_EQ(sink.divided, one ? 0 : 51);
 }
 
-/// Rank 0 cannot keep samples; those that follow in the step still come to all ranks.
+/// Rank 0 cannot store samples; the next samples of the step still reach all ranks.
 class FullDisk final : public transient::ShareSink {
  public:
   explicit FullDisk(const model::SecondOrderModel& model) : recovery_(model) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Groups of ranks: who is in which, that each number goes to one group, and that an error of one
-/// is that of all.
+/// Groups of ranks: their members, assignment of each number to one group, and errors of one rank
+/// raised on all.
 #include "common/ranks/RankGroups.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The frequencies of a frame with a loop on any number of ranks, coupled primal, dual and with
-/// interface reductions, against those one rank gets by itself and against the frame as one piece.
+/// interface reductions, against those of a single rank and against the frame as one piece.
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ CouplingOptions options(const samples::FiveMembers& frame, const Way& way) {
   return chosen;
 }
 
-/// What one rank computes without any other.
+/// Result of one rank without the others.
 Vector alone(const samples::FiveMembers& frame, const Way& way) {
   const auto basis = reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList());
   const auto parts = frame.parts(own);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A static state whose work ranks divide among themselves is that of one rank: rows, tangents,
-/// factors, solutions, decisions and failures. On one rank nothing is divided, and the same must
-/// hold.
+/// A static state divided among ranks equals that of one rank: rows, tangents, factors, solutions,
+/// decisions and failures. On one rank nothing is divided, and the same must hold.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -68,7 +67,7 @@ StaticInput string(bool held = true) {
 
 model::NonlinearSolver divided() { return statics::noxSolver(Teuchos::ParameterList("Static")); }
 
-/// Motions of a spatial string, large enough that many points touch.
+/// Displacements of a spatial string, large enough for contact at many points.
 Vector waves(int size) {
   Vector x(size);
   for (int i = 0; i < size; ++i) x[i] = (i % 6 < 2 ? 0.025 : 1e-3) * std::sin(0.37 * i);
@@ -184,7 +183,7 @@ TEST(DividedStatic, failuresEndOnAllRanksWithOneSentence) {
   EXPECT_TRUE(isSameOnAllRanks(all));
 }
 
-/// A string that nothing holds along the well: the factors of the whole say so, as on one rank.
+/// A string without axial support: the factors of the whole report it, as on one rank.
 TEST(DividedStatic, aFloatingStringIsNamedAsOnOneRank) {
   const auto input = string(false);
   StaticProblem problem(input);
@@ -202,7 +201,7 @@ TEST(DividedStatic, aFloatingStringIsNamedAsOnOneRank) {
   EXPECT_EQ(all.message, one.message);
 }
 
-/// What the rows of one rank throw is thrown on all.
+/// An error in the rows of one rank is thrown on all.
 class Refusing final : public model::ChainProblem {
  public:
   Refusing(const StaticProblem& problem, int unknown) : problem_(problem), unknown_(unknown) {}

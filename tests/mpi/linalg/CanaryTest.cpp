@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The canary: every solver of the toolkit on every rank of a job of several. KLU2 of Trilinos 13.2
-/// returns wrong solutions without a word for matrices on communicators of two and more ranks, and
-/// for its own transposed solve; these tests fail when a solver of ours comes to lie on such a
-/// communicator, and hang when one of them waits for another rank.
+/// Every solver of the toolkit on every rank of a job of several ranks. KLU2 of Trilinos 13.2
+/// silently returns wrong solutions for matrices on communicators of two and more ranks, and for
+/// its own transposed solve. These tests fail if a solver of the toolkit uses such a communicator,
+/// and hang if a solver waits for another rank.
 #include <gtest/gtest.h>
 #include <mpi.h>
 #include <vector>
@@ -80,7 +80,7 @@ TEST(Canary, SingularMatricesAreNamedOnEveryRank) {
 TEST(Canary, ModesAreTheSameOnEveryRank) {
   for (const int elements : {40, 120}) {  // dense and Krylov
     const auto pencil = beam(elements, 170.3, 3e6, 2);
-    if (rank() % 2 == 1) lowestModes(pencil.K, pencil.M, 3);  // what ran before must not matter
+    if (rank() % 2 == 1) lowestModes(pencil.K, pencil.M, 3);  // earlier calls must have no effect
     const EigenPairs modes = lowestModes(pencil.K, pencil.M, 20);
     EXPECT_LT(modes.residuals.maxCoeff(), 1e-10);
     EXPECT_LT(modes.orthogonality, 1e-11);

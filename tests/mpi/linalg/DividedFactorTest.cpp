@@ -85,7 +85,7 @@ TEST(DividedFactor, GivesTheFlexibilityOutsideABasis) {
   EXPECT_EQ(spread(x), 0.0);
 }
 
-/// The same sentence on every rank, and none waits.
+/// The same message on every rank, and no rank waits.
 TEST(DividedFactor, RefusesAlikeOnAllRanks) {
   const Pencil free(true);
   std::string refusal;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The same reduced parts and the same coupled model on any number of ranks, and one sentence for
-/// an error on one of them.
+/// The same reduced parts and the same coupled model on any number of ranks, and the same message
+/// on all ranks for an error on one of them.
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ std::vector<model::Substructure> frame() {
   return parts;
 }
 
-/// What one rank gets without any other.
+/// Result of one rank without the others.
 std::vector<ReducedSubstructure> alone(const std::vector<model::Substructure>& parts,
                                        const std::vector<ReducedSubstructure>& like,
                                        const ReductionMethod& basis,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A part that is cut into substructures is the same on any number of ranks, and so is an error.
+/// The result for a part cut into substructures is the same on any number of ranks, and so are
+/// errors.
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 #include <mpi.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A motion that ranks divide among themselves is the motion of one rank: shares, factors, steps,
-/// energy, errors, checkpoints. On one rank nothing is divided, and the same must hold.
+/// A motion divided among ranks equals the motion of one rank: shares, factors, steps, energy,
+/// errors, checkpoints. On one rank nothing is divided, and the same must hold.
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -151,8 +151,7 @@ TEST(RankShare, APivotThatVanishesOnOneRankIsKnownToAll) {
   EXPECT_GE(factor.factor(), 0);
 }
 
-/// A chain that nothing holds moves as a whole: what is left of its last pivot is rounding, on
-/// several ranks at the cut.
+/// A free chain moves as a whole: its last pivot is rounding, on several ranks at the cut.
 TEST(RankShare, AMatrixThatIsSingularAsAWholeIsSoOnAnyNumberOfRanks) {
   auto whole = springChain(41, 1.0, 0.0, 3e7);
   for (int end : {0, 40}) whole.stiffness.own()[0].matrix.coeffRef(end, end) = 3e7;
@@ -161,7 +160,8 @@ TEST(RankShare, AMatrixThatIsSingularAsAWholeIsSoOnAnyNumberOfRanks) {
   linalg::BlockFactor factor(compiled.pattern());
   compiled.combine(0.0, 0.0, 1.0, factor.values());
   EXPECT_GE(factor.factor(), 0);
-  compiled.combine(1e-3, 0.0, 1.0, factor.values());  // and not any more with a little ground
+  compiled.combine(1e-3, 0.0, 1.0, factor.values());  // no longer singular with a weak ground
+                                                      // spring
   EXPECT_EQ(factor.factor(), -1);
 }
 
@@ -183,7 +183,7 @@ TEST(DividedMotion, IsTheMotionOfOneRank) {
     EXPECT_EQ(many.counters.steps, one.counters.steps);
     EXPECT_EQ(many.counters.newtonIterations, one.counters.newtonIterations);
     EXPECT_EQ(many.counters.strategies, one.counters.strategies);
-    // an impact is looked at once more, or not, where its bound is met to rounding
+    // an impact at its bound may be evaluated once more, depending on rounding
     EXPECT_NEAR(static_cast<double>(many.contactEvaluations),
                 static_cast<double>(one.contactEvaluations),
                 1e-4 * static_cast<double>(one.contactEvaluations));
@@ -196,7 +196,7 @@ TEST(DividedMotion, IsTheMotionOfOneRank) {
   }
 }
 
-/// Steps that follow their error, and impacts on a wall too stiff for the step.
+/// Steps controlled by their error, and impacts on a wall too stiff for the step.
 TEST(DividedMotion, TakesTheSameSteps) {
   auto hard = nodes(40, chain(40));
   hard.points.clear();
@@ -268,7 +268,7 @@ TEST(DividedMotion, IsThatOfOneRankWithStatesOfPointLaws) {
   }
 }
 
-/// Sentence of the error that this rank has met.
+/// Message of the error on this rank.
 std::string errorOf(const model::SecondOrderModel& model, const TransientOptions& options,
                     SampleSink& sink) {
   try {
@@ -332,13 +332,13 @@ TEST(DividedMotion, GoesOnFromACheckpointBitByBit) {
   EXPECT_EQ(rest.x.back(), whole.x.back());
 }
 
-/// With what the integrator carries it takes the steps of a motion that was not stopped, to
-/// rounding where the matrices are constant. The factor is another one: with laws whose tangents
-/// change, iterations have to end at rounding, and the phase correction would be another one.
+/// With the memory carried by the integrator the motion takes the steps of an uninterrupted one, to
+/// rounding if the matrices are constant. The factor is different: with laws whose tangents change,
+/// iterations must converge to rounding, and the phase correction would differ.
 TEST(DividedMotion, GoesOnFromACheckpointOfOtherRanks) {
   auto smooth = shapes()[0].second;
   smooth.points.clear();
-  smooth.damping.own().pop_back();  // it swells
+  smooth.damping.own().pop_back();  // it grows
   auto lawful = smooth;
   addStatefulLaws(lawful);
   for (const auto* model : {&smooth, &lawful})
@@ -369,8 +369,8 @@ TEST(DividedMotion, GoesOnFromACheckpointOfOtherRanks) {
       }
 }
 
-/// Contact, and damping that swells, before and after the stop: the factor of the matrix is another
-/// one, and steps agree to the tolerance of their iterations, 1e-5 of the forces.
+/// Contact, and growing damping, before and after the stop: the factor of the matrix differs, and
+/// steps agree to the tolerance of their iterations, 1e-5 of the forces.
 TEST(DividedMotion, GoesOnInContactFromACheckpointOfOtherRanks) {
   for (const auto& [name, model] : shapes()) {
     SCOPED_TRACE(name);

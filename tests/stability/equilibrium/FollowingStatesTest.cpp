@@ -67,7 +67,7 @@ Complex growth(const stability::StateStability& found) {
   return {found.growthRate, constants::twoPi * found.frequency};
 }
 
-/// Held: s = 0.453, a divergence. The rightmost root is -0.199 + 1.333 i.
+/// States held: s = 0.453, a divergence. The rightmost root is -0.199 + 1.333 i.
 TEST(FollowingStates, ThatStopAGrowthOfHeldOnes) {
   const Bit bit{4e4, 600.0, 400.0, 0.1, 16.0};
   const auto found = stability::assess(bit.model(), 0.0);
@@ -76,8 +76,8 @@ TEST(FollowingStates, ThatStopAGrowthOfHeldOnes) {
   EXPECT_EQ(found.held, std::vector<std::string>{"bit"});
 }
 
-/// Held: 1.400, a divergence; in truth a vibration at 0.377 + 0.925 i. And held: all modes decay,
-/// in truth one grows at 0.016 + 3.484 i.
+/// States held: 1.400, a divergence; the true root is a vibration at 0.377 + 0.925 i. In the second
+/// case all modes decay with held states; the true root grows at 0.016 + 3.484 i.
 TEST(FollowingStates, GiveTheGrowthOfTheirOwn) {
   for (const auto& [bit, rate] : {std::pair{Bit{1e4, 300.0, 100.0, 0.1, 16.0}, 0.37654},
                                   std::pair{Bit{1e4, 3000.0, 100.0, 0.1, 16.0}, 0.01623}}) {

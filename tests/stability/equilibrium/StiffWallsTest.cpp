@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The static equilibrium where walls are stiff, contact laws sharp or both: a kilometre of string
-/// hanging over inclined collars and one lying in an inclined well. It settles, and what it settles
-/// in is what softer walls tend to; where it cannot, the error says why.
+/// The static equilibrium with stiff walls, sharp contact laws or both: a kilometre of string
+/// hanging over inclined collars and one lying in an inclined well. It converges to the limit of
+/// softer walls; if it cannot, the error states the reason.
 #include <gtest/gtest.h>
 
 #include "common/Constants.hpp"
@@ -23,8 +23,8 @@ equilibrium::StaticState settled(const std::string& deck,
 
 constexpr double tolerance = 1e-9;
 
-/// Nodes with more than a thousandth of all contact force, which is what a wall of 1e8 N/m leaves
-/// open: nodes that graze the wall touch or not by micrometres.
+/// Nodes with more than a thousandth of all contact force, the error with a wall of 1e8 N/m:
+/// whether grazing nodes touch depends on micrometres.
 int carrying(const equilibrium::StaticState& state) {
   return static_cast<int>((state.normalForce.array() > 1e-3 * state.totalNormalForce).count());
 }
@@ -46,7 +46,7 @@ TEST(StiffWalls, AKilometreOfStringComesToRest) {
   }
 }
 
-/// Iterations are the cost: soft or stiff, no stage circles about its solution.
+/// Iterations measure the cost: with soft or stiff walls no stage oscillates about its solution.
 TEST(StiffWalls, TakeAboutAsManyIterationsAsSoftOnes) {
   for (const char* deck : {"vertical_1000m", "inclined_1000m", "helical_170m"})
     for (const char* stiffness : {"1e7", "1e10"})
@@ -56,17 +56,17 @@ TEST(StiffWalls, TakeAboutAsManyIterationsAsSoftOnes) {
 }
 
 /// The law of the paper pulls every open point to the wall with k/(pi^2 lambda), here 101 N: it
-/// lies there as far as it can.
+/// lies on the wall as far as possible.
 TEST(StiffWalls, AStringThatTheLawPullsToTheWallComesToRest) {
   const auto state =
       settled("inclined_1000m", {"Contact/Stiffness=1e9", "Contact/Stiffness Regularisation=1e6"});
   EXPECT_LE(state.report.residual, tolerance);
-  EXPECT_GT(state.contactNodes, 180);  // what rests on the wall without being pulled
+  EXPECT_GT(state.contactNodes, 180);  // number at rest on the wall without pull
   EXPECT_GE(state.normalForce.minCoeff(), -1e9 / (constants::pi * constants::pi * 1e6));
 }
 
-/// Friction turns what the law pulls to the wall, against the sense in which it turns what lies
-/// there: with little of it a hanging string still rests, with more it has to whirl.
+/// Friction drives points that the law pulls to the wall in the sense opposite to that of points
+/// lying there: with little friction a hanging string still rests, with more it must whirl.
 TEST(StiffWalls, AHangingStringThatIsPulledAndTurnedIsReported) {
   const std::vector<std::string> pulled{"Contact/Stiffness Regularisation=1e6",
                                         "Contact/Friction/Dynamic=0.1"};

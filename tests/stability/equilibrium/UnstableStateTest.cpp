@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Static states on the axis of the bore beyond their buckling load: what is said of them, against
-/// the Euler column, and the state on the wall that is found instead.
+/// Static states on the axis of the bore beyond their buckling load: reported stability against the
+/// Euler column, and the state on the wall that replaces them.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ beam::Section pipe() {
   return beam::Section::hollow(0.0635, 0.054, beam::Material{7850.0, 2.06e11, 0.3});
 }
 
-/// Of the pinned column with shear (Engesser): P = P_E / (1 + P_E / (beta G S)) [N].
+/// Buckling load of the pinned column with shear (Engesser): P = P_E / (1 + P_E / (beta G S)) [N].
 double bucklingLoad() {
   const auto s = pipe();
   const double euler = pi * pi * s.youngModulus() * s.inertiaX() / (length * length);
@@ -94,8 +94,9 @@ TEST(UnstableState, GrowsAsTheRightmostEigenvalueUnderTorque) {
     }
 }
 
-/// Friction that a string lies in makes vibration of many half waves grow, far behind the dozen
-/// lowest modes: against all damped modes. The one named grows at least 0.8 times as fast.
+/// Friction of a string on the wall makes vibration of many half waves grow, far above the dozen
+/// lowest modes; compared with all damped modes. The reported mode grows at least 0.8 times as fast
+/// as the fastest.
 TEST(UnstableState, GrowsInModesFarBehindTheLowest) {
   const std::vector<std::string> flat{
       "Well/Bore Radius=0.0635714",      "Rotary Speed/Constant/Speed=150 rpm",
@@ -135,8 +136,8 @@ TEST(UnstableState, IsNotReportedBelowGreenhillsTorque) {
 }
 
 /// Skew stiffness that couples a falling dof to one too stiff for the projection makes s^2 = -2 of
-/// s^2 = 1: Newton's method, which begins on the real axis, has nothing to converge to. The modes
-/// of the whole equations that are nearest do not grow.
+/// s^2 = 1: Newton's method, which begins on the real axis, does not converge. The modes of the
+/// whole equations that are nearest do not grow.
 TEST(UnstableState, IsNotReportedForAProjectedModeThatTheWholeEquationsDoNotHave) {
   constexpr int n = 14;
   constexpr double stiff = 1e4;
@@ -158,7 +159,7 @@ TEST(UnstableState, IsNotReportedForAProjectedModeThatTheWholeEquationsDoNotHave
   EXPECT_TRUE(stability.stable()) << stability.growthRate;
 }
 
-/// A shaft that winds up: what moves along with it by rounding is not what grows.
+/// A shaft in torsion: motions of the size of rounding beside it must not be reported as growing.
 TEST(UnstableState, NamesTheRotationOfATorsionalMode) {
   Matrix K = Vector((Vector(4) << 4.0, 2.0, 5.0, -1.0).finished()).asDiagonal();
   K(2, 3) = K(3, 2) = 1e-9;
@@ -176,7 +177,7 @@ TEST(UnstableState, NamesTheRotationOfATorsionalMode) {
 
 /// A free bar of equal springs and unit masses, damped by a I - c phi phi', phi'phi = 1: mode j
 /// alone grows, at (c - a) / 2, with s^2 - (c - a) s + k (2 sin(j pi / 2n))^2 = 0. A shift nearer
-/// to the rigid motion finds no modes. With the larger a no dof is damped negatively by itself.
+/// to the rigid motion finds no modes. With the larger a no single dof has negative damping.
 TEST(UnstableState, GrowsInAHighModeOfAFloatingBar) {
   constexpr int n = 300, mode = 75;
   constexpr double k = 1e6, drive = 40.0;

@@ -42,7 +42,7 @@ WINS = 0.05  # of the time, below which a strategy does not earn its place
 # tolerance
 SAME, NOISE = 0.01, 3.0
 JUDGED_ELSEWHERE = {"Transient/Energy Residual Limit": 1e9,
-                    "Transient/Step Error Limit": 1e9}  # what is wrong with a case by itself
+                    "Transient/Step Error Limit": 1e9}  # errors of a case without any change
 HEAD = """# Strategies of a step
 
 A step of `Generalized-alpha` has strategies for hard contact; [theory](theory.md) describes each.
@@ -53,11 +53,11 @@ The expert parameter `Leave Out` takes strategies out of a run, and `transient.s
 
 ![CPU time without each strategy over that with all](figures/strategies.svg)
 
-Numbers are CPU times of the motion over those with all strategies, the least of {repeats} runs of
-each. A difference of the motion is stated where it exceeds {same:g} % (vibration error) and three
-times the change by half the tolerance of the iterations. *Refused* is a run without a result. A
-dash marks a strategy that the case does not use. The first table leaves out strategies that no case
-uses.
+Numbers are CPU times of the motion relative to those with all strategies, the smaller of {repeats}
+runs each. A difference of the motion is stated if it exceeds {same:g} % (vibration error) and three
+times the change by half the tolerance of the iterations. *Refused* means that the run had no
+result. A dash marks a strategy that the case does not use. The first table omits strategies that no
+case uses.
 
 """
 

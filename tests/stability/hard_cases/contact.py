@@ -61,7 +61,7 @@ def no_clearance(program, short):
                         **regularised(1e11), "Contact/Stiffness": stiffness
                     })
 
-            tight = arkode(1e-7 if short else 1e-9)  # far below what the steps of 1 ms miss
+            tight = arkode(1e-7 if short else 1e-9)  # far below the error of steps of 1 ms
             truth = middle(on_support("c1_truth", tight))
             changed = {
                 gap: relative_error(middle(in_gauge("c1_gap", gap, tight)), truth)

@@ -155,7 +155,7 @@ def striking_strings(program, short):
                 **times(end, 0.0025), "Contact/Damping": 0.0 if damping == "none" else 1e4 *
                 math.sqrt(stiffness / 1e7)
             }
-            # of the same model: what the basis misses is no matter of the wall
+            # of the same model, so that the error of the basis does not count
             models = (("full", FULL),) if short else (("full", FULL), ("reduced", ()))
             # no shorter steps beside
             way = {

@@ -21,7 +21,7 @@ QUIET = {"Output/XDMF": "false", "Output/CSV": "false"}
 COUNTERS = (("steps", "steps"), ("newton_iterations", "iterations"),
             ("factorisations", "factorisations"), ("halved", "halved"), ("rejected", "rejected"),
             ("right_hand_sides", "right-hand sides"))
-# Beginnings of warnings that say nothing of the accuracy of a motion or of its start.
+# Beginnings of warnings unrelated to the accuracy of a motion or of its start.
 OTHER_WARNINGS = ("The annulus", "No node of the string", "The output folder",
                   "The mass matrix is singular", "The checkpoint", "There are",
                   "The static state is unstable", "The bit has not settled", "The bit made",
@@ -29,7 +29,7 @@ OTHER_WARNINGS = ("The annulus", "No node of the string", "The output folder",
 
 
 class NoResult(Exception):
-    """A run that was to be compared with has left no results."""
+    """A run needed for a comparison has no results."""
 
 
 class Run:
@@ -45,7 +45,7 @@ class Run:
         return self.code == 0
 
     def sentence(self):
-        """The sentence of a refusal."""
+        """The message of a refusal."""
         text = self.summary.get("message") or ""
         if not text:
             lines = [line for line in self.output.splitlines() if line.strip()]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Generalized-alpha where Newton has a hard time: sharp contact, sharp friction, stiff walls, no
-/// clearance, everything at once. A step is never kept unconverged in silence; what ends as a
-/// result is right.
+/// Generalized-alpha in cases difficult for Newton's method: sharp contact, sharp friction, stiff
+/// walls, no clearance, all together. An unconverged step is never kept silently, and every result
+/// is right.
 #include <gtest/gtest.h>
 
 #include "../../unit/transient/Models.hpp"
@@ -124,12 +124,13 @@ TEST(ContactStability, spinReversal) {
   expectInside(samples, 0.02);
 }
 
-/// Starts that differ by some per cent: impacts come in another order, and what is asserted of all
-/// of them is no accident of one.
+/// Starts that differ by some per cent: the order of impacts differs, and the assertions must hold
+/// for all.
 constexpr double lifts[] = {1.0, 0.97, 1.03, 0.9};
 
-/// Contact frequencies of 1 to 11 rad per step, resolved by shorter steps: no energy is made with
-/// strong numerical damping. Between impacts steps of 1 ms are too long for what rebounds leave.
+/// Contact frequencies of 1 to 11 rad per step, resolved by shorter steps: no energy is generated
+/// with strong numerical damping. Between impacts steps of 1 ms are too long for the vibration
+/// after rebounds.
 TEST(ContactStability, stiffWalls) {
   for (double stiffness : {1e8, 1e9, 1e10}) {
     Bores data;
@@ -145,7 +146,7 @@ TEST(ContactStability, stiffWalls) {
 }
 
 /// With the default damping 3 to 4 % of the energy exchanged are lost in impacts, whatever the wall
-/// and the start. Steps of 1 ms are refused where the wall is stiff: step error 150 %.
+/// and the start. Steps of 1 ms are refused with a stiff wall: step error 150 %.
 TEST(ContactStability, wallsTooStiffForTheStepAreBalanced) {
   for (double stiffness : {1e8, 1e9, 1e10})
     for (double lift : lifts) {
@@ -162,8 +163,8 @@ TEST(ContactStability, wallsTooStiffForTheStepAreBalanced) {
 }
 
 /// A mass on a spring that meets a wall whose contact takes 2 rad per step, too few for a force and
-/// too many for an impact: each rebound adds energy, and the run ends with what to change. Shorter
-/// steps are a result.
+/// too many for an impact: each rebound adds energy, and the run is refused with advice. Shorter
+/// steps give a result.
 TEST(ContactStability, energyThatIsMadeIsRefused) {
   for (double start : {0.005, 0.0051, 0.006}) {
     auto model = oscillator(5.0, 0.0, 5e3, start, 0.3);
@@ -205,7 +206,7 @@ TEST(ContactStability, allContactsGainedAndLostAtOnce) {
   const int law =
       model.lawIndex({"toss", [](double t) { return t > 0.15 && t < 0.2 ? 1.0 : 0.0; }});
   model.loads.push_back(
-      {"toss", -40.0 * model.loads[0].vector, law});  // throws all of them off together
+      {"toss", -40.0 * model.loads[0].vector, law});  // throws all of them off at once
   Keep samples;
   const auto report = integrate(model, options("Generalized-alpha", 0.5, 1e-3, 0.005), samples);
   EXPECT_EQ(report.counters.unconvergedSteps, 0);
@@ -216,8 +217,8 @@ TEST(ContactStability, allContactsGainedAndLostAtOnce) {
   EXPECT_LT(highest, -0.01);  // and at the top
 }
 
-/// Whose steps converge, and are not judged: a law that is as lossy as the damping of another makes
-/// it is too fast for them.
+/// The steps converge, but their accuracy is not checked: a law with as much loss as the damping of
+/// another is too fast for them.
 TEST(ContactStability, everyLaw) {
   for (const auto& law : contact::LawRegistry::instance().names()) {
     Bores data;
@@ -230,11 +231,11 @@ TEST(ContactStability, everyLaw) {
   }
 }
 
-/// Ten times the usual step, of a motion with a dozen impacts in each: most of what moves in a step
-/// is wrong, and no run is taken for a result; one that is asked to go on solves all its steps.
+/// Ten times the usual step, with a dozen impacts in each step: most of the motion in a step is
+/// wrong, and every run is refused; a run that is told to continue solves all its steps.
 TEST(ContactStability, stepTenTimesTooLarge) {
   constexpr double step = 1e-2;
-  constexpr double end = 0.8;  // long enough for the step error to be measured however steps fall
+  constexpr double end = 0.8;  // long enough to measure the step error in any case
   for (double vr : {0.1, 1e-4})
     for (double lift : lifts) {
       Bores data;
@@ -260,8 +261,8 @@ TEST(ContactStability, stepTenTimesTooLarge) {
     }
 }
 
-/// One rotor, friction so sharp that the plain Newton iteration runs in a circle: the full step
-/// from one side of the friction curve lands on the other, where the curve is flat again.
+/// One rotor, friction so sharp that the plain Newton iteration cycles: the full step from one side
+/// of the friction curve lands on the other, where the curve is flat again.
 TEST(ContactStability, plainNewtonFailsWhereTheLineSearchDoesNot) {
   const double inertia = 0.1, torque = 50, vr = 1e-4, h = 1e-3, omega = 0.1;
   const auto friction = [&](double v) { return torque * std::tanh(v / vr); };

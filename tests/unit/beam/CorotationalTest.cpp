@@ -84,7 +84,7 @@ TEST(Rotation, SpinMapAndItsDerivativeAgreeWithDifferences) {
   }
 }
 
-// Central differences with h = 1e-6 leave about h^2 + 1e-16/h = 1e-10 of the stiffness.
+// Central differences with h = 1e-6 have an error of about h^2 + 1e-16/h = 1e-10 of the stiffness.
 TEST(Corotational, TangentIsExact) {
   std::mt19937 generator(3);
   const CorotationalElement element = bentAtRest();

@@ -146,9 +146,9 @@ TEST(Element, RotationMovesARigidTranslationIntoTheElementFrame) {
   EXPECT_LT((local.segment<3>(6) - e.transpose() * move).norm(), 1e-14);
 }
 
-/// On a curved element the spin of a node about its own tangent, theta = t, turns no tangent: it
-/// has no slope. Everything else is as in the element frame. Without it the spin tilts the ends of
-/// the chord by -+kappa l/2, and K_g of a tension F resists it.
+/// On a curved element the spin of a node about its own tangent, theta = t, does not rotate the
+/// tangent: it has no slope. All other motions are as in the element frame. Without it the spin
+/// tilts the ends of the chord by -+kappa l/2, and K_g of a tension F resists it.
 TEST(Element, SlopesDoNotKnowTheSpin) {
   const double l = 9.0, kappa = 1.745e-3;
   const auto tilted = [&](double angle) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Elements by name, their response at large displacements, and dofs that only some of them have.
+/// Elements by name, their response at large displacements, and dofs of only some elements.
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
@@ -40,7 +40,7 @@ TEST(Elements, TheResponseAtRestIsTheStiffness) {
   EXPECT_LT((response.tangent - element.stiffness()).norm(), 1e-12 * element.stiffness().norm());
 }
 
-/// What an element outside the library may do wrong, one after the other.
+/// Possible errors of an element outside the library, one after the other.
 struct Faulty : Timoshenko {
   static inline int fault = 0;
   using Timoshenko::Timoshenko;

@@ -55,7 +55,8 @@ TEST(VonMises, IsThatOfAThickWallUnderPressureTensionBendingAndTorsion) {
       EXPECT_NEAR(vonMises(pipe, tension, torque, curvature, inside - outside), expected,
                   1e-9 * expected);
     }
-  // pressure alone is worst inside, where the wall bears p in its plane and p across it
+  // the stress of pressure alone is largest inside, where the wall carries p in its plane and p
+  // across it
   EXPECT_NEAR(vonMises(pipe, 0.0, 0.0, 0.0, 3e7),
               std::sqrt(3.0) * 3e7 * outer * outer / (outer * outer - inner * inner), 1e-3);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which kind of case reads a deck, and what cases made from one another share.
+/// The kind of case for a deck, and data shared by cases made from one another.
 #include "cases/CaseKinds.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ TEST(CaseKinds, ListsOfTheDeckDecide) {
   EXPECT_TRUE(is<cases::ImportedCase>(cases::readCase(ofParts, {})));
 }
 
-/// What a deck is refused with.
+/// The message with which a deck is refused.
 std::string refusal(const std::string& file, const std::vector<std::string>& overrides) {
   return errorText([&] { cases::readCase(file, overrides); });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Commands that are suggested for a deck run as they are printed.
+/// Suggested commands for a deck run as printed.
 #include "cases/run/DeckCommand.hpp"
 
 #include <gtest/gtest.h>

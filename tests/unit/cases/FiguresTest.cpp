@@ -36,7 +36,7 @@ std::map<double, double> rangesOf(const std::vector<double>& history) {
   return counts;
 }
 
-/// What a checkpoint would hold of it, in a fresh object.
+/// A new object with the state restored from a checkpoint.
 template <class Figures>
 Figures reloaded(const Figures& figures, Figures fresh) {
   std::vector<double> memory;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a run says of vibration above the cut-off of its parts.
+/// Messages of a run on vibration above the cut-off of its parts.
 #include "cases/run/Report.hpp"
 
 #include <gtest/gtest.h>

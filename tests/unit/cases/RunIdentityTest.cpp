@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a checkpoint is matched with: every input that changes the numbers is in the identity of a
-/// run, nothing else is.
+/// The identity of a run, which a checkpoint must match, contains every input that affects the
+/// results, and nothing else.
 #include "cases/run/RunIdentity.hpp"
 
 #include <filesystem>
@@ -64,7 +64,7 @@ TEST(RunIdentity, hasEveryInput) {
         << change << ": " << cases::identityDifferences(same, ofString({change}));
 }
 
-/// Where checkpoints come matters to SUNDIALS, which begins anew there.
+/// The times of checkpoints affect SUNDIALS, which begins anew there.
 TEST(RunIdentity, hasTheCheckpointIntervalWhereItMatters) {
   const std::string sundials = "Transient/Integrator=SUNDIALS CVODE";
   EXPECT_NE(ofString({sundials, "Transient/Checkpoint Interval=0.01"}),
@@ -83,8 +83,8 @@ TEST(RunIdentity, namesWhatDiffers) {
             "was 0 and is not given");
 }
 
-/// Files count by their content: of a part, of what stands in its folder, and of whatever a pattern
-/// matches.
+/// Files are compared by content: those of a part, those in its folder, and those that match a
+/// pattern.
 TEST(RunIdentity, hasTheContentOfFiles) {
   const test::Scratch scratch;
   namespace fs = std::filesystem;
@@ -131,8 +131,9 @@ TEST(RunIdentity, hasTheContentOfATableOfPipes) {
             "the content of the file of Drillstring/Pipe Table has changed");
 }
 
-/// What a format reads beside its file counts too: the other matrices of an Abaqus job, the mapping
-/// of a Harwell-Boeing matrix, and what a JSON file names in another folder; other files do not.
+/// Additional files read by a format are included: the other matrices of an Abaqus job, the mapping
+/// of a Harwell-Boeing matrix, and files in another folder named by a JSON file; other files are
+/// not.
 TEST(RunIdentity, hasWhatAFormatReadsBesideItsFile) {
   const test::Scratch scratch;
   namespace fs = std::filesystem;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Spectra and comparisons of signals that are known.
+/// Spectra and comparisons of known signals.
 #include "cases/figures/SignalComparison.hpp"
 
 #include <cmath>

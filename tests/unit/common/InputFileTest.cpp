@@ -72,8 +72,8 @@ TEST_F(InputFiles, ALineWithoutEndIsRefusedWhileItIsRead) {
   EXPECT_EQ(refusal(path), path + " is larger than 1000 bytes, the limit for a file of this kind.");
 }
 
-// Without the check the open of a FIFO waits for ever, and /dev/zero is read until the memory is
-// full.
+// Without the check the program would wait forever for a FIFO, and read /dev/zero until the memory
+// is full.
 TEST_F(InputFiles, OnlyRegularFilesAreOpened) {
   const std::string pipe = folder_ + "/pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);

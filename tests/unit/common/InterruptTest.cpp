@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What signals do to a program that has asked for them.
+/// Effect of signals on a program that handles them.
 #include "common/Interrupt.hpp"
 
 #include <chrono>
@@ -12,8 +12,8 @@ namespace InterruptTest {
 
 using namespace tooljoint;
 
-/// The first SIGTERM sets the flag, one at once after it is ignored, a later one ends what does not
-/// look at the flag.
+/// The first SIGTERM sets the flag, one immediately after it is ignored, and a later one ends a
+/// program that does not check the flag.
 TEST(InterruptDeathTest, ALaterTermEndsTheProgram) {
   EXPECT_EXIT(
       {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Lines of the log have at most 100 columns; warnings of many runs are told once.
+/// Lines of the log have at most 100 columns; warnings of many runs are printed once.
 #include "common/report/Log.hpp"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ TEST(Log, WarningsOfManyRunsThatDifferInNumbersAreToldOnce) {
     log::warn("A load is missing.");
     log::warn("The step (0.001 s) is coarse: -3 %.");
   }
-  log::warn("The step (0.001 s) is coarse: 7 %.");  // outside, each is told
+  log::warn("The step (0.001 s) is coarse: 7 %.");  // outside, each is printed
   const auto text = testing::internal::GetCapturedStderr();
   const std::vector<std::string> expected{
       "The step (0.001 s) is coarse: 12 %. (2 further likewise)", "A load is missing.",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run says and counts: log, progress, interrupt flag, census, versions.
+// Output and counters of a run: log, progress, interrupt flag, census, versions.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

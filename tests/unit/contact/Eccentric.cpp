@@ -60,7 +60,7 @@ TEST(Eccentric, TangentsAgreeWithDifferences) {
       for (std::size_t row = 3; row < 6; ++row) {
         const auto& tangent = velocity ? exact.dfdv : exact.dfdd;
         const double found = tangent[9 + 3 * (row - 3) + (column - 3)];
-        // differences of forces of 1e4 N over 2e-8 m leave 1e-4 N/m of rounding times 1e4
+        // differences of forces of 1e4 N over 2e-8 m have a rounding error of 1e-4 N/m times 1e4
         EXPECT_NEAR(found, (fp[row] - fm[row]) / (2.0 * h), 2e-7 * 1e7)
             << row << " " << column << (velocity ? " velocity" : "");
       }

@@ -107,7 +107,7 @@ TEST(Friction, ForcesAndTorqueOpposeTheSliding) {
   const double mu = slip / 0.2 * ((1.0 - xi) / q + (1.0 + xi) / (q * q));
   EXPECT_NEAR(f[0], -1000.0, 1e-4);
   EXPECT_NEAR(f[1], -mu * 1000.0,
-              1e-4);  // at u > 0 the wall drags a string that turns x into y along -y
+              1e-4);  // at u > 0 the wall drags a string with positive rotation along -y
   EXPECT_NEAR(f[2], -mu * 1000.0 * p.contactRadius, 1e-5);
   const auto back =
       force(*law("Nguyen")->inMotion(batch({p}), [](double) { return -4.0 * pi; }), 0.0, d, v);
@@ -207,7 +207,7 @@ TEST(ClearanceLeft, IsTheGapUnlessTheLawHasATail) {
   EXPECT_NEAR(gap[0], 0.0185, 1e-12);
 }
 
-// What is skipped must be negligible, also with a fast approach.
+// Skipped forces must be negligible, also with a fast approach.
 TEST(ClearanceLeft, LeavesOutOnlyWhatIsNegligible) {
   const ContactPoint p = steelOnRock(7e11);
   for (const char* name : {"Nguyen", "Clamped", "Hunt-Crossley"}) {
@@ -245,7 +245,7 @@ TEST(Axis, ForcesAndTangentsAreFiniteAndContinuousWithoutClearance) {
   }
 }
 
-// e = 1e-9 m must not matter where the string really touches.
+// e = 1e-9 m must have no effect in contact.
 TEST(Axis, RegularisationDoesNotShowInRealContact) {
   ContactPoint gauge = steelOnRock(7e11);
   gauge.clearance = 0.0;
@@ -253,7 +253,7 @@ TEST(Axis, RegularisationDoesNotShowInRealContact) {
   const auto contact = law("Clamped")->inMotion(batch({gauge}), still);
   const auto f = force(*contact, 0.0, {1e-5, 0.0, 0.0}, {0.0, 0.0, 0.0});
   EXPECT_NEAR(f[0], -100.0, 100.0 * 1e-7);
-  // seen from the elastic force alone the axis is a spring k: f = -k u to first order
+  // for the elastic force alone the axis is a spring k: f = -k u to first order
   const Answer at = answer(*contact, 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
   EXPECT_NEAR(at.dfdd[0], -1e7, 1e4);
   EXPECT_NEAR(at.dfdd[4], -1e7, 1e4);
@@ -339,7 +339,7 @@ TEST(StaticContact, WithoutItsPullALawOnlyPushes) {
     rest->normalForce(whole, uv, &N[0]);
     rest->normalForce(half, uv, &N[1]);
     rest->normalForce(none, uv, &N[2]);
-    EXPECT_GT(N[2], last) << penetration;  // it grows from next to nothing
+    EXPECT_GT(N[2], last) << penetration;  // it grows from nearly zero
     EXPECT_NEAR(N[2] - N[0], largest, 1e-9 * largest) << penetration;
     EXPECT_NEAR(2.0 * N[1], N[0] + N[2], 1e-9 * largest) << penetration;
     last = N[2];

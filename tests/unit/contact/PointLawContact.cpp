@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A point law of one's own in the bore: separation, sliding around and along, with a state. Its
-/// forces and tangents at a node against the law itself and against differences.
+/// A user's point law in the bore: separation, sliding around and along, with a state. Forces and
+/// tangents at a node against the law itself and against differences.
 #include "substructures/contact/PointLawContact.hpp"
 
 #include <cmath>
@@ -35,7 +35,7 @@ struct Sticky : model::Formula<3, 1> {
   Power power(const model::PointAt<double>& at, const double*) const {
     double f[3], g[1];
     (*this)(at, f, g);
-    Power p;  // all it takes in, whatever becomes of it
+    Power p;  // all power taken up by the law
     p.friction = -(f[0] * at.v[0] + f[1] * at.v[1] + f[2] * at.v[2]);
     return p;
   }
@@ -88,7 +88,8 @@ TEST(PointLawContact, ActsInTheDirectionsOfTheWall) {
   EXPECT_NEAR(rate, ownRate, 1e-9);
 }
 
-/// What slides along is measured against the wall: the speed of the block counts, and its power.
+/// Sliding along the hole is relative to the wall: it includes the speed of the block, and the
+/// power its force.
 TEST(PointLawContact, SlidesAlongWithTheBlock) {
   constexpr double feed = 0.3, t = 2.0;
   const auto shared = inBore({feed, false});
@@ -133,7 +134,7 @@ TEST(PointLawContact, TangentsAreTheDerivatives) {
   EXPECT_NEAR((plus - minus) / (2 * h), gx, 1e-6 * std::abs(gx));
 }
 
-/// What the law takes in comes from the node and from the rotary drive.
+/// The power taken up by the law comes from the node and from the rotary drive.
 TEST(PointLawContact, BooksTheWorkOfTheDrive) {
   const auto shared = inBore();
   const auto& law = *model::stateful(*shared);

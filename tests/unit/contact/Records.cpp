@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What is recorded is what acts: every channel against the forces of evaluate().
+/// Recorded forces are the acting ones: every channel against the forces of evaluate().
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <map>

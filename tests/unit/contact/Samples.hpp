@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Points and states the contact tests share.
+/// Points and states used by the contact tests.
 #pragma once
 
 #include <cmath>
@@ -36,7 +36,7 @@ inline ContactPoints batch(const std::vector<ContactPoint>& list) {
   return points;
 }
 
-/// Laws with parameters of their own are taken with theirs.
+/// Laws with their own parameters get default values for them.
 std::shared_ptr<const ContactLaw> law(const std::string& name);
 
 /// GoogleTest names hold letters only.
@@ -71,7 +71,7 @@ inline std::vector<double> force(const model::PointLaw& law, double t, const std
   return f;
 }
 
-/// Power that the motion behind all points feeds in, of the forces of friction there.
+/// Power supplied by the imposed motion of all points against their friction.
 inline double driveOf(const model::PointLaw& law, double t, const std::vector<double>& d,
                       const std::vector<double>& v) {
   const auto& frictional = dynamic_cast<const model::Frictional&>(law);
@@ -81,7 +81,7 @@ inline double driveOf(const model::PointLaw& law, double t, const std::vector<do
   return frictional.drive(t, all(law), friction.data());
 }
 
-/// A state at the radius `r`, seen from `angle`, with a general velocity.
+/// A state at the radius `r` and the angle `angle`, with a general velocity.
 struct State {
   std::vector<double> d, v;
   State(double r, double angle)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The generic assembler: labels, laws, loads, points, recovery, states, and the sentences for
-/// parts that do not fit.
+/// The generic assembler: labels, laws, loads, points, recovery, states, and the messages for parts
+/// that do not fit.
 #include "coupling/assembly/Assembler.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -148,7 +148,7 @@ TEST(Assembler, MergesLawsAndTermsByName) {
   EXPECT_EQ(coupled.laws.front().name, "1");
   EXPECT_EQ(coupled.damping.size(), 2u);
   EXPECT_EQ(coupled.stiffness.size(), 3u);
-  // A part that knows the laws in another order gives the same model.
+  // A part with the laws in another order gives the same model.
   auto other = parts;
   auto& m = other[3].model;
   m.laws = {model::ScalarLaw::one(), samples::spinRate(), samples::spin()};
@@ -283,8 +283,8 @@ TEST(AssemblerErrors, RecoveryThatDisagrees) {
       "Part \"bottom\": its recovery rows do not match its 3 output nodes with 1 components each.");
 }
 
-/// Two clamped bars whose ends are joined with a misfit, u_4 - u_5 = g: each end gives way by g/2,
-/// and the bars pull at one another with N = (k/3) g/2, in both assemblies.
+/// Two clamped bars whose ends are joined with a misfit, u_4 - u_5 = g: each end moves by g/2, and
+/// the bars pull at one another with N = (k/3) g/2, in both assemblies.
 TEST(Assembler, JoinsEndsThatDoNotFit) {
   std::vector<Substructure> parts{samples::bar("top", 1, 3, 30.0, 2.0, {1}),
                                   samples::bar("bottom", 5, 3, 30.0, 2.0, {8})};

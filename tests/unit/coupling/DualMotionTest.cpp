@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Motion with multipliers: the same as without, forces between parts, consistent starts, and who
-/// refuses it.
+/// Motion with multipliers: the same as without, forces between parts, consistent starts, and
+/// integrators that refuse it.
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
 #include <gtest/gtest.h>

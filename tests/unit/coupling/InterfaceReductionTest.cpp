@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Characteristic constraint modes: against the statically condensed frame computed densely, static
-/// answers, dofs that stay, and the sentences for what cannot be reduced.
+/// Characteristic constraint modes: against the statically condensed frame in dense algebra, static
+/// responses, dofs that stay, and messages for interfaces that cannot be reduced.
 #include "coupling/interface/InterfaceReduction.hpp"
 
 #include <Eigen/Dense>
@@ -149,7 +149,7 @@ TEST_P(InterfaceReduction, StaticAnswersToLoadsAreExactWithoutAnyMode) {
       << "one load, of one name, on three interfaces";
   const Vector exact = recovered(whole.model, staticAnswer(whole.model));
   const Vector found = recovered(coupled.model, staticAnswer(coupled.model));
-  // Craig-Bampton without modes is exact at joined nodes: 3, 4 and 5, the first that move.
+  // Craig-Bampton without modes is exact at joined nodes: 3, 4 and 5, the first three free nodes.
   for (int node : {0, 1, 2})
     EXPECT_LE((found.segment(6 * node, 6) - exact.segment(6 * node, 6)).norm(),
               1e-9 * exact.segment(6 * node, 6).norm())
@@ -270,7 +270,7 @@ TEST(SystemInterfaceModes, AreTheModesOfTheStaticallyCondensedWhole) {
 }
 
 TEST(LocalInterfaceModes, KeepAChainNarrow) {
-  // Ten bars in a row, three dofs joined of which none is a neighbour of a neighbour.
+  // Ten bars in a row: nine joined dofs, each coupled to its neighbours only.
   std::vector<model::Substructure> parts;
   for (int p = 0; p < 10; ++p) {
     parts.push_back(samples::bar("bar " + std::to_string(p), 1 + 4 * p, 4, 3.0, 2.0,

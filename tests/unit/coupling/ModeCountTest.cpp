@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Counts of full eigenvalues from the parts against those of the full model itself.
+/// Counts of full eigenvalues from the parts against those of the full model.
 #include "coupling/ModeCount.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -56,7 +56,7 @@ void expectSameCounts(const std::vector<model::Substructure>& parts,
   EXPECT_GE(counted, 6) << what;
 }
 
-/// A large part has its stiffness once; one that is not symmetric, or a sum, is averaged.
+/// A large part stores its stiffness once; an unsymmetric one, or a sum, is averaged.
 TEST(UndampedStiffness, IsTheOnlyTermItselfWhereThatIsSymmetric) {
   auto model = samples::bar("bar", 1, 9, 100.0, 0.2).model;
   const model::MatrixTerm only = model.stiffness[0];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list Coupling: from its text to coupled models whose answers are known in closed form,
-/// and the sentences for lists that make no sense.
+/// The deck list Coupling: from its text to coupled models with solutions in closed form, and the
+/// messages for inconsistent lists.
 #include "coupling/input/ResolvedCoupling.hpp"
 
 #include <Eigen/Geometry>
@@ -146,7 +146,7 @@ std::vector<model::Substructure> stretchedBars() {
   return parts;
 }
 
-/// What is out of balance at the start.
+/// Residual of equilibrium at the start.
 double residual(const model::SecondOrderModel& m) {
   const Vector zero = Vector::Zero(m.size());
   return (m.stiffnessAt(0) * m.initialDisplacement - m.loadAt(0) -
@@ -312,7 +312,7 @@ TEST(ResolvedCoupling, DirectionsAreMeantInTheCommonFrame) {
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(a[i] / b[i], 1.0, 1e-9) << "mode " << i + 1;
 }
 
-/// cos(pi/2) is no zero of floating point, and of a mass it leaves 1e-33 at the dof beside.
+/// cos(pi/2) is not zero in floating point, and gives a mass of 1e-33 at the neighbouring dof.
 TEST(ResolvedCoupling, AMasslessDofIsMasslessInAxesAQuarterTurnAway) {
   auto parts = clampedBeam();
   const int massless = samples::find(parts[1].model, DofLabel::physical(22, 0));

@@ -17,7 +17,7 @@ using namespace tooljoint;
 using namespace tooljoint::coupling;
 using reduction::Basis;
 
-/// Craig-Bampton that throws away one mode of every part per round until `least` are left (or never
+/// Craig-Bampton that drops one mode of every part per round until `least` are left (or never
 /// stops).
 class Shrinking : public reduction::ReductionMethod {
  public:

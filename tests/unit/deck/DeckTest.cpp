@@ -18,7 +18,7 @@ using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-/// A folder of its own for each test, made by rank 0 and known to all.
+/// A separate folder for each test, made by rank 0 and known to all ranks.
 class DeckFiles : public ::testing::Test {
  protected:
   void SetUp() override {

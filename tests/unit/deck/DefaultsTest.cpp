@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a registry makes gets the defaults of its parameters, also without a deck.
+/// Objects made by a registry get the defaults of their parameters, also without a deck.
 #include "deck/Defaults.hpp"
 
 #include <Teuchos_ParameterList.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decks that are large without being meant: reading stays near linear, and messages stay short.
+// Very large decks: reading time is nearly linear, and messages stay short.
 #include <ctime>
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@ using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-/// What `count` of these in a row take to be refused [s]; the time of the process, so that a loaded
-/// machine does not matter.
+/// Time until `count` of these in a row are refused [s]; CPU time, so that a loaded machine has no
+/// effect.
 template <class Item>
 double secondsFor(int count, const Item& item) {
   std::string contact;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phase 1: what the text of a deck may look like.
+// Phase 1: the allowed text of a deck.
 #include <gtest/gtest.h>
 
 #include "SmallScene.hpp"
@@ -10,8 +10,7 @@ using namespace tooljoint;
 using namespace tooljoint::deck;
 using namespace tooljoint::deck::test;
 
-/// The first line a person sees when `contact` stands in line 3 of a deck that is otherwise in
-/// order.
+/// The first line of the message for `contact` in line 3 of an otherwise valid deck.
 std::string faultIn(const std::string& contact) { return faultOf(deckWith(contact, endTime)); }
 
 const std::string p = "deck.xml:3: /well/Contact";

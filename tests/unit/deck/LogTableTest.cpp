@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Measured logs as CSV and LAS files write them, and the units of their headers.
+/// Measured logs in CSV and LAS files, and the units in their headers.
 #include "deck/tables/LogTable.hpp"
 
 #include <filesystem>

@@ -277,7 +277,7 @@ TEST(Template, HoldsTheListOfAChosenVariantThatNeedsValues) {
   EXPECT_FALSE(list.isSublist("E"));
 }
 
-/// What examples name stands with their values, in lists of names of one's own too.
+/// Parameters of examples appear with the values of the examples, also in lists with free names.
 TEST(Template, TakesExamples) {
   const ListSpec piece = ListSpec("Piece", "P.")
                              .real("Length", "m", Optional{}, Range::positive(), "L.")

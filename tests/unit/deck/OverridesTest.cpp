@@ -99,7 +99,7 @@ TEST(Override, EntersListsWithNamesOfOnesOwnThatAreThere) {
             "\"upper part\" there. Did you mean \"upper part\"?");
 }
 
-/// A list with parameters of variants: of the one that is chosen, and of another.
+/// A list with parameters of variants: of the chosen one, and of another.
 ListSpec motor() {
   ListSpec spec("motor", "A motor.");
   spec.choice("Law", "Constant", {"Constant", "Ramp"}, "The form of the speed.")
@@ -240,7 +240,7 @@ TEST(Override, IsWhereTheValueCameFrom) {
   EXPECT_EQ(deck.overrides(), (std::vector<std::string>{"Mud/Density=900", "Transient/Samples=9"}));
 }
 
-/// A scene list that has the scene's own name is meant, not the scene.
+/// If a list has the name of the scene, the path refers to the list, not to the scene.
 TEST(Override, ADeclaredListWithTheScenesNameIsThatList) {
   const ListSpec spec = ListSpec("s", "S.")
                             .integer("A", 1, Range::any(), "A.")

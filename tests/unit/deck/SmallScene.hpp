@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A small description with one of everything, and decks to go with it.
+/// A small list specification with one parameter of every kind, and matching decks.
 #pragma once
 
 #include <functional>
@@ -70,8 +70,8 @@ inline Deck parseSmall(const std::string& text, const std::vector<std::string>& 
   return Deck::parse(text, "deck.xml", smallScene(), overrides);
 }
 
-/// The sentence of the error `work` throws, with "FileError: " or "UsageError: " in front of those
-/// kinds; "" when it throws none.
+/// The message of the error thrown by `work`, with "FileError: " or "UsageError: " in front for
+/// these kinds; "" if it throws none.
 inline std::string messageOf(const std::function<void()>& work) {
   try {
     work();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults that Teuchos 13.2 takes without a word (or words nobody can use): each must be refused
+// Faults that Teuchos 13.2 accepts silently (or reports without useful text): each must be refused
 // here.
 #include <Teuchos_XMLParameterListCoreHelpers.hpp>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct Silent {
 };
 class SilentlyTaken : public ::testing::TestWithParam<Silent> {};
 
-/// Teuchos itself reads the deck: the strict pass is what stands between the fault and the physics.
+/// Teuchos alone reads the deck: only the strict pass detects the fault.
 TEST_P(SilentlyTaken, ByTeuchosIsRefusedHere) {
   const std::string text = transientWith(GetParam().item);
   EXPECT_TRUE(teuchosTakes(text));
@@ -65,8 +65,8 @@ struct Poor {
 };
 class PoorlyTold : public ::testing::TestWithParam<Poor> {};
 
-/// Faults Teuchos does find (some only with validators), told here with line, path and what to
-/// write.
+/// Faults that Teuchos finds (some only with validators), reported here with line, path and
+/// correction.
 TEST_P(PoorlyTold, ByTeuchosHasLineAndPathHere) {
   const std::string fault = faultOf(transientWith(GetParam().item));
   EXPECT_EQ(fault.find("deck.xml:6: /well/Transient"), 0U) << fault;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Tests that go through all decks leave a user's own aside.
+/// Tests over all decks ignore a user's own decks.
 #include "tests/support/TrackedDecks.hpp"
 
 #include <cstdlib>

@@ -164,7 +164,7 @@ TEST(Units, DeepParenthesesAreRefusedNotFollowed) {
   EXPECT_EQ(fault, "the unit is nested too deeply");
 }
 
-/// One unit of the reference table below: what it measures, how it is written, and its value in SI.
+/// One unit of the reference table below: its quantity, its spelling, and its value in SI.
 struct ReferenceUnit {
   std::string quantity, si, symbol;
   double value;
@@ -237,7 +237,7 @@ const std::vector<ReferenceUnit> referenceUnits = {
     {"dynamic viscosity", "Pa s", "cP", 0.001, {}},
 };
 
-/// Base units of SI with their exponents: a unit that measured something else would not convert.
+/// Base units of SI with their exponents: a unit of another quantity would not convert.
 TEST(Units, TheTableHasTheValuesOfTheDefinitionsAndNoOthers) {
   const auto& table = unitSymbols();
   ASSERT_EQ(table.size(), referenceUnits.size());

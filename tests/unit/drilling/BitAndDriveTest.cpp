@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Laws of bit and drive on the string: the frame they are in, steady drilling, gains that match
-/// the pipe.
+/// Laws of bit and drive on the string: their frame, steady drilling, gains that match the pipe.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -169,8 +168,8 @@ TEST(Autodriller, CountsThePowerOfTheBlock) {
   EXPECT_NEAR(p.stored, 0.5 * 5e6 * 9e-6, 1e-9);
 }
 
-/// f v in the frame is what the drive gives less what the rock takes: T Omega + W V - T (Omega +
-/// theta_z') - W (V + w').
+/// f v in the frame is the power of the drive less that taken by the rock: T Omega + W V - T (Omega
+/// + theta_z') - W (V + w').
 TEST(BitOnString, CountsThePowerOfItsFrame) {
   const auto bit = bitOnString(cutting(), 7, turning(), feed, 0.0);
   const auto& law = *model::stateful(*bit.law);
@@ -217,8 +216,8 @@ TEST(TopDrive, ReflectsNothingAtItsFrequency) {
   EXPECT_GT(reflected(0.4), 0.5);
 }
 
-/// Without inertia Z = zeta (1 + w_h/s), so that |r| = w_h/sqrt(w_h^2 + 4 w^2): all comes back at
-/// low frequencies, nothing at high ones.
+/// Without inertia Z = zeta (1 + w_h/s), so that |r| = w_h/sqrt(w_h^2 + 4 w^2): full reflection at
+/// low frequencies, none at high ones.
 TEST(TopDrive, HoldsItsSpeedBelowItsHighPass) {
   TopDrive drive;
   drive.control = DriveControl::ImpedanceMatched;
@@ -232,7 +231,7 @@ TEST(TopDrive, HoldsItsSpeedBelowItsHighPass) {
   }
 }
 
-/// The band of less than half, and the place of least reflection, of |r(f)| itself.
+/// The band with |r(f)| below one half, and the frequency of least reflection.
 TEST(TopDrive, SaysWhichWavesItSendsBack) {
   const double zeta = 340.0;
   struct Drive {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Parts cut so that a step of the reduced model costs least.
+/// Cuts between parts chosen for the least cost of a step of the reduced model.
 #include "substructures/drillstring/scene/CutByCost.hpp"
 
 #include <algorithm>

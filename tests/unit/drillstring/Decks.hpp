@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Scenes the string tests read: a straight well of a given bore and length, and a list
-/// Drillstring.
+/// Scenes of the string tests: a straight well of a given bore and length, and a list Drillstring.
 #pragma once
 
 #include <string>

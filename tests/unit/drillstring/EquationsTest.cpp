@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Every term of the equations of motion alone, against its integral along a straight inclined
+/// Every single term of the equations of motion against its integral along a straight inclined
 /// string of two sections in two bores: M D'' + C(Omega) D' + (K + dOmega/dt C_ac') D = F -
 /// dOmega/dt F_thetaz + R_ipa (Nguyen et al. 2020, equations 19, 26-28; mud after its section 2.3
 /// with the coefficients of Chen 1981 and Fritz 1970).
@@ -138,8 +138,8 @@ TEST(Equations, GyroscopicMomentsTurnWithTheSpeed) {
              }));
 }
 
-/// dOmega/dt C_ac' D: of the kinetic energy Omega rho I_p int theta_y dtheta_x/dt only the row of
-/// theta_x is left.
+/// dOmega/dt C_ac' D: the kinetic energy Omega rho I_p int theta_y dtheta_x/dt gives only the row
+/// of theta_x.
 TEST(Equations, SpinUpCouplesTheSlopesWithTheAngularAcceleration) {
   Scene scene;
   scene.turn();
@@ -171,7 +171,7 @@ TEST(Equations, LawsAreThoseOfTheRotarySpeed) {
 // -------------------------------------------------------------------------------------------------
 // Rayleigh damping
 
-/// c_M M_a + c_K (K_a + K_gpa + K_gpo(D_s)), equation (28): the mass of the mud has no part in it.
+/// c_M M_a + c_K (K_a + K_gpa + K_gpo(D_s)), equation (28): without the mass of the mud.
 TEST(Equations, RayleighDampingHasTheMassOfTheSteelAndTheWholeStaticStiffness) {
   Scene scene;
   const mud::AnnularFlow mud(fluid());
@@ -308,7 +308,7 @@ TEST(Equations, PathReactionAndBitLoadsActOnTheirNodesAsTheyAre) {
   expectLoad(scene, model, "torque on bit", "1", -5e3 * d(17));
 }
 
-/// F_s and K_pa have what is constant in time and nothing of the rotation; R_ipa stands alone.
+/// F_s and K_pa contain the constant terms and none of the rotation; R_ipa is separate.
 TEST(Equations, StaticStateBalancesWhatIsConstantInTime) {
   Scene scene;
   const mud::AnnularFlow mud(fluid());
@@ -340,8 +340,8 @@ TEST(Equations, StaticStateBalancesWhatIsConstantInTime) {
   EXPECT_EQ(scene.atPath().pathReaction.size(), 0);
 }
 
-/// Held dofs are left out; two parts have the matrices and loads of the whole between them, each
-/// node's load once.
+/// Held dofs are omitted; the matrices and loads of two parts add up to those of the whole, with
+/// each node's load once.
 TEST(Equations, PartsAddUpToTheWhole) {
   Scene scene;
   scene.turn();
@@ -378,7 +378,7 @@ TEST(Equations, PartsAddUpToTheWhole) {
   EXPECT_GT(load.norm(), 1.0);
 }
 
-/// Recovery gives all six dofs of a node back, zero where one is held.
+/// Recovery returns all six dofs of a node, zero for held dofs.
 TEST(Equations, RecoveryPutsHeldDofsBack) {
   Scene scene;
   for (const int dof : {0, 1, 2, 5, 12, 13}) scene.held[at(dof)] = 1;

@@ -28,7 +28,7 @@ constexpr double density = 7900.0, youngModulus = 2.03e11, shearModulus = youngM
 
 inline double square(double x) { return x * x; }
 
-/// Omega = 3 + 2 t: no number of one law is that of another.
+/// Omega = 3 + 2 t: all laws have different values.
 class Rising final : public loads::SpeedLaw {
  public:
   double speed(double t) const override { return 3.0 + 2.0 * t; }

@@ -60,7 +60,7 @@ DrillString hung(double bit) {
 
 TEST(Mesh, HangsWithItsBitAtADepthAndIsCutAtTheSurface) {
   const DrillString string =
-      hung(13.5);  // of 22 m: the first stand but for its last 1.5 m is above
+      hung(13.5);  // of 22 m: all but the last 1.5 m of the first stand is above
   ASSERT_EQ(string.elementCount(), 2 + 4 + 2);
   EXPECT_EQ(string.nodes.front().s, 0.0);
   EXPECT_NEAR(string.length(), 13.5, 1e-12);
@@ -132,8 +132,8 @@ TEST(Mesh, LeavesAGaugeBesideAWiderBodyToThatBody) {
   EXPECT_EQ(string.nodes[6].contactRadius, 0.09);
 }
 
-/// The lever arm of friction in the soft string: a joint is of the entry it stands on, even where
-/// the node is that of the entry below, and where the body below is wider.
+/// The lever arm of friction in the soft string: a joint belongs to its own entry, even if the node
+/// belongs to the entry below, or if the body below is wider.
 TEST(Mesh, GivesAGaugeToTheEntryItStandsOn) {
   const std::string gauge = real("Gauge Position", "9") + real("Gauge Radius", "0.08");
   for (const double collar : {0.07, 0.09}) {
@@ -259,7 +259,7 @@ TEST(MeshErrors, SayWhatIsWrongAndWhere) {
       "\"pipe\"?");
   has(errorOf(array("Assembly", "pipe")), "No components are defined");
   has(errorOf(components(pipe) + array("Assembly", "jars")), "is not defined. Known are \"pipe\".");
-  std::string stock;  // as many as a library has
+  std::string stock;  // as in a library
   for (int size = 1; size <= 20; ++size)
     stock += tube(std::to_string(size) + " in collar", 9.0, 1, 0.06, 0.05);
   stock += tube("near-bit Stabiliser", 1.0, 1, 0.06, 0.05);
@@ -329,7 +329,7 @@ TEST(ComponentErrors, AreAllReported) {
                        list("e", list("Segments", list("s", real("Outer Radius", "1")))) +
                        list("f*", real("Length", "1") + real("Outer Radius", "0.1"))) +
               array("Assembly", "a"));
-  // the segment without Length is phase 2: nothing else is looked at
+  // the segment without Length fails in phase 2: nothing else is checked
   EXPECT_NE(message.find("/e/Segments/s/Length"), std::string::npos) << message;
   const std::string rest =
       errorOf(list("Components",

@@ -60,8 +60,8 @@ TEST(Partition, KeepsShortRunsBetweenKeptNodes) {
             (std::vector<int>{1, 2, 3, 4, 6, 7, 8, 9, 11, 12, 13, 14, 16, 17, 18, 19}));
 }
 
-// What each rule of Retained Nodes keeps: gaps of 3 mm, -1 mm and 20 mm at nodes 3, 7 and 12; node
-// 9 carries a gauge.
+// Nodes kept by each rule of Retained Nodes: gaps of 3 mm, -1 mm and 20 mm at nodes 3, 7 and 12;
+// node 9 carries a gauge.
 TEST(Partition, RetainsNodesByTheirGapTheirContactOrTheirGauge) {
   DrillString s = string();
   s.nodes[9].gauge = true;

@@ -29,7 +29,7 @@ DrillString stringOf(const std::string& component) {
 }
 
 /// Weights with tool joints: API RP 7G (1998), table 9, whose joints are 29.4 ft between the
-/// shoulders, with tapers, threads and upsets that the table of joints does not have.
+/// shoulders, with tapers, threads and upsets that are not in the table of joints.
 TEST(ApiDrillPipe, HasTheCatalogueWeights) {
   const std::vector<std::pair<std::string, double>> weights{
       {"2.375 in 6.65 G-105 NC26", 6.99},  {"2.875 in 10.40 S-135 NC31", 11.55},
@@ -83,7 +83,7 @@ const std::string header =
     "Diameter [in];Box Length [in];Pin Length [in];Yield Strength [MPa];Tool Joint Yield Strength "
     "[MPa]\n";
 
-/// What is said of a table of one's own.
+/// Message on a user's table.
 std::string said(const std::string& table) {
   const std::string file = ::testing::TempDir() + "pipes.csv";
   std::ofstream(file) << table;

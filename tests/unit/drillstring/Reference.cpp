@@ -64,7 +64,7 @@ TEST(ReferenceString, HasThePublishedClearances) {
   EXPECT_NEAR(node(string, 44).contactRadius, 0.081, 1e-15);
   EXPECT_NEAR(node(string, 147).clearance, 0.0285, 1e-15);
   EXPECT_NEAR(node(string, 147).contactRadius, 0.0795, 1e-15);
-  // where the section changes the smaller clearance counts: upset above, joint below
+  // at a change of section the smaller clearance is used: upset above, joint below
   EXPECT_NEAR(node(string, 7).s, 9.2, 1e-12);
   EXPECT_NEAR(node(string, 7).clearance, 0.027, 1e-15);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Elements below joints that are free in part, whose strain no result shows.
+/// Elements below partly released joints, whose strain is in no result.
 #include <gtest/gtest.h>
 
 #include "substructures/drillstring/figures/BendingElements.hpp"

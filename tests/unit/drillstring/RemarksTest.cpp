@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What is said of valid scenes whose results are not those of a drillstring.
+/// Remarks on valid scenes whose results are not those of a drillstring.
 #include "substructures/drillstring/scene/Remarks.hpp"
 
 #include <gtest/gtest.h>

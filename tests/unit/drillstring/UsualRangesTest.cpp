@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values that are seldom meant, and what is said of them.
+// Unusual values, and the messages on them.
 #include "substructures/drillstring/case/UsualRanges.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A hinged column in a bore under a growing load: derivatives, pivots, and its path.
+/// A hinged column in a bore under an increasing load: derivatives, pivots, and its path.
 #include "substructures/equilibrium/LoadPath.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The static residual (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa (Nguyen et al. 2020, equation
-/// 19) of a straight string, term by term, and what a state is described by.
+/// 19) of a straight string, term by term, and the description of a state.
 #include "substructures/equilibrium/StaticProblem.hpp"
 
 #include <cmath>
@@ -118,7 +118,7 @@ TEST(StaticProblem, GeometricStiffnessIsThatOfForceAndTorque) {
   }
 }
 
-/// All terms by hand; each switch takes its own out.
+/// All terms by hand; each switch removes its own term.
 TEST(StaticProblem, ResidualIsStiffnessLessLoadsContactAndPathReaction) {
   const Case scene;
   StaticProblem problem(scene.input);
@@ -170,7 +170,7 @@ TEST(StaticProblem, JacobianIsTheDerivativeOfTheResidual) {
       << "without dK_gpo/dD it is another one";
 }
 
-/// The same of a string that slides along the wall too, from nodes where it is under tension.
+/// The same for a string that also slides along the wall, with nodes of the tensioned string.
 TEST(StaticProblem, JacobianIsTheDerivativeWithDragAndPretension) {
   Case scene;
   scene.input.sliding = {-0.2, 4.0};
@@ -179,7 +179,7 @@ TEST(StaticProblem, JacobianIsTheDerivativeWithDragAndPretension) {
   EXPECT_LT(testing_::jacobianError(problem, problem.restrict(scene.displacement), 1e-7), 1e-5);
 }
 
-/// A pretension is a stretch that the displacement does not count.
+/// A pretension is a stretch that is not part of the displacement.
 TEST(StaticProblem, PretensionIsAStretchThatTheNodesHaveAlready) {
   Case scene;
   Vector stretched = scene.displacement;
@@ -199,7 +199,7 @@ TEST(StaticProblem, PretensionIsAStretchThatTheNodesHaveAlready) {
                 whole.elements().axialForce(e, stretched), 1e-9 * section(0).axialRigidity());
 }
 
-/// Forces count against the largest load, moments against that load on a mean element length.
+/// Forces are scaled by the largest load, moments by that load times a mean element length.
 TEST(StaticProblem, ResidualsAreScaledByTheLargestLoad) {
   Case scene;
   scene.input.pathReaction = Vector::Zero(6 * nodes);
@@ -213,7 +213,7 @@ TEST(StaticProblem, ResidualsAreScaledByTheLargestLoad) {
   EXPECT_EQ(problem.largestLoad(), 800.0);
 }
 
-/// Recorded forces are those that act: the friction force along t = (-v, u)/r and its torque, both
+/// Recorded forces are the acting ones: the friction force along t = (-v, u)/r and its torque, both
 /// against the rotation.
 TEST(StaticState, RecordsTheForcesThatAct) {
   Case scene;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Modes chosen by a tolerance: met, no more than needed, the same as what was asked; estimates of
-/// motions on a frame.
+/// Modes chosen by a tolerance: it is met, without more modes than needed, and requested numbers
+/// are returned; estimates of motions on a frame.
 #include "estimate/AdaptiveReduction.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -56,7 +56,8 @@ TEST(FrequencyTolerance, IsMetAndTighterOnesTakeMoreModes) {
   EXPECT_LT(before, full.size() - 9) << "even the tightest one leaves modes out";
 }
 
-/// A small part between two grounds, and more frequencies than its first reduction has.
+/// A small part between two grounds; the request exceeds the number of frequencies of its first
+/// reduction.
 TEST(FrequencyTolerance, GivesAllFrequenciesThatAreAskedFor) {
   std::vector<model::Substructure> parts{samples::bar("left", 1, 10, 100.0, 1.0, {1}),
                                          samples::bar("right", 11, 8, 90.0, 1.0, {19})};
@@ -66,12 +67,12 @@ TEST(FrequencyTolerance, GivesAllFrequenciesThatAreAskedFor) {
   ASSERT_GE(outcome.frequencies.size(), 12u);
   for (const auto& mode : estimate::compareModes(full, parts, outcome.synthesis, 12))
     EXPECT_LE(std::abs(mode.error), 0.5);
-  // All there are, and no more.
+  // All existing frequencies, and no more.
   const auto all = estimate::synthesise(parts, *craigBampton(), tolerance(0.5), lowest(100));
   EXPECT_EQ(static_cast<int>(all.frequencies.size()), full.size());
 }
 
-/// Masters are to Guyan reduction what modes are to others.
+/// Guyan reduction has masters instead of modes.
 TEST(FrequencyTolerance, TakesMoreMastersOfGuyanReduction) {
   std::vector<model::Substructure> parts{samples::bar("left", 1, 30, 100.0, 1.0, {1}),
                                          samples::bar("right", 31, 25, 90.0, 1.0, {56})};
@@ -117,7 +118,7 @@ TEST(FrequencyTolerance, OnlyWhatChangesIsReducedAgain) {
   }
   resetEvaluationCounters();
   const auto outcome = estimate::synthesise(parts, *craigBampton(), tolerance(1e-5), lowest(12));
-  // Three different bars (first, inner, last), each at most once for a number of modes.
+  // Three different bars (first, inner, last), each reduced at most once per number of modes.
   EXPECT_GT(outcome.rounds.size(), 1u);
   EXPECT_LE(counted("parts reduced"), 3 * static_cast<long>(outcome.rounds.size()) + 4);
   EXPECT_LT(counted("parts reduced"), 6 * static_cast<long>(outcome.rounds.size()));
@@ -142,7 +143,7 @@ struct Motion : transient::SampleSink {
   std::vector<Vector> columns;
 };
 
-/// The frame is hit: a load on the cantilever's tip that lasts, cubic springs inside two members.
+/// The frame under a step load on the cantilever's tip, with cubic springs inside two members.
 std::vector<model::Substructure> hitFrame(bool spinning) {
   auto parts = samples::loopFrame(12, spinning);
   samples::addCubicSprings(parts[0], {106}, 1e11, 50.0);
@@ -172,8 +173,8 @@ double difference(const std::vector<Vector>& a, const std::vector<Vector>& b) {
   return std::sqrt(error / size);
 }
 
-// A part that lacks a mode which the motion excites is the exception: its answer is not static, the
-// estimate is too large and says so by being above 5 %.
+// Exception: if a part lacks a mode that the motion excites, its response is not static, and the
+// estimate is too large; it is then above 5 %.
 TEST(MotionEstimate, IsWithinAFactorOfThreeOnAFrameWithSprings) {
   int counted = 0;
   for (bool spinning : {false, true}) {
@@ -278,7 +279,7 @@ TEST(MotionTolerance, IsMetAndPartsThatNeedNearlyAllTheirModesStayWhole) {
   EXPECT_LT(stopped, trials);
 }
 
-// An estimate that is no number, or that no part answers for, gives modes to every part.
+// An estimate that is not a number, or to which no part contributes, gives modes to every part.
 TEST(MotionTolerance, IsNotMetByWhatIsNoNumber) {
   const auto parts = samples::loopFrame(6, false);
   int trials = 0;

@@ -75,7 +75,8 @@ TEST(FrequencyEstimate, IsWithinAFactorOfThreeForBarsAndFrames) {
   EXPECT_GT(counted, 60);
 }
 
-/// A retained dof between retained ones, with hardly any mass: it makes rigid bodies of no modes.
+/// A retained dof with very little mass between retained dofs: it must not turn modes into
+/// rigid-body modes.
 TEST(FrequencyEstimate, IsThereBesideALightDof) {
   auto parts = bars();
   samples::classify(parts[1], {21, 41}, {29, 30, 31});
@@ -95,9 +96,9 @@ TEST(FrequencyEstimate, IsThereBesideALightDof) {
   }
 }
 
-/// Parts of one or two interior dofs without modes: the two Krylov vectors of a part are all that
-/// its basis lacks, and the one coupled mode with them is the whole model, so that the estimate is
-/// the true error.
+/// Parts of one or two interior dofs without modes: the two Krylov vectors of a part complete its
+/// basis, and the single coupled mode together with them spans the whole model, so that the
+/// estimate is the true error.
 TEST(FrequencyEstimate, IsExactWhereTheKrylovVectorsAreAllThatIsLeftOut) {
   for (const int interior : {1, 2}) {
     std::vector<model::Substructure> parts{
@@ -126,7 +127,7 @@ TEST(FrequencyEstimate, IsZeroWithAllModes) {
   for (const auto& e : estimates) EXPECT_LT(std::abs(e.error), 1e-9);
 }
 
-/// Craig-Bampton parts with modes of all joined dofs in their place.
+/// Craig-Bampton parts with modes of all joined dofs instead of these dofs.
 coupling::Synthesis withInterfaceModes(const std::vector<model::Substructure>& parts, int modes,
                                        int interfaceModes) {
   reduction::ReductionOptions options;
@@ -139,7 +140,7 @@ coupling::Synthesis withInterfaceModes(const std::vector<model::Substructure>& p
       parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
 }
 
-/// What an interface reduction adds is in the estimate, which with all modes of the parts is the
+/// The estimate includes the error of an interface reduction; with all modes of the parts it is the
 /// true error to rounding.
 TEST(FrequencyEstimate, IncludesTheInterfaceReduction) {
   const auto parts = samples::loopFrame(12, false);
@@ -187,7 +188,8 @@ TEST(FrequencyEstimate, LeavesRigidBodiesAlone) {
   samples::classify(parts[1], {11});
   const auto estimates = estimate::estimateFrequencies(parts, reduced(parts, 2), {3, 0});
   EXPECT_EQ(estimates[0].error, 0.0);
-  EXPECT_EQ(estimates[0].frequency(), 0.0) << estimates[0].eigenvalue;  // which rounding leaves
+  EXPECT_EQ(estimates[0].frequency(), 0.0) << estimates[0].eigenvalue;  // not zero, because of
+                                                                        // rounding
   EXPECT_GT(estimates[1].frequency(), 0.0);
   EXPECT_GT(estimates[2].error, 0.0);
 }
@@ -198,8 +200,8 @@ TEST(FrequencyEstimate, TellsAFrequencyAboveAMissingMode) {
   EXPECT_FALSE(estimates[1].definite);
 }
 
-/// A mass on a stiff spring that carries oscillators: two equal ones, which a spring joins, so that
-/// their difference, lambda = (10 + 2 * 20) / 1, moves nothing else, and a light one.
+/// A mass on a stiff spring carries a light oscillator and two equal ones joined by a spring; the
+/// difference mode of the two, lambda = (10 + 2 * 20) / 1, moves nothing else.
 model::Substructure oscillators() {
   model::Substructure part;
   part.name = "oscillators";
@@ -217,7 +219,7 @@ model::Substructure oscillators() {
   return part;
 }
 
-// No residual has the missing motion: only a count finds it.
+// No residual contains the missing motion: only a count detects it.
 TEST(FrequencyEstimate, CountsModesThatNoResidualSees) {
   const std::vector<model::Substructure> parts{oscillators()};
   const auto synthesis = reduced(parts, 1);  // the sum of the equal oscillators

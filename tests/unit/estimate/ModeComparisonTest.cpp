@@ -36,8 +36,9 @@ TEST(ModeComparison, WithAllModesShapesAreTheSame) {
   }
 }
 
-/// As many values as there are, and more than the forces between the parts leave finite: those of
-/// infinity, which rounding makes finite, are no modes, and no reason to refuse the others.
+/// The request is the number of all values, more than are finite, because the forces between the
+/// parts have infinite values. Infinite values, finite by rounding, are no modes, and must not
+/// cause a refusal of the others.
 TEST(ModeComparison, ForcesBetweenPartsAddNoDampedModes) {
   coupling::CouplingOptions dual;
   dual.assembly = coupling::Assembly::Dual;
@@ -107,8 +108,8 @@ TEST(ModeComparison, ModalAssuranceIsOneForTheSameShapeAndZeroForOthers) {
   EXPECT_NEAR((mac - Matrix::Identity(2, 2)).norm(), 0.0, 1e-14);
 }
 
-/// MAC = |a' M b|^2 / (a' M a  b' M b): shapes at right angles are alike where the mass says so,
-/// and the other way round.
+/// MAC = |a' M b|^2 / (a' M a b' M b): orthogonal shapes may have a large MAC, and similar ones a
+/// small one, depending on the mass.
 TEST(ModeComparison, ModalAssuranceWeighsWithTheMass) {
   Sparse M(2, 2);
   M.insert(0, 0) = 1.0;
@@ -122,7 +123,7 @@ TEST(ModeComparison, ModalAssuranceWeighsWithTheMass) {
 }
 
 /// Lightly damped bars of one interior dof without modes, a heavy mass where they meet: the
-/// truncated work is exact, so that the estimate misses only what is of second order in the error.
+/// truncated work is exact, so that the estimate lacks only terms of second order in the error.
 TEST(ModeComparison, EstimateOfADampedModeIsTheErrorToFirstOrder) {
   std::vector<model::Substructure> parts{samples::bar("left", 1, 2, 100.0, 0.2, {1}),
                                          samples::bar("right", 3, 2, 140.0, 0.1, {5})};
@@ -141,8 +142,8 @@ TEST(ModeComparison, EstimateOfADampedModeIsTheErrorToFirstOrder) {
   EXPECT_NEAR(modes[0].estimate, modes[0].error, 10.0 * modes[0].error * modes[0].error);
 }
 
-/// K + k at the point, C + c there, with the laws of the time asked for: a bar with a spring and
-/// dashpot under its end.
+/// K + k and C + c at the point, with the laws at the given time: a bar with a spring and dashpot
+/// under its end.
 TEST(ModeComparison, LinearisesPointLawsWithTheirDamping) {
   auto part = samples::bar("bar", 1, 1, 100.0, 0.6, {1});
   auto& m = part.model;

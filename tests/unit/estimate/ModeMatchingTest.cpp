@@ -50,8 +50,8 @@ TEST(ModeMatching, ARepeatedModeIsASubspace) {
   }
 }
 
-// Values that are no repeated ones are compared one by one, and a candidate that resembles two of
-// them is taken once.
+// Distinct values are compared one by one, and a candidate that resembles two of them is taken
+// once.
 TEST(ModeMatching, NoCandidateIsTakenTwice) {
   const Eigen::MatrixXcd own = Matrix::Identity(3, 3).cast<std::complex<double>>();
   Matrix others(3, 3);  // the first resembles modes 1 and 2, the second nothing better than mode 2

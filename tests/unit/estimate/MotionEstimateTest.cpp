@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The estimated error of a motion against the true one, where what the basis leaves out follows
-/// statically.
+/// The estimated error of a motion against the true one, for a static response of the modes outside
+/// the basis.
 #include "estimate/MotionEstimate.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -20,7 +20,7 @@ namespace MotionEstimateTest {
 
 using namespace tooljoint;
 
-/// Recovered displacements at the samples, handed on to an estimator where there is one.
+/// Recovered displacements at the samples, passed on to an estimator if there is one.
 class Motion : public transient::SampleSink {
  public:
   explicit Motion(const model::SecondOrderModel& m, estimate::MotionEstimator* estimator = nullptr)
@@ -49,8 +49,8 @@ transient::TransientOptions steps() {
   return options;
 }
 
-/// Two clamped bars with light damping, shaken inside the left one far below the modes that a basis
-/// with one mode of each leaves out.
+/// Two clamped bars with light damping, excited inside the left one far below the truncated modes
+/// of a basis with one mode per bar.
 std::vector<model::Substructure> shakenBars() {
   std::vector<model::Substructure> parts{samples::bar("left", 1, 6, 600.0, 0.05, {1}),
                                          samples::bar("right", 7, 6, 900.0, 0.05, {13})};
@@ -143,8 +143,8 @@ std::shared_ptr<const model::PointLaw> registered(const std::string& name,
   return model::PointLawRegistry::instance().make(name, own, {1, 1});
 }
 
-/// Errors of rated states (an overdamped link), of held ones that look back and of plastic slip act
-/// on the error as the states do on the motion; in the middle of a part, and where parts join.
+/// Errors of rated states (an overdamped link), of held states with a delay and of plastic slip act
+/// on the error as the states act on the motion, in the middle of a part and at joints.
 TEST(MotionEstimate, CarriesTheStatesOfPointLaws) {
   Teuchos::ParameterList maxwell, plastic;
   maxwell.set("Stiffness", 300.0).set("Damping", 30.0);
@@ -179,9 +179,10 @@ std::vector<model::Substructure> struckBars(int node) {
   return parts;
 }
 
-/// A motion that starts outside the basis: what is missing at the start vibrates on its own, and
-/// the estimate knows it. It takes no note of how the error of the coupled coordinates drives the
-/// interiors, so that it is too large where the vibration is fast beside them: by 3.5 here.
+/// A motion that starts outside the basis: the missing part of the start vibrates separately, and
+/// the estimate includes it. The estimate ignores the excitation of the interiors by the error of
+/// the coupled coordinates, so it is too large if the vibration is fast compared with them: by 3.5
+/// here.
 TEST(MotionEstimate, CountsAStartOutsideTheBasis) {
   for (const int node : {13, 25, 20})
     for (const int modes : {1, 3}) {
@@ -194,8 +195,8 @@ TEST(MotionEstimate, CountsAStartOutsideTheBasis) {
     }
 }
 
-/// The sixth mode of a bar between its ends, beside the first, with a basis of three. Estimated
-/// from the residual alone, 0.63 of the error is seen.
+/// The sixth mode of a bar between its ends, beside the first, with a basis of three. An estimate
+/// from the residual alone contains 0.63 of the error.
 TEST(MotionEstimate, CountsAModeOutsideTheBasisFromItsStart) {
   auto parts = struckBars(-1);
   auto& left = parts[0].model;

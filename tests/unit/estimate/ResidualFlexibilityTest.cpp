@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The residual flexibility of a part is that of the modes its basis leaves out, sum phi
-/// phi'/omega^2 (Rubin 1975).
+/// The residual flexibility of a part is that of the truncated modes, sum phi phi'/omega^2 (Rubin
+/// 1975).
 #include "estimate/ResidualFlexibility.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -42,8 +42,8 @@ TEST(ResidualFlexibility, IsThatOfTheModesLeftOut) {
   EXPECT_LT((flexibility.apply(Matrix::Identity(5, 5)) - expected).norm(), 1e-12 * expected.norm());
 }
 
-/// w = -F r on the interior, r = M D'' + C D' + K D - f(t) with every term of its own size and the
-/// laws of its time.
+/// w = -F r on the interior, r = M D'' + C D' + K D - f(t) with terms of different size and the
+/// laws at the given time.
 TEST(PartResidual, IsWhatTheEquationsOfThePartLack) {
   auto part = samples::bar("bar", 1, 6, 600.0, 0.3);
   samples::classify(part, {1, 7});

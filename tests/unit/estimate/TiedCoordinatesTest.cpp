@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Coordinates that follow others answer no residual: estimates count their vectors as left out.
+/// Dependent coordinates do not respond to a residual: estimates treat their vectors as truncated.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(TiedCoordinates, EstimatesStayNearTheTrueErrors) {
   }
 }
 
-/// A velocity of the interior leaves the boundary at rest, whatever coordinates depend on others.
+/// A velocity of the interior leaves the boundary at rest, even with dependent coordinates.
 TEST(TiedCoordinates, KeepTheBoundaryOfTheStart) {
   auto parts = samples::loopFrame(10, false);
   for (auto& part : parts) part.model.initialVelocity.setZero();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Time series compressed: the same numbers in less room, what a killed process leaves, and damage.
+/// Compressed time series: the same numbers in less space, the file of a killed process, and
+/// damaged files.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t width = 60;
 
-/// Row of a wave in its first half; zeros, as of nodes that touch nothing, in its second.
+/// A row with a wave in its first half, and zeros, as of nodes without contact, in its second.
 std::vector<double> row(std::size_t i) {
   std::vector<double> values(width, 0.0);
   for (std::size_t k = 0; k < width / 2; ++k)
@@ -40,7 +41,7 @@ std::vector<double> rows(std::size_t count) {
 class Compression : public ::testing::Test {
  protected:
   std::string at(const std::string& name) const { return scratch_ / name; }
-  /// A file of two series with so many rows, flushed each `interval` rows.
+  /// A file of two series with `count` rows, flushed every `interval` rows.
   void write(const std::string& name, int level, std::size_t count, std::size_t interval) {
     io::ResultsFile file(at(name), {}, io::ResultsOptions{level});
     auto& a = file.series("/a", {width / 6, 6}, "m", "A");
@@ -73,8 +74,8 @@ TEST_F(Compression, EveryLevelKeepsTheNumbersAndALevelMakesTheFileSmaller) {
   EXPECT_LT(fs::file_size(at("level_9")), fs::file_size(at("level_1")));
 }
 
-/// Chunks that a flush found begun are replaced by full ones of another size, for which HDF5 finds
-/// another place. What a killed process leaves between two flushes must not know of that.
+/// Chunks that are incomplete at a flush are replaced by full ones of another size, which HDF5
+/// stores elsewhere. A process killed between two flushes must still leave a valid file.
 TEST_F(Compression, BetweenFlushesTheFileOnTheDiskHoldsWhatWasFlushed) {
   constexpr std::size_t interval = 350, flushes = 8;
   io::ResultsFile file(at("results.h5"), {}, io::ResultsOptions{1});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matrix Market files as other programs write them, and as they should not.
+// Matrix Market files of other programs, and faulty ones.
 #include "io/MatrixMarket.hpp"
 
 #include <fstream>
@@ -113,7 +113,7 @@ TEST(MatrixMarket, RefusesWithFileLineAndEntry) {
   }
 }
 
-/// Nothing is stored for what a file only announces.
+/// No memory is allocated for announced sizes.
 TEST(MatrixMarket, RefusesSizesThatTheFileCannotHold) {
   expectRefused(general + "2 2 1000000000000\n1 1 1\n",
                 ":2 announces 1000000000000 entries, for which the file of");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// results.h5, summary.json and the output folder: round trips, units on every dataset, refusals,
-/// nothing half-written under its name.
+/// no incomplete file under its final name.
 #include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ namespace ResultsTest {
 using namespace tooljoint;
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test.
+/// A separate folder for each test.
 class Io : public ::testing::Test {
  protected:
   std::string at(const std::string& name) const { return scratch_ / name; }
@@ -273,7 +273,7 @@ TEST_F(Io, PicturesContinueWithTheirTimes) {
   EXPECT_EQ(later, pictures("whole.h5", {0.0, 0.05, 0.1, 0.15, 0.19, 0.2, 0.25}, nullptr, ignored));
   EXPECT_EQ(io::ResultsReader(at("second.h5")).numbers("/xdmf/time"),
             (std::vector<double>{0.0, 0.1, 0.2}));
-  // none due after the restart: those of before are there all the same
+  // none due after the restart: the earlier ones are present all the same
   pictures("third.h5", {0.15}, &memory, ignored);
   EXPECT_EQ(io::ResultsReader(at("third.h5")).numbers("/xdmf/time"),
             (std::vector<double>{0.0, 0.1}));

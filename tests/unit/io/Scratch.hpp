@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A folder for one test that disappears with it.
+/// A folder for one test, removed with it.
 #pragma once
 
 #include <cstdlib>

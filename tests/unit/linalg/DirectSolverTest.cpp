@@ -112,8 +112,8 @@ TEST(DirectSolver, RefactorsWithTheSameAndWithAnotherPattern) {
   EXPECT_LT((b - first * Vector(moved.solve(b))).norm(), 1e-11 * b.norm());
 }
 
-/// Nodes of six dofs in a row, coupled to their neighbours by full unsymmetric blocks. What
-/// dominates stands in the diagonal blocks, or in the coupling of nodes 0 and 1, 2 and 3 ...
+/// Nodes of six dofs in a row, coupled to their neighbours by full unsymmetric blocks. The dominant
+/// entries are in the diagonal blocks, or in the coupling of nodes 0 and 1, 2 and 3 ...
 Sparse nodeChain(int nodes, double diagonal, double pairs = 0.0) {
   const Matrix numbers = scatteredNumbers(18 * nodes, 6, 11);
   Triplets entries;
@@ -169,7 +169,7 @@ TEST(DirectSolver, HandlesEmptyAndSingleSystems) {
 }
 
 TEST(DirectSolver, NamesTheDofOfASingularMatrix) {
-  // a held chain of 5 and a floating one of 4: the motion nothing resists is in dofs 5 to 8
+  // a held chain of 5 and a floating one of 4: the motion without resistance is in dofs 5 to 8
   const Sparse held = springChain(5, 2.0, 1.0).K, floating = springChain(4, 3.0, 1.0, true).K;
   Triplets both;
   for (int i = 0; i < 5; ++i)
@@ -186,7 +186,7 @@ TEST(DirectSolver, NamesTheDofOfASingularMatrix) {
 
 TEST(DirectSolver, FindsMatricesThatAreSingularUpToRounding) {
   for (const int elements : {3, 20, 60, 200}) {
-    // Turning about one end moves the other end most; a free beam has no pivot that is exactly
+    // A rotation about one end moves the other end most; a free beam has no pivot that is exactly
     // zero.
     const auto free = beam(elements, 170.3, 2.9e6, 1, true);
     const std::string text = message([&] { DirectSolver(free.K, spoken); });
@@ -198,7 +198,7 @@ TEST(DirectSolver, NamesTheDofWithoutAnyStiffness) {
   Triplets entries{{0, 0, 1.0}, {1, 1, 2.0}, {2, 2, 0.0}, {3, 3, 1.0}};
   EXPECT_NE(message([&] { DirectSolver(testing::assembled(4, entries), spoken); }).find("<2>"),
             std::string::npos);
-  // an empty column (its row is not): the motion of dof 1 does nothing
+  // an empty column (but not row): the motion of dof 1 causes no force
   Triplets column{{0, 0, 1.0}, {1, 0, 2.0}, {2, 2, 1.0}};
   EXPECT_NE(message([&] { DirectSolver(testing::assembled(3, column), spoken); }).find("<1>"),
             std::string::npos);

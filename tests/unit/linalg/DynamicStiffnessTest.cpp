@@ -49,7 +49,7 @@ TEST(DynamicStiffness, RefinesAModeFromAGuess) {
 ///
 ///     K = Omega^2 + Phi (G + 1/k)^-1 Phi'
 ///
-/// The scale of u is nobody's choice and must not decide which pivots are taken.
+/// The scale of u is arbitrary and must not affect the choice of pivots.
 TEST(DynamicStiffness, TheScaleOfMasslessDofsDecidesNothing) {
   constexpr int modes = 24, ends = 6;
   constexpr double k = 100.0;

@@ -32,7 +32,7 @@ double freeChain(int n, int j) {
 
 bool isDense(const EigenPairs& modes) { return modes.method.find("dense") != std::string::npos; }
 
-/// Everything the docstring of EigenPairs promises, recomputed here.
+/// Checks all properties stated in the documentation of EigenPairs.
 void expectModes(const Pencil& pencil, const EigenPairs& modes, int count) {
   ASSERT_EQ(modes.count(), count);
   ASSERT_EQ(modes.vectors.cols(), count);
@@ -85,7 +85,7 @@ TEST(EigenSolver, KrylovAndDenseAgree) {
   EXPECT_TRUE(isDense(b));
   expectModes(two, a, 60);
   expectModes(two, b, 60);
-  // Dense eigenvalues are as good as rounding in the largest one allows.
+  // Dense eigenvalues are accurate to the rounding of the largest one.
   const double rounding = 1e-15 * eigenvaluesBelow(two.K, two.M, 1.0) +
                           1e-13 * 12.0 * 3e6 / std::pow(170.3 / 75, 4) * 100.0;
   for (int j = 0; j < 60; ++j) EXPECT_NEAR(a.values[j], b.values[j], 1e-9 * a.values[j] + rounding);
@@ -128,7 +128,7 @@ TEST(EigenSolver, PairsAreNeverCutWhenAsked) {
       expectModes(two, modes, count + count % 2);
     }
   }
-  // two chains that differ by 1e-4 are a pair only to a tolerance that says so
+  // two chains that differ by 1e-4 are a pair only with a tolerance above that
   for (const int n : {40, 200}) {
     Pencil both = testing::sideBySide({springChain(n, k, m), springChain(n, 1.0001 * k, m)});
     EigenOptions keep;
@@ -245,8 +245,8 @@ TEST(EigenSolver, AllModesBelowACutOff) {
 }
 
 TEST(EigenSolver, CountsAreRightInEveryGapOfTheSpectrum) {
-  // The middle of the spectrum of a chain of equal masses makes every diagonal entry of K - lambda
-  // M vanish.
+  // In the middle of the spectrum of a chain of equal masses every diagonal entry of K - lambda M
+  // vanishes.
   for (const Pencil& pencil :
        {springChain(80, k, m), springChain(81, k, m), beam(40, 170.3, 3e6),
         beam(30, 60.0, 3e6, 2, true), beam(40, 100.0, 3e6, 1, false, -5e4)}) {
@@ -307,7 +307,7 @@ TEST(EigenSolver, AnUnconvergedSolveSaysWhatWasTried) {
   const std::string text = errorText([&] { lowestModes(two.K, two.M, 30, options); });
   EXPECT_NE(text.find("4 attempts"), std::string::npos) << text;
   EXPECT_NE(text.find("Num Blocks"), std::string::npos) << text;
-  // parameters Anasazi itself refuses
+  // parameters that Anasazi refuses
   starved.set("Num Blocks", 5);
   EXPECT_THROW(lowestModes(two.K, two.M, 30, options), ConvergenceError);
 }
@@ -348,8 +348,7 @@ TEST(EigenSolver, RefusesWhatIsNotASymmetricPencil) {
             std::string::npos);
 }
 
-/// Light masses, or none, on springs at a chain change none of its modes, whatever the axes they
-/// are given in.
+/// Light or zero masses on springs at a chain do not change its modes, in any axes.
 TEST(EigenSolver, LightDofsLeaveOtherModesTheirDigits) {
   constexpr int n = 60, lights = 3, all = n + lights;
   for (const double light : {1e-6, 1e-10, 1e-14, 0.0})

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Grouped rows against the sparse product: shared columns, scattered rows, single entries, empty
-/// rows, nothing at all.
+/// rows, an empty matrix.
 #include "linalg/blocks/GroupedRows.hpp"
 
 #include <gtest/gtest.h>

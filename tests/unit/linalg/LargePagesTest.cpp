@@ -30,14 +30,14 @@ bool asksForLargePages(const void* address) {
   return false;
 }
 
-/// Less than two large pages is not worth it: the allocator stays as it is, and a long array gets a
-/// mapping of its own.
+/// For less than two large pages the allocator does not change, and a long array gets its own
+/// mapping.
 TEST(LargePages, LeaveTheAllocatorAloneForALittle) {
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "another allocator";
 #else
   const char* heap = static_cast<char*>(sbrk(0));
-  ASSERT_EQ(mallopt(M_MMAP_THRESHOLD, 128 * 1024), 1);  // what glibc begins with
+  ASSERT_EQ(mallopt(M_MMAP_THRESHOLD, 128 * 1024), 1);  // the default of glibc
   shareLargePages(0);
   shareLargePages(2 * LargePages<char>::page - 1);
   EXPECT_EQ(static_cast<char*>(sbrk(0)), heap);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The damped modes nearest zero, found by Krylov subspaces, against all of them found dense.
+/// The damped modes nearest zero by Krylov subspaces, against all modes of a dense solver.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ TEST(LowestDampedModes, AreTheOnesNearestZeroOfAll) {
 }
 
 /// s and -s of a divergence have the same size as the lowest vibration: a shift of that size would
-/// be the growing one itself.
+/// equal the growing value.
 TEST(LowestDampedModes, BesideOneThatGrowsWithoutVibrationAreAllAccurate) {
   for (const double share : {1.02, 1.3, 3.0}) {
     Shaft s = shaft(50, 0.0, 0.0, false);
@@ -85,8 +85,8 @@ TEST(LowestDampedModes, RefusesWhatIsNoPencil) {
   EXPECT_THROW(lowestDampedModes(s.M, s.C, s.K, 21), ModelError);
 }
 
-/// Grid of nx x ny equal masses on equal springs, every one moving across it: omega^2 = k/m (4 - 2
-/// cos a - 2 cos b), most values twice.
+/// Grid of nx x ny equal masses on equal springs that move normal to it: omega^2 = k/m (4 - 2 cos a
+/// - 2 cos b), most values twice.
 Shaft membrane(int nx, int ny, bool free) {
   const int n = nx * ny;
   Triplets k;
@@ -139,8 +139,7 @@ void expectAmong(const QuadraticModes& modes, std::vector<std::complex<double>> 
   }
 }
 
-// Repeated values, with every kind of damping; a value that is asked for twice has to be there
-// twice.
+// Repeated values, with every kind of damping; a double value must be listed twice.
 TEST(LowestDampedModes, FindEveryCopyOfARepeatedValue) {
   struct Case {
     const char* name;
@@ -181,8 +180,8 @@ TEST(LowestDampedModes, FindMoreCopiesThanABlockHas) {
     EXPECT_NEAR(std::abs(modes.values[j]), j < copies ? 1.0 : 2.0, 1e-9) << j;
 }
 
-// A free body moves at zero twice in a Jordan chain: every motion is listed once, as zero, with
-// gyroscopics and without.
+// A rigid-body motion of a free body is zero twice in a Jordan chain: it is listed once, as zero,
+// with and without gyroscopics.
 TEST(LowestDampedModes, RigidBodyMotionsAreZeroAndListedOnce) {
   for (const auto& [n, g] : {std::pair(90, 0.0), std::pair(90, 0.4), std::pair(40, 0.4),
                              std::pair(130, 0.3), std::pair(90, 1.3), std::pair(130, 5.0)}) {
@@ -230,8 +229,8 @@ TEST(LowestDampedModes, StrongGyroscopicsAreNotDamped) {
     EXPECT_LT(std::abs(modes.values[j].real()), 1e-10 * std::abs(modes.values[j]));
 }
 
-// A free body, C = beta K: its motions at zero are no modes that relax at the rounding of a part of
-// the mass that the damping does not have.
+// A free body, C = beta K: its rigid-body motions must not appear as relaxing modes because of
+// rounding in directions that have mass but no damping.
 TEST(LowestDampedModes, StiffnessDampingLeavesWhatRestsAtRest) {
   constexpr int n = 40;
   Matrix K = Matrix::Zero(n, n);
@@ -263,8 +262,8 @@ TEST(LowestDampedModes, OverdampedDofsHaveTwoValuesEach) {
     EXPECT_LT(std::abs(found.values[j] - exact[static_cast<std::size_t>(j)]), 1e-7) << j;
 }
 
-// Without damping the stage has nothing to do but to repeat the undamped modes: s = i omega, and
-// +-sqrt(-omega^2) where omega^2 < 0.
+// Without damping the values are those of the undamped modes: s = i omega, and +-sqrt(-omega^2)
+// where omega^2 < 0.
 TEST(LowestDampedModes, WithoutDampingTheyAreTheSymmetricModes) {
   Shaft s = membrane(11, 13, false);
   const double shift = 400.0 * 0.4;  // the lowest ones become negative

@@ -46,8 +46,8 @@ TEST(MasslessDampedModes, DofsWithoutMassAreCondensed) {
   }
 }
 
-// Where neither mass nor damping acts the values are infinite: who asks for more modes than are
-// finite gets the finite ones, be the massless directions dofs or combinations of them.
+// Directions without mass and damping have infinite values. A request for more modes than finite
+// ones returns the finite ones, whether the massless directions are dofs or combinations of them.
 TEST(MasslessDampedModes, InfiniteValuesAreNoModes) {
   const int n = 6;
   for (double g : {0.0, 0.4, 60.0})
@@ -71,7 +71,7 @@ TEST(MasslessDampedModes, InfiniteValuesAreNoModes) {
 }
 
 /// K = B'B has as many motions at zero as B has columns more than rows, each twice in a chain: all
-/// of them are listed, once, with K phi = 0, whatever rounding makes of the chains.
+/// of them are listed once, with K phi = 0, despite the rounding of the chains.
 TEST(MasslessDampedModes, AllMotionsAtZeroOfABodyWithMasslessDofsAreFound) {
   const int n = 46, massless = 4;
   for (const auto& [zeros, count] : {std::pair{6, 10}, std::pair{12, 16}})
@@ -153,8 +153,8 @@ TEST(MasslessDampedModes, InfiniteValuesOfManyDofsAreNoModes) {
               1e-9 * std::abs(exact[j]));
 }
 
-// A dof with damping alone has one finite value, its neighbour with neither has none. Those of the
-// damped one are real where it relaxes alone, and lie as far out as its damping is small.
+// A dof with damping but no mass has one finite value; its neighbour without both has none. The
+// value is real if the dof relaxes alone, and is the larger the smaller the damping is.
 TEST(MasslessDampedModes, OfMasslessDofsTheDampedOnesHaveFiniteValues) {
   for (const int n : {6, 50})
     for (const double damping : {0.002, 0.02, 1.0, 50.0})
@@ -189,7 +189,7 @@ TEST(MasslessDampedModes, OfMasslessDofsTheDampedOnesHaveFiniteValues) {
       }
 }
 
-// Damping so faint that its value, -k/c, is ten powers of ten above the vibrations.
+// Damping so small that its value, -k/c, is ten orders of magnitude above the vibrations.
 TEST(MasslessDampedModes, FaintDampingOnAMasslessDofIsFound) {
   const int n = 6;
   const Shaft s = shaft(n, 0.4, 0.05, false);

@@ -34,8 +34,8 @@ using Symmetry = MumpsFactor::Symmetry;
 
 constexpr int edge = 14;  // 2744 dofs
 
-/// Masses at the points of a cube, joined with their neighbours and, unless it is free, with walls;
-/// `skew` of it acts one way only.
+/// Masses at the points of a cube, coupled to their neighbours and, unless free, to walls; `skew`
+/// is the part of the coupling that acts in one direction only.
 Sparse grid(bool free = false, double skew = 0.0) {
   Triplets entries;
   const auto number = [](int x, int y, int z) { return x + edge * (y + edge * z); };
@@ -57,8 +57,8 @@ Sparse grid(bool free = false, double skew = 0.0) {
   return sparse(edge * edge * edge, edge * edge * edge, entries);
 }
 
-/// Three of them that share their springs: grid x [2 1 1; 1 2 1; 1 1 2], with the eigenvalues of
-/// the grid times 4, 1 and 1.
+/// Three coupled grids: grid x [2 1 1; 1 2 1; 1 1 2], with the eigenvalues of the grid times 4, 1
+/// and 1.
 Sparse solid(bool free = false) {
   Triplets entries;
   forEachEntry(grid(free), [&](int row, int column, double value) {
@@ -128,7 +128,7 @@ TEST(MumpsFactor, countsEigenvalues) {
   }
 }
 
-/// The limit of the address space counts where it is below what the machine has free.
+/// The limit of the address space is used if it is below the free memory of the machine.
 TEST(FactorMemory, IsWhatTheLimitOfTheProcessLeaves) {
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
@@ -147,7 +147,7 @@ TEST(FactorMemory, IsWhatTheLimitOfTheProcessLeaves) {
   EXPECT_GE(limited.value_or(0), left - 10);
 }
 
-/// The C library keeps blocks that were freed below one that is in use.
+/// The C library keeps freed blocks below one in use.
 TEST(FactorMemory, GivesBackWhatWasFreedBefore) {
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "another allocator";
@@ -179,8 +179,8 @@ TEST(FactorMemory, IsNotSaidToBeFreeWhereItIsEnough) {
     EXPECT_NE(text(known).find("need 383 MB of memory, more than there is."), std::string::npos);
 }
 
-/// Before the factorisation, with a sentence of the rows and of both amounts of memory. A limit of
-/// what the factors need suffices.
+/// The refusal comes before the factorisation, and its message states the rows and both amounts of
+/// memory. A limit equal to the size of the factors is sufficient.
 TEST(MumpsFactor, refusesFactorsBeyondTheMemory) {
   const Sparse A = solid();
   const auto refusal = [&](long megabytes) -> std::string {
@@ -223,7 +223,7 @@ TEST(MumpsFactor, isForLargeMatricesWithLongRows) {
   EXPECT_FALSE(isExactlySymmetric(grid(false, 1e-15)));
 }
 
-/// The direct solver of such a matrix: its solution is as good, and what moves freely is named.
+/// The direct solver of such a matrix: its solution is as accurate, and free motions are named.
 TEST(MumpsFactor, standsBehindTheDirectSolver) {
   const Matrix b = scatteredNumbers(solid().rows(), 130, 5);
   const DirectSolver solver(solid());
@@ -241,8 +241,8 @@ TEST(MumpsFactor, standsBehindTheDirectSolver) {
   }
 }
 
-/// Modes with the factors of K from elsewhere are those without them; where a shift of zero does
-/// not serve, below no eigenvalue, it is not taken.
+/// Modes with given factors of K equal those without them; the factors are not used if zero is no
+/// suitable shift (not below all eigenvalues).
 TEST(MumpsFactor, servesTheModesOfTheSameMatrix) {
   Sparse one(solid().rows(), solid().rows());
   one.setIdentity();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Damped modes near a frequency, found by complex Krylov spaces, against closed forms and all
-/// modes found dense.
+/// Damped modes near a frequency by complex Krylov spaces, against closed forms and all modes of a
+/// dense solver.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -64,7 +64,7 @@ void compare(const QuadraticModes& modes, const std::vector<Complex>& exact) {
   }
 }
 
-// From models that are formed whole to some that are not, undamped, damped and gyroscopic.
+// Models small enough for dense matrices and larger ones, undamped, damped and gyroscopic.
 TEST(NearbyModes, AreThoseOfTheTargetAmongAll) {
   for (const int n : {20, 50})
     for (const double g : {0.0, 0.4})

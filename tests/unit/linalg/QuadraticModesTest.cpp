@@ -70,8 +70,8 @@ TEST(QuadraticModes, ProportionalDampingDampsEachModeAsPredicted) {
     EXPECT_NEAR(modes.values[2 * j].real(), -0.5 * (0.3 + 1e-3 * pairs.values[j]), 1e-9);
 }
 
-// Rigid motions damped by mass decay at one rate: rounding makes pairs of repeated real values, and
-// each has to be listed as often as it is there.
+// Rigid motions with mass-proportional damping decay at one rate: rounding makes pairs of repeated
+// real values, and each must be listed with its multiplicity.
 TEST(QuadraticModes, RepeatedRealValuesAreAllThere) {
   constexpr int n = 50, rigid = 5;
   std::mt19937 random(1);

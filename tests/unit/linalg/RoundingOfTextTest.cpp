@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the digits of a text file leave of rigid-body motions, and numbers that are exact.
+/// Rigid-body motions after rounding to the digits of a text file, and exact numbers.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <utility>
@@ -13,7 +13,7 @@ namespace RoundingOfTextTest {
 using namespace tooljoint;
 using namespace tooljoint::linalg;
 
-/// x with as many decimal digits.
+/// x with this number of decimal digits.
 double cut(double x, int digits) {
   if (x == 0.0) return x;
   const double last = std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(x))));
@@ -36,8 +36,8 @@ QuadraticModes lowest(const Matrix& K, int count) {
   return lowestDampedModes(M, Sparse(n, n), k, count);
 }
 
-/// Entries that have been cut off leave a free body some stiffness of their rounding, and no motion
-/// that grows; a body that is held keeps its lowest value.
+/// Truncated entries give a free body a stiffness of the size of rounding, and no growing motion; a
+/// held body keeps its lowest value.
 TEST(RoundingOfText, LeavesRigidMotionsAtZero) {
   for (const int digits : {9, 12}) {
     const auto text = [digits](double x) { return cut(x, digits); };
@@ -61,7 +61,7 @@ TEST(RoundingOfText, IsNotThatOfChosenNumbers) {
     }
 }
 
-/// A ground that drives: 999999.9 and 1999999.9 are chosen, too.
+/// A negative ground stiffness: 999999.9 and 1999999.9 are chosen values, too.
 TEST(RoundingOfText, IsNotThatOfADifference) {
   const int n = 200;
   Matrix K = -0.1 * Matrix::Identity(n, n);

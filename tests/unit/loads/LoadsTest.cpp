@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Loads: the unbalance force against the momentum of the mass it comes from, directions of weight
-/// and torque on bit, nodal forces in time, places by number and by depth, and what decks are
-/// refused.
+/// Loads: the unbalance force against the momentum of its mass, directions of weight and torque on
+/// bit, nodal forces in time, positions by number and by depth, and refused decks.
 #include <Teuchos_Array.hpp>
 #include <cmath>
 #include <functional>
@@ -73,7 +72,7 @@ double total(const std::vector<PointLoad>& loads, int node, int component, doubl
 // unbalance
 
 /// A mass m at m e (cos phi, sin phi)/m from the axis needs the force d2/dt2 of its moment; the
-/// string feels the opposite.
+/// opposite force acts on the string.
 TEST(Unbalance, IsTheRateOfChangeOfTheMomentumOfTheMass) {
   const double moment = 0.7;
   const double phase = 0.9;
@@ -324,7 +323,7 @@ TEST(LoadsDeck, Damping) {
   EXPECT_TRUE(readDamping(list).present());
 }
 
-/// A push at a measured depth, and a drag below it; as a load outside the library may give them.
+/// A push at a measured depth, and a drag below it, as in a load outside the library.
 struct Tractor final : Load {
   double depth = 5.0;
   int node = 0;  ///< 0: that at the depth

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rotary speed laws: each against finite differences and quadrature of itself, and against numbers
-/// worked out by hand.
+/// Rotary speed laws: each against finite differences and quadrature, and against numbers computed
+/// by hand.
 #include "substructures/loads/RotarySpeed.hpp"
 
 #include <Teuchos_Array.hpp>
@@ -106,7 +106,7 @@ TEST(SpeedLaw, AngleIsTheIntegral) {
     const RotarySpeed r = one.make();
     EXPECT_EQ(r.angle(0.0), 0.0) << one.name;
     double integral = 0.0;
-    const double h = 1e-4;  // the midpoint rule is right to h^2/24 max|Omega''| T, below 1e-6 here
+    const double h = 1e-4;  // error of the midpoint rule: h^2/24 max|Omega''| T, below 1e-6
     for (int i = 0; i < 40000; ++i) {
       integral += h * r.speed((i + 0.5) * h);
       if (i % 1999 == 0) {
@@ -193,7 +193,7 @@ TEST(SpeedLaw, TableOfOneEntryIsConstant) {
   EXPECT_DOUBLE_EQ(r.angle(2.5), 10.0);
 }
 
-/// Each parameter of each law changes the answer, in the direction it should.
+/// Each parameter of each law changes the result in the expected direction.
 TEST(SpeedLaw, EachParameterCounts) {
   const auto with = [](const std::string& name, const std::string& parameter, double value) {
     Teuchos::ParameterList list = name == "Ramp"       ? ramp(false)
@@ -344,7 +344,7 @@ TEST(RotarySpeed, KnowsTheSenseOfTheFirstRotation) {
             1.0);
 }
 
-/// sin(pi) is 1.2e-16 in floating point, and the speed falls from there.
+/// sin(pi) is 1.2e-16 in floating point, and the speed decreases from this value.
 TEST(RotarySpeed, DoesNotTakeRoundingForTheFirstRotation) {
   EXPECT_EQ(RotarySpeed(law("Harmonic",
                             [](auto& l) {

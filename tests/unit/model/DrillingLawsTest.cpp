@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The laws of friction that weakens and of drives: forces against their formulas, tangents against
-/// differences.
+/// The laws of velocity-weakening friction and of drives: forces against their formulas, tangents
+/// against differences.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(Stribeck, RefusesFrictionThatGrowsWithSpeed) {
   EXPECT_THROW(PointLawRegistry::instance().make("Stribeck", own, {1, 1}), DeckError);
 }
 
-/// Everything that is lost is friction or viscous: their sum is the power of the force.
+/// All losses are friction or viscous: their sum is the power of the force.
 TEST(Stribeck, LosesThePowerOfItsForce) {
   const auto law = stribeck();
   const double v = 1.3, d = 0;
@@ -67,8 +67,8 @@ TEST(SpeedControl, IntegratesTheSpeedErrorFromItsStart) {
   expectTangents(*law, {5.4}, {2.0}, x, 1e-6, 1e-6);
 }
 
-/// The limit holds, and the state takes the excess out of the integral with the rate (F_max -
-/// f)/k_p.
+/// The force stays within the limit, and the state removes the excess from the integral at the rate
+/// (F_max - f)/k_p.
 TEST(SpeedControl, HoldsItsLimitAndTheIntegral) {
   const auto law = control(60.0);
   const std::vector<double> d{0.0};

@@ -67,7 +67,7 @@ TEST(HarmonicTangent, OfCuttingHasTheDelayOfAPitch) {
   for (const auto& entry : still) EXPECT_EQ(std::abs(entry), 0.0) << "nothing passes the blades";
 }
 
-/// Remembers its motion and does not say for how long.
+/// Has a delay of unknown length.
 struct Unsaid : Formula<1, 0, 1> {
   template <class T>
   void operator()(const PointAt<T>& at, T* f, T*) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Registered laws with states and the delay line: tangents against differences, powers against the
-/// work of the force, a past against the function it was taken from.
+/// work of the force, stored samples against their function.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -97,7 +97,7 @@ TEST(StatefulLaws, ElasticPlasticYieldsAtItsForceAndKeepsTheSlip) {
   EXPECT_DOUBLE_EQ(state[1], -0.03 + 2.0 / 300.0);
 }
 
-/// Set-up code sees a law in its initial state.
+/// Set-up code evaluates a law in its initial state.
 TEST(StatefulLaws, StartRelaxed) {
   std::vector<double> f(2, 1.0);
   for (const auto& law : {maxwell(), elasticPlastic()}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The cutting law: forces against the formulas of its source, tangents against differences, the
-/// surface that a blade leaves.
+/// surface left by a blade.
 #include "model/laws/RegenerativeCutting.hpp"
 
 #include <cmath>
@@ -81,8 +81,8 @@ TEST(RegenerativeCutting, MeetsTheSurfaceOfTheBladeBefore) {
   }
 }
 
-/// A bit off bottom cuts nothing and leaves the surface as it found it; a bit that turns backward
-/// does not cut, a bit that sticks does.
+/// A bit off bottom does not cut and does not change the surface; a bit that turns backward does
+/// not cut, a sticking bit does.
 TEST(RegenerativeCutting, CutsNothingOffBottomOrBackward) {
   auto p = bit();
   p.wearFlat = 0;
@@ -105,9 +105,9 @@ TEST(RegenerativeCutting, CutsNothingOffBottomOrBackward) {
   EXPECT_NEAR(forces(law, 0, d, {0.0, 0.0}, x)[0], -stiffness * 1e-3, 1e-9 * stiffness);
 }
 
-/// A bit that advances steadily while its rotary speed swings to both signs removes the rock above
-/// its path once: depth over angle, summed forward, is what a grid over the angle loses in the same
-/// path.
+/// A bit that advances steadily while its rotary speed oscillates between both signs removes the
+/// rock above its path once: the depth summed over forward angles equals the rock removed on a grid
+/// over the angle.
 TEST(RegenerativeCutting, CutsNoRockTwiceOnItsWayForwardAgain) {
   auto p = bit();
   p.wearFlat = 0;
@@ -146,7 +146,7 @@ TEST(RegenerativeCutting, RefusesStepsLongerThanAPitch) {
   EXPECT_THROW(forces(law, 0, d, v, x), ConvergenceError);
 }
 
-/// Between samples whose rates do not go with them the limited cubic stays between their values.
+/// Between samples with inconsistent rates the limited cubic stays between their values.
 TEST(DelayLine, MonotoneShapeDoesNotOvershoot) {
   for (const auto shape : {DelayLine::Shape::Cubic, DelayLine::Shape::Monotone}) {
     const DelayLine line(1, 1.0, 12, shape);

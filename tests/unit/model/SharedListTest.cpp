@@ -43,7 +43,7 @@ TEST(SharedList, IsEmptyWhenMovedFromAndFillsAgain) {
   Names a{"u"};
   const Names b = std::move(a);
   EXPECT_EQ(b.size(), 1u);
-  EXPECT_TRUE(a.empty());  // NOLINT(bugprone-use-after-move): that it may be used is the point
+  EXPECT_TRUE(a.empty());  // NOLINT(bugprone-use-after-move): the test is about this use
   Names none;
   EXPECT_TRUE(none.empty() && none.begin() == none.end() && none == a);
   none.push_back("v");

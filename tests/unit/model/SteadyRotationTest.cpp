@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A model at a constant rotary speed: its laws, and its loads that turn.
+// A model at a constant rotary speed: its laws and its rotating loads.
 #include "model/SteadyRotation.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ Sparse scalar(double value) {
   return A;
 }
 
-/// c' = 3 Omega, k = 5 + 7 cos t, a load that turns as Omega^2, and one that is constant.
+/// c' = 3 Omega, k = 5 + 7 cos t, a rotating load proportional to Omega^2, and a constant one.
 SecondOrderModel rotor() {
   SecondOrderModel model;
   model.mass = scalar(1.0);
@@ -40,7 +40,7 @@ TEST(SteadyRotation, LawsOfTheSpeedHaveItsValueAndOthersTheirTime) {
   const auto steady = atSpeed(rotor(), 4.0, true);
   EXPECT_EQ(steady.dampingAt(0.5).coeff(0, 0), 12.0);
   EXPECT_EQ(steady.stiffnessAt(0.5).coeff(0, 0), 8.5);
-  EXPECT_EQ(steady.loadAt(0.5)[0], 9.0);  // what turns has no mean
+  EXPECT_EQ(steady.loadAt(0.5)[0], 9.0);  // a rotating load has no mean
   EXPECT_EQ(rotor().dampingAt(0.5).coeff(0, 0), 150.0);
 }
 

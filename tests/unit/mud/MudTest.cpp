@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Mud: limits of every coefficient, what each deck parameter changes, work of the Coriolis forces,
+/// Mud: limits of every coefficient, effect of each deck parameter, work of the Coriolis forces,
 /// the swirl.
 #include <array>
 #include <cmath>
@@ -180,8 +180,8 @@ TEST(MudElement, InviscidMudDoesNotDampRotation) {
               2.0, 1e-12);
 }
 
-/// What is left when nothing rotates are the terms under the law "1": they do not depend on the
-/// viscosity or on the swirl.
+/// Without rotation only the terms of the law "1" remain: they do not depend on the viscosity or on
+/// the swirl.
 TEST(MudElement, WithoutRotationOnlyConstantTermsAct) {
   MudProperties p = referenceMud();
   p.rotatingAnnulus = true;
@@ -246,9 +246,9 @@ TEST(MudElement, RigidTranslationCarriesAllTheMass) {
   }
 }
 
-/// The pair of Coriolis terms as it follows from the flow, 2 m U int N'N_z, does no work on a chain
-/// whose ends are held, and there it is the skew pair that is assembled: also where the section
-/// changes, each element keeps its own m U.
+/// The Coriolis terms of the flow, 2 m U int N'N_z, do no work on a chain with held ends, and equal
+/// the assembled skew pair there. This also holds at changes of section, since each element keeps
+/// its own m U.
 TEST(MudElement, CoriolisForcesOfAHeldChainDoNoWork) {
   const AnnularFlow mud(referenceMud());
   const int elements = 6;
@@ -276,7 +276,7 @@ TEST(MudElement, CoriolisForcesOfAHeldChainDoNoWork) {
   }
 }
 
-/// A body that whirls with the swirl, at Omega/2, feels nothing of the annular mud: mass, damping
+/// The annular mud exerts no force on a body that whirls with the swirl, at Omega/2: mass, damping
 /// and stiffness cancel.
 TEST(MudElement, SwirlingMudDoesNotResistWhirlingWithIt) {
   MudProperties p = referenceMud();
@@ -369,7 +369,7 @@ TEST(MudDeck, DefaultsAreTheReferenceFluid) {
   EXPECT_FALSE(p.rotatingAnnulus);
 }
 
-/// Each parameter of the list changes the answer, and in the direction it should.
+/// Each parameter of the list changes the result in the expected direction.
 TEST(MudDeck, EachParameterCounts) {
   const auto element = [](const std::function<void(Teuchos::ParameterList&)>& change) {
     Teuchos::ParameterList list = deckList();

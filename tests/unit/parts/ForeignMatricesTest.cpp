@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matrices of Abaqus and Ansys, and the superelement of OpenFAST: a part comes back from text
-// written here by the layouts of the manuals, and what is wrong is named by line and field.
+// Matrices of Abaqus and Ansys, and the superelement of OpenFAST: parts are read from text in the
+// layouts of the manuals, and errors name line and field.
 #include <Eigen/Dense>
 #include <cstdio>
 #include <fstream>
@@ -85,7 +85,7 @@ void expectBeam(const model::Substructure& beam, const PartContent& back) {
               DofLabel::physical(label.first, label.second - 1));
   }
   const Matrix K = beam.model.stiffnessAt(0), M = beam.model.mass;
-  // 17 digits, but of transposed entries one is written
+  // 17 digits, but only one of two transposed entries is written
   EXPECT_LE((stiffness(back) - K).cwiseAbs().maxCoeff(), 1e-14 * K.cwiseAbs().maxCoeff());
   EXPECT_LE((Matrix(m.mass) - M).cwiseAbs().maxCoeff(), 1e-14 * M.cwiseAbs().maxCoeff());
 }
@@ -105,7 +105,7 @@ TEST(AbaqusMatrices, FreeBeamComesBackFromTheStiffnessFile) {
   expectBeam(beam, folder.read("job_MASS2.mtx"));
 }
 
-/// A stiffness of Abaqus beside a mass that the second dof does not have.
+/// An Abaqus job whose second dof has stiffness but no mass.
 struct AbaqusJob : Folder {
   explicit AbaqusJob(const std::string& stiffness) {
     write("a_STIF1.mtx", stiffness);
@@ -126,10 +126,11 @@ TEST(AbaqusMatrices, OneTriangleOrBoth) {
             (Matrix(2, 2) << 5, 0, -3, 4).finished());
   EXPECT_EQ(AbaqusJob("*matrix input, TYPE = SYMMETRIC\n" + lower).stiffnessMatrix(), symmetric);
   const auto part = AbaqusJob("3,1,3,1,5.\n8,1,8,1,4.\n").read("a_STIF1.mtx").part.model;
-  EXPECT_EQ(Matrix(part.mass), (Matrix(2, 2) << 2, 0, 0, 0).finished());  // singular, and taken so
+  EXPECT_EQ(Matrix(part.mass), (Matrix(2, 2) << 2, 0, 0, 0).finished());  // singular, and accepted
 }
 
-/// Zeros may stand in both triangles beside one triangle; other pairs beside lone entries may not.
+/// Zeros may appear in both triangles of a triangular file; other pairs beside single entries may
+/// not.
 TEST(AbaqusMatrices, ZerosInBothTrianglesAreNoFullMatrix) {
   const std::string triangle = "3,1,3,1,5.\n8,1,3,1,-3.\n8,1,8,1,4.\n9,1,8,1,-1.\n9,1,9,1,2.\n";
   const Matrix expected = AbaqusJob(triangle).stiffnessMatrix();
@@ -249,7 +250,7 @@ std::string harwellBoeing(const Matrix& A, const std::vector<int>& order, bool s
   return text.str();
 }
 
-/// The beam as files of Ansys whose equations are in another order than the labels.
+/// The beam in files of Ansys, with equations in another order than the labels.
 struct AnsysJob : Folder {
   AnsysJob() {
     for (int i = 0; i < 12; ++i) order.push_back((7 * i + 3) % 12);
@@ -369,7 +370,7 @@ TEST(HarwellBoeing, NamesFaultsByLineAndField) {
   job.refuses("has no mapping file");
 }
 
-/// A superelement: six dofs of node 1 and two modes, in disorder.
+/// A superelement: six dofs of node 1 and two modes, not sorted.
 PartContent superelement() {
   PartContent content;
   content.part = samples::bar("jacket", 1, 7, 1.0 / 3.0, 6.0);
@@ -382,7 +383,7 @@ PartContent superelement() {
   return content;
 }
 
-/// What ReadFlexASCII of OpenFAST takes from the file, by its keywords.
+/// The values that ReadFlexASCII of OpenFAST reads from the file, by keyword.
 struct FlexAscii {
   explicit FlexAscii(const std::string& text) {
     std::istringstream in(text);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DMIG entries of Nastran: what is written is read again, every form of a field is understood, and
-// what is wrong is named by line and field.
+// DMIG entries of Nastran: written entries are read again, every form of a field is accepted, and
+// errors name line and field.
 #include <Eigen/Dense>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ class PunchFile {
   test::Scratch scratch_;
 };
 
-/// A header with the mass of components 1 of points 7 and 12, so that the stiffness alone is to be
-/// written.
+/// A header with the mass of component 1 of points 7 and 12, so that a test adds only the
+/// stiffness.
 std::string withMass(const std::string& stiffness) {
   return "DMIG    MAAX           0       6       2       0\n"
          "DMIG*   MAAX                           7               1\n"
@@ -120,7 +120,7 @@ TEST(NastranDmig, SquareMatrixKeepsItsTriangles) {
 }
 
 TEST(NastranDmig, OrderOfTheDofsIsThatOfTheLabels) {
-  // columns and rows come in disorder, component 5 of point 3 last in the file
+  // columns and rows are not sorted, component 5 of point 3 is last in the file
   const auto part = PunchFile(
                         "DMIG,KAAX,0,6,2\nDMIG,MAAX,0,6,2\n"
                         "DMIG,KAAX,12,2,,12,2,4.0\nDMIG,KAAX,12,1,,12,1,3.0\n"
@@ -149,7 +149,7 @@ TEST(NastranDmig, DampingLoadsAndPositions) {
   EXPECT_EQ(one.part.model.loadAt(0), (Vector(2) << 10, 0).finished());
   ASSERT_EQ(one.positions.size(), 1U);  // point 12 is given in another frame
   EXPECT_EQ(one.positions.at(7), Vector3(1.5, -2, 30));
-  // several load cases act each by a law that the deck gives
+  // each of several load cases has a law given by the deck
   const auto several = PunchFile(base + "DMIG,PAX,2,0,,12,1,20.0\n").read().part.model;
   ASSERT_EQ(several.loads.size(), 2U);
   EXPECT_EQ(several.loads[1].vector, (Vector(2) << 0, 20).finished());
@@ -260,7 +260,7 @@ TEST(NastranDmig, ModesBecomeScalarPointsAndZeroMassStays) {
   m.dofs[1] = DofLabel::modal(0, 0);
   m.dofs[2] = DofLabel::modal(0, 1);
   Sparse mass(4, 4);
-  mass.insert(1, 1) = 1.0;  // all but the first mode have none
+  mass.insert(1, 1) = 1.0;  // the other modes have none
   m.mass = mass;
   const auto back = PunchFile(dmigText(content)).read();
   EXPECT_EQ(back.part.model.componentNames, (std::vector<std::string>{"u", "s"}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part files of both kinds: what is written is read again, and what is wrong is named.
+// Part files of both kinds: written parts are read again, and errors are named.
 #include "parts/file/PartFile.hpp"
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace PartFileTest {
 
 using model::DofLabel;
 
-/// A part with everything the format knows.
+/// A part with all contents of the format.
 PartContent sample() {
   PartContent content;
   auto& part = content.part;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places of the nodes of imported parts: turned and moved so that joined nodes meet.
+// Positions of the nodes of imported parts: turned and moved so that joined nodes meet.
 #include "parts/PartsGeometry.hpp"
 
 #include <cstdint>
@@ -60,7 +60,7 @@ TEST_F(PartsGeometry, JoinedPartsMeetAndTurnedOnesGoOnInTheirDirection) {
 
 TEST_F(PartsGeometry, AChainIsPlacedWhateverTheOrderOfItsParts) {
   addBar();
-  addBar({{1, 23}});  // joined with the part behind it alone
+  addBar({{1, 23}});  // joined only with the next part
   addBar({{1, 3}});
   const auto found = positions();
   expectAt(found.at(22), 3, 0, 0);

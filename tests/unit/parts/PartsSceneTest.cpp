@@ -113,7 +113,7 @@ TEST(PartsScene, BarsOfOneFileInARowAreTheLongBar) {
   // consistent bar, exact: omega^2 = 6 k/m (1 - cos x)/(2 + cos x), x = pi / 24
   const double x = constants::pi / 24;
   EXPECT_NEAR(found[0], 6 * k / m * (1 - std::cos(x)) / (2 + std::cos(x)), 1e-9 * found[0]);
-  // joined nodes know both names, the others one; sets that nothing joins are retained
+  // joined nodes have both names, the others one; sets without a joint are retained
   int shared = 0;
   for (const auto& [number, names] : scene.nodes) shared += names.size() == 2 ? 1 : 0;
   EXPECT_EQ(shared, 2);
@@ -148,9 +148,9 @@ TEST(PartsScene, PartsOfDifferentComponentsMeet) {
   EXPECT_NEAR(found[0], (k + 4e5) / (m / 3 + 3.0), 1e-6);
 }
 
-/// A cantilever with a mass point of three translations at its tip: six rotations and translations
-/// of the beam, three of which the point has. With mass at the tip alone the frequencies are those
-/// of three springs, in any frame of the point.
+/// A cantilever with a mass point of three translations at its tip: the beam has six rotations and
+/// translations, the point three of them. With mass at the tip alone the frequencies are those of
+/// three springs, in any frame of the point.
 struct PointOnABeam {
   Files files;
   PartsSettings settings;
@@ -166,7 +166,7 @@ struct PointOnABeam {
         imported("point", write("point", 3, Matrix::Zero(3, 3), Matrix::Identity(3, 3) * 7.0))};
     settings.joints = {"beam:1 = point:1"};
   }
-  /// The stiffness that the translations have when the rotations are free.
+  /// The stiffness of the translations with free rotations.
   static Matrix translations(const Matrix& K) {
     return linalg::inverseOf(linalg::inverseOf(K).topLeftCorner(3, 3));
   }
@@ -200,8 +200,9 @@ TEST(PartsScene, APointOfTranslationsMeetsABeamOfSixDofs) {
   }
 }
 
-/// A joint of three parts is one of their common components: the rotations of two beams stay apart
-/// where the third has none, in turned parts too; single components of a turned part cannot.
+/// A joint of three parts couples their common components: the rotations of two beams stay separate
+/// if the third part has none, also in turned parts. Single components of a turned part cannot be
+/// joined.
 TEST(PartsScene, WholeTriplesOfTurnedPartsStayApart) {
   PointOnABeam one;
   one.settings.imported.push_back(one.settings.imported[0]);

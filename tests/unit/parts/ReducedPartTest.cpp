@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A part that was reduced, written, read and used again is the part that was reduced.
+// A reduced part is the same after writing, reading and reuse.
 #include "parts/ReducedPart.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -50,7 +50,7 @@ std::vector<reduction::ReducedSubstructure> reduced(const std::vector<Substructu
       fourModes());
 }
 
-/// A node that was held is none of the part any more: with its position the file would be refused.
+/// A held node is not part of the file: with its position the file would be refused.
 TEST(ReducedPart, KeepsThePositionsOfItsNodesAlone) {
   const test::Scratch scratch;
   const auto parts = bars();
@@ -102,8 +102,7 @@ TEST(ReducedPart, HasTheFrequenciesAndForcesOfTheOneReducedInPlace) {
 }
 
 TEST(ReducedPart, FitsAPartWithAnotherReferenceState) {
-  // Only "a" is exported; "b" starts from the files of another state: total displacements agree at
-  // the joint.
+  // Only "a" is exported; "b" has another reference state: total displacements agree at the joint.
   auto parts = bars();
   const auto small = reduced(parts);
   std::vector<Substructure> mixed{reducedContent(contentOf(parts[0]), small[0]).part, parts[1]};

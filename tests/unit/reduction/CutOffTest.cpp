@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Frequencies of a held bar in closed form: what a cut-off frequency keeps, and what reports
-/// print, is in Hz.
+/// Frequencies of a held bar in closed form: cut-off frequencies and printed frequencies are in Hz.
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
 #include <gtest/gtest.h>

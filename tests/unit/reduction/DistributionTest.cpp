@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Owners, twins, and the journey of a reduced part as bytes.
+/// Owners, identical parts, and the transfer of a reduced part as bytes.
 #include "reduction/project/Distribution.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -48,7 +48,7 @@ TEST(AssignOwners, BalancesHeaviestFirst) {
   EXPECT_TRUE(assignOwners({}, 3).empty());
 }
 
-/// Those that one rank alone would work on longer than all others, where messages do not count.
+/// Large parts whose work exceeds the share of a rank.
 TEST(DividedParts, AreLargeAndMoreThanTheShareOfARank) {
   EXPECT_EQ(dividedParts({90000}, 1), (std::vector<char>{0}));
   EXPECT_EQ(dividedParts({90000}, 2), (std::vector<char>{1}));
@@ -83,7 +83,7 @@ TEST(FindTwins, FindsIdenticalPartsWhateverTheirLabelsAndLoads) {
 }
 
 /// Springs to the ground of 20 and 60 N/m beside 1e11 N/m within the bars: rounding in a string,
-/// all that holds an imported part.
+/// but the only support of an imported part.
 TEST(FindTwins, ImportedPartsHaveTheSameEntries) {
   std::vector<model::Substructure> parts;
   for (const double ground : {20.0, 60.0, 20.0}) {
@@ -109,7 +109,7 @@ TEST(FindTwins, IdenticalPartsAreReducedOnce) {
   EXPECT_TRUE(twins[3].model.recovery.sharesWith(twins[1].model.recovery))
       << "the same rows times the same basis";
   EXPECT_FALSE(twins[0].model.mass.sharesWith(twins[1].model.mass));
-  for (std::size_t p = 0; p < parts.size(); ++p) {  // the same as each by itself
+  for (std::size_t p = 0; p < parts.size(); ++p) {  // the same as reduced separately
     ModeRequest request;
     request.kind = ModeRequest::Kind::Count;
     request.count = 3;

@@ -27,8 +27,8 @@ ReductionOptions with(InitialState state) {
   return options;
 }
 
-/// A clamped bar under its own weight, at rest in its static state, with cubic springs (which it
-/// does not feel there) at two nodes.
+/// A clamped bar under its own weight, at rest in its static state, with cubic springs (without
+/// force there) at two nodes.
 model::Substructure hangingBar() {
   auto part = samples::bar("hanging", 0, 12, 3.0, 2.0, {0});
   auto& m = part.model;
@@ -121,7 +121,7 @@ TEST(FitState, ReachesVectorsWithoutMass) {
   EXPECT_EQ(fitState(basis, part.model.mass, x), fitState(basis, x));
 }
 
-// The forces on the interface are coordinates behind the modes: a motion of the modes has none.
+// The interface forces are coordinates after the modes: a motion of the modes has none.
 TEST(FitState, LeavesInterfaceForcesZero) {
   auto part = samples::bar("free", 1, 8, 3.0, 2.0);
   samples::classify(part, {1, 9});

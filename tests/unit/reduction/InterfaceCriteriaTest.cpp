@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Modes chosen by what the neighbours of a part feel: closed forms of a bar, choice by share, and
-/// what cannot be chosen.
+/// Modes chosen by their effect on the neighbours of a part: closed forms of a bar, choice by
+/// share, and refused choices.
 #include "reduction/selection/InterfaceCriteria.hpp"
 
 #include <Teuchos_ParameterList.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Load vectors: static answers to loads of the interior are exact, whatever the modes.
+/// Load vectors: static responses to loads of the interior are exact with any modes.
 #include <Eigen/Dense>
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
@@ -100,8 +100,8 @@ TEST(LoadVectors, UnitForcesOnPointsAreAnsweredExactly) {
                 1e-10);
 }
 
-/// A start that moves one node is not in a small basis, and its energy says so; with vectors of the
-/// start state nothing is missing.
+/// A start that moves one node is not in a small basis, and the reported energy is large; with
+/// vectors of the initial state it is complete.
 TEST(StartStateVectors, PutTheStartIntoTheBasis) {
   auto parts = loadedFrame(false);
   for (auto& part : parts) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Interior dofs without mass, with every registered basis: it works, with exact statics and finite
-/// frequencies, or it refuses with a sentence that names the part and says what to do.
+/// Interior dofs without mass, with every registered basis: it has exact statics and finite
+/// frequencies, or refuses with a message that names the part and a remedy.
 #include <fstream>
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace MasslessInteriorTest {
 
 using namespace tooljoint;
 
-/// Bars in a chain held at its far end; three nodes inside of the second have no mass of their own
-/// nor share that of their neighbours.
+/// Bars in a chain held at its far end; three inner nodes of the second have no mass and no
+/// coupling to the mass of their neighbours.
 std::vector<model::Substructure> chain() {
   std::vector<model::Substructure> parts{samples::bar("upper", 1, 8, 3000.0, 2.0, {1}),
                                          samples::bar("middle", 9, 8, 3000.0, 2.0),
@@ -44,13 +44,14 @@ void expectExact(const std::string& basis, int modes, const std::vector<model::S
                  const model::SecondOrderModel& small) {
   const auto full = coupling::couple(parts);
   EXPECT_TRUE(Matrix(small.mass).allFinite() && Matrix(small.stiffnessAt(0)).allFinite());
-  // The coordinates of Enhanced Craig-Bampton that follow the frequencies cost it exact statics.
+  // Tied coordinates of Enhanced Craig-Bampton do not give exact statics.
   const bool promised = basis != "Enhanced Craig-Bampton" || modes < 0;
   EXPECT_LE(checks::staticError(full, small), promised ? 1e-9 : 0.05);
   const Vector exact = coupling::lowestModes(full, 3).values,
                found = coupling::lowestModes(small, 3).values;
   ASSERT_EQ(found.size(), 3);
-  // Four vectors without meaning, and four masters in the place of modes, are met from above only.
+  // With four arbitrary vectors, or four masters instead of modes, frequencies are only bounded
+  // from above.
   const bool all = modes < 0 && basis != "User Vectors";
   const double room = all ? 1e-9 : basis == "Guyan" || basis == "User Vectors" ? 10.0 : 0.01;
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -84,7 +85,7 @@ TEST_P(MasslessInterior, WorksOrIsRefusedWithASentence) {
   }
 }
 
-/// All finite modes are all there are; nothing of the reduced model is singular.
+/// The finite modes are complete; the reduced model is not singular.
 TEST(MasslessInteriorModes, FiniteOnesAreComplete) {
   const auto parts = chain();
   const auto synthesis = checks::synthesise(parts, "Craig-Bampton", -1);
@@ -94,8 +95,8 @@ TEST(MasslessInteriorModes, FiniteOnesAreComplete) {
   EXPECT_EQ(synthesis.parts[0].modes, 7);
 }
 
-/// Frame members whose middle nodes have no mass: the modes hold all of the answer to interface
-/// forces, and rounding for residual flexibility spoils no frequency.
+/// Frame members whose middle nodes have no mass: the modes contain the full response to interface
+/// forces, and a residual flexibility of rounding must not affect a frequency.
 TEST(MasslessInteriorModes, OfForcesBetweenPartsLeaveNoFlexibility) {
   auto parts = samples::loopFrame(6, false);
   for (auto& part : parts) {
@@ -119,8 +120,8 @@ TEST(MasslessInteriorModes, OfForcesBetweenPartsLeaveNoFlexibility) {
   EXPECT_LT((found - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff(), 1e-10);
 }
 
-/// A part whose boundary dofs are all it has, one of them without mass: its reduced mass is
-/// singular, which implicit integrators condense.
+/// A part with boundary dofs only, one of them without mass: its reduced mass is singular, and
+/// implicit integrators condense it.
 TEST(MasslessBoundary, PassesThrough) {
   std::vector<model::Substructure> parts{samples::bar("upper", 1, 8, 3000.0, 2.0, {1}),
                                          samples::bar("joint", 9, 2, 3000.0, 2.0)};
@@ -145,7 +146,7 @@ TEST(MasslessBoundary, PassesThrough) {
   EXPECT_LT((found - exact).cwiseAbs().maxCoeff(), 1e-9 * exact.maxCoeff());
 }
 
-/// The bar with a second component at every node, a shaft that twists: stiffness as the bar, and
+/// The bar with a second component at every node, the twist of a shaft: stiffness as the bar, and
 /// `inertia` times its mass.
 model::Substructure withTwist(const model::Substructure& bar, double inertia) {
   auto out = bar;
@@ -170,7 +171,8 @@ model::Substructure withTwist(const model::Substructure& bar, double inertia) {
 }
 
 /// A free bar without inertia about its axis twists as a whole without mass and stiffness: singular
-/// alone, regular with a neighbour, whose frequencies of twist it does not change.
+/// alone, regular with a neighbour, and without effect on the torsional frequencies of the
+/// neighbour.
 TEST(MasslessPart, AFreeMotionWithoutMassIsForTheNeighboursToHold) {
   const auto upper = samples::bar("upper", 1, 8, 3000.0, 2.0, {1});
   std::vector<model::Substructure> parts{withTwist(upper, 0.5),

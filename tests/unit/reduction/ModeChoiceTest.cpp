@@ -34,7 +34,7 @@ TEST(RoundUp, NeverCutsAPair) {
 }
 
 TEST(RoundUp, DoesNotChainThroughADenseSpectrum) {
-  // Neighbours 0.3 % apart, drawn together two by two: the cut moves by one mode at most.
+  // Values 0.3 % apart in close pairs: the cut moves by at most one mode.
   Vector values(200);
   for (int k = 0; k < 200; ++k) {
     const double omega = 100.0 * std::pow(1.003, k) * (k % 2 == 1 ? 0.9995 : 1.0);

@@ -43,7 +43,7 @@ double largestError(const Vector& found, const Vector& right) {
   return (found.head(n).cwiseQuotient(right.head(n)).array() - 1).abs().maxCoeff() / 2;
 }
 
-/// The same modes by the tree itself, with their estimates.
+/// The same modes by the tree, with their estimates.
 TreeModes ofTree(const model::Substructure& part, int parts, int count,
                  const TreeModesOptions& options) {
   const Sparse K = constantStiffness(part.model), M = part.model.mass;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A part knows what methods ask of it, and computes each quantity once.
+/// A part view provides the quantities of reduction methods and computes each once.
 #include "reduction/part/PartView.hpp"
 
 #include <Eigen/Dense>
@@ -17,7 +17,7 @@ namespace PartViewTest {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-/// Blocks of the interior that touch the boundary, of all parts.
+/// Interior blocks coupled to the boundary, of all parts.
 int blocksToFactor(const std::vector<model::Substructure>& parts) {
   int blocks = 0;
   for (const auto& part : parts)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Sorting the dofs of a part, and the sentences for what cannot be sorted.
+/// Sorting the dofs of a part, and the messages for dofs that cannot be sorted.
 #include "reduction/part/Partition.hpp"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ TEST(Partition, BlockPicksRowsAndColumns) {
   }
 }
 
-/// A large part without boundary has each of its matrices once.
+/// A large part without boundary stores each matrix once.
 TEST(Partition, TheInteriorOfAPartWithoutBoundaryIsTheMatrixItself) {
   const model::SharedSparse A = Sparse(Matrix(Matrix::Random(3, 3)).sparseView());
   Partition whole;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list "Reduction": every parameter changes what it says it changes.
+/// The deck list "Reduction": every parameter has its documented effect.
 #include "reduction/ReductionParameters.hpp"
 
 #include <Teuchos_Array.hpp>

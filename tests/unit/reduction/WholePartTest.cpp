@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A part that is kept whole beside parts that are reduced: exact, sparse, with any basis.
+/// A part kept whole beside reduced parts: exact, sparse, with any basis.
 #include "reduction/methods/WholePart.hpp"
 
 #include <Teuchos_ParameterList.hpp>

@@ -52,7 +52,8 @@ TEST(ModeTracker, CrossingModesKeepTheirNumbers) {
   }
 }
 
-// Shapes that turn by 60 degrees between two speeds have a MAC of 1/4: only smaller steps follow.
+// Shapes that rotate by 60 degrees between two speeds have a MAC of 1/4: tracking needs smaller
+// steps.
 TEST(ModeTracker, StepsAreHalvedWhereShapesTurn) {
   int calls = 0;
   ModeTracker tracker(
@@ -90,7 +91,7 @@ TEST(ModeTracker, RepeatedValuesSplitWithoutBeingLost) {
   }
 }
 
-// A mode at the edge of a window may leave it: no smaller step looks for it, and its track ends.
+// A mode at the edge of a window may leave it: the step is not reduced, and its track ends.
 TEST(ModeTracker, ModesAtTheEdgeLeaveWithoutSmallerSteps) {
   for (const bool edge : {false, true}) {
     int calls = 0;

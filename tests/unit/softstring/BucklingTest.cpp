@@ -28,8 +28,8 @@ TEST(Buckling, OfAVerticalHole) {
   EXPECT_NEAR(limits.helical, 5.55 * std::cbrt(EI * weight * weight), 1e-6);
 }
 
-/// Horizontal turn: curvature and weight stand at right angles, N^2 = w^2 + (F kappa)^2, so that
-/// F^2 solves a quadratic equation.
+/// Horizontal turn: curvature and weight are orthogonal, N^2 = w^2 + (F kappa)^2, so that F^2
+/// solves a quadratic equation.
 TEST(Buckling, OfATurn) {
   well::WellPoint point;
   point.tangent = Vector3::UnitX();
@@ -52,7 +52,7 @@ TEST(Buckling, IsLaterInABuild) {
   EXPECT_NEAR(bucklingLimits(point, weight, EI, r).sinusoidal, F, 1e-9 * F);
 }
 
-/// The mud presses a string that is lighter against the upper side as hard as weight would.
+/// Mud presses a lighter string against the upper side with the same force as an equal weight.
 TEST(Buckling, OfALightStringInHeavyMud) {
   const auto point = well::straight(100, 60 * degree)->at(50);
   const auto heavy = bucklingLimits(point, weight, EI, r),

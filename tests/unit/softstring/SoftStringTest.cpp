@@ -174,7 +174,7 @@ TEST(SoftString, HangsThePartBelowTheSurface) {
 }
 
 /// Horizontal, pushed at the bit with less than the helical limit F* = 2 sqrt(2) sqrt(E I w/r): F
-/// grows by mu w to F*, then dF/ds = mu (w + r F^2/(4 E I)), whichever way the steps fall.
+/// grows by mu w to F*, then dF/ds = mu (w + r F^2/(4 E I)), wherever the steps begin.
 TEST(SoftString, BucklesIntoAHelixWhereItDoesWithinAStep) {
   const double r = 0.108 - 0.0635, EI = pipe().youngModulus() * pipe().inertiaX();
   const double limit = 2 * std::sqrt(2.0) * std::sqrt(EI * weight / r);

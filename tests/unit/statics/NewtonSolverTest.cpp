@@ -110,7 +110,8 @@ TEST(NewtonSolver, AStiffSharpWallDefeatsStepsAsTheyAreAndResidualsButNotTheWork
 TEST(NewtonSolver, StepsAlongACurvedWallDoNotPressIntoIt) {
   StringInHole tangent(300), slides(300);
   tangent.slides = false;
-  const NewtonReport full = settle(slides, NewtonOptions::LimitedStep);  // in vain on the tangent
+  const NewtonReport full = settle(slides, NewtonOptions::LimitedStep);  // no convergence along the
+                                                                         // tangent
   EXPECT_TRUE(full.converged) << full.message;
   EXPECT_LT(3 * settle(slides, NewtonOptions::CriticalPoint).iterations,
             2 * settle(tangent, NewtonOptions::CriticalPoint).iterations);
@@ -142,7 +143,7 @@ TEST(NewtonSolver, AToleranceBelowRoundingIsToldSo) {
   EXPECT_TRUE(solve(stiff, x, attainable).converged);
 }
 
-/// Less than a millionth, at which iterations end because no more digits are there.
+/// Less than a millionth, at which iterations end because of rounding.
 TEST(NewtonSolver, StopsWhereRoundingKeepsTheResidual) {
   DenseProblem stiff(
       1, [](const Vector& x) -> Vector { return Vector::Constant(1, 1e8 * (x[0] * x[0] - 2.0)); },
@@ -177,8 +178,8 @@ TEST(NewtonSolver, RowsOfVeryDifferentSizeAreMeasuredByTheScaleOfTheProblem) {
   ASSERT_EQ(plain.history.size(), wild.history.size());
   for (std::size_t i = 0; i < plain.history.size(); ++i)
     EXPECT_NEAR(plain.history[i], wild.history[i], 1e-9 * plain.history[0]);
-  // the tolerance is asked of the scaled residual: with weights that make every row tiny the start
-  // is called solved too early
+  // the tolerance applies to the scaled residual: with weights that make every row tiny the start
+  // counts as solved
   DenseProblem unweighted = weighted(1e-12, 1e-12);
   unweighted.weight.setOnes();
   Vector z = vector2(-1.2, 1.0);
@@ -333,7 +334,7 @@ TEST(NewtonSolver, NoxAndBelosListsAreLaidOverOurs) {
   Vector y = Vector::Zero(30);
   const NewtonReport other = solve(chain, y, with(NewtonOptions::LimitedStep), nullptr, &belos);
   EXPECT_TRUE(other.converged) << other.message;
-  // what they do not know is refused
+  // unknown parameters are refused
   belos.set("Solver Type", "Gauss");
   EXPECT_THROW(solve(chain, y, {}, nullptr, &belos), ModelError);
   Teuchos::ParameterList unknown;

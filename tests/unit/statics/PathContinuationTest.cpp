@@ -16,7 +16,7 @@
 namespace tooljoint::statics {
 namespace PathContinuationTest {
 
-/// Of a clamped column, E I = L = 1.
+/// Euler load of a clamped column, E I = L = 1.
 constexpr double euler = 0.25 * constants::pi * constants::pi;
 
 /// One equation r(x, p) = 0 with its derivatives.
@@ -173,7 +173,7 @@ TEST(PathContinuation, StaysOnTheStraightColumnWithoutImperfection) {
     }
 }
 
-// x^2 = 1 - p has no solution beyond p = 1: the path comes back on the other side.
+// x^2 = 1 - p has no solution beyond p = 1: the path returns on the other branch.
 TEST(PathContinuation, SaysHowAPathEnds) {
   const Curve parabola([](double x, double p) { return x * x + p - 1.0; },
                        [](double x, double) { return 2.0 * x; },
@@ -214,7 +214,7 @@ TEST(PathContinuation, RefusesWhatDoesNotFit) {
   options = {};
   options.firstStep = 1.0;
   EXPECT_THROW(followPath(column, Vector::Zero(4), options, ignore), ModelError);
-  // what an observer throws comes through
+  // an exception of an observer is passed on
   EXPECT_THROW(followPath(column, Vector::Zero(4), PathOptions{},
                           [](const PathPoint&) -> bool { throw DeckError("observer"); }),
                DeckError);

@@ -163,8 +163,7 @@ struct StringInHole : model::NonlinearProblem {
 };
 
 /// Masses on soft springs held by dry friction 2/pi atan(x/width): far from the solution the slope
-/// is that of the springs alone and full Newton steps jump to and fro; near it the friction is
-/// stiff.
+/// is that of the springs alone and full Newton steps oscillate; near it the friction is stiff.
 struct FrictionChain : model::NonlinearProblem {
   int n;
   double spring = 1.0, friction = 100.0, width = 1e-3, load = 20.0;

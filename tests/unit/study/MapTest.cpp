@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The Map list: its grid, what it refuses, and what is kept of a point.
+/// The Map list: its grid, refused lists, and the stored data of a point.
 #include <gtest/gtest.h>
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// eps_t, eps_n and vibration error on histories small enough to work out by hand.
+/// eps_t, eps_n and vibration error on histories small enough for hand calculation.
 #include "study/Metrics.hpp"
 
 #include <cmath>
@@ -41,8 +41,8 @@ TEST(Metrics, ErrorOverTimeIsTheMeanOfTheComponents) {
 TEST(Metrics, AComponentThatNeverMovesIsLeftOut) {
   const TwoNodes h;
   auto changed = h.reference;
-  changed[4] += 0.1;  // v of node 2 at t = 0; its u is zero at all times and not judged: the mean
-                      // is over v and w
+  changed[4] += 0.1;  // v of node 2 at t = 0; its u is always zero and is ignored: the mean is over
+                      // v and w
   const auto error = study::errorOverNodes(h.view(changed), h.view(h.reference));
   ASSERT_EQ(error.value.size(), 2u);
   EXPECT_NEAR(error.value[1], 0.1 / std::sqrt(2.0) / 2.0, 1e-15);

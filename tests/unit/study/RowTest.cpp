@@ -92,7 +92,7 @@ TEST(Ratios, AgainstTheBaselineAndTheBestFullRun) {
   EXPECT_NEAR(*ratios[2].bestFull, 2.0 * std::sqrt(10.0), 1e-9);
   EXPECT_NEAR(*ratios[0].bestFull, 1.0, 1e-12);
   EXPECT_NEAR(*ratios[4].bestFull, 0.02 * std::sqrt(10.0), 1e-9);
-  EXPECT_FALSE(ratios[3].bestFull);  // no full run is that good
+  EXPECT_FALSE(ratios[3].bestFull);  // no full run is that accurate
   EXPECT_FALSE(ratios[5].bestFull);
   EXPECT_FALSE(ratios[5].baseline);
   EXPECT_FALSE(study::ratios(rows, "")[2].baseline);

@@ -9,7 +9,7 @@ namespace SpeedUpTest {
 
 using namespace tooljoint;
 
-/// cost = 1/error for "a"; "b" is dearer and has one run only.
+/// cost = 1/error for "a"; "b" is more expensive and has only one run.
 const std::vector<study::CostPoint> points{
     {"a", 1e-1, 10.0}, {"a", 1e-3, 1000.0}, {"b", 1e-2, 500.0}};
 
@@ -30,7 +30,7 @@ TEST(BestCost, IsUnknownBelowAllErrors) { EXPECT_FALSE(study::bestCostAt(1e-4, p
 
 TEST(BestCost, LinesAreNotJoined) {
   const std::vector<study::CostPoint> apart{{"a", 1e-1, 1.0}, {"b", 1e-3, 100.0}};
-  EXPECT_EQ(*study::bestCostAt(1e-2, apart), 100.0);  // only b is as good as that
+  EXPECT_EQ(*study::bestCostAt(1e-2, apart), 100.0);  // only b is that accurate
 }
 
 TEST(BestCost, AnAccurateAndCheapRunWinsOverTheLineToAWorseOne) {

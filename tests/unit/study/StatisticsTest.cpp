@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Statistics of motions whose quantiles, duties, spreads and spectra are known.
+/// Statistics of motions with known quantiles, duties, spreads and spectra.
 #include "study/Statistics.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// When a study says that the step, not the basis, limits its reduced runs.
+/// The message of a study that the step, not the basis, limits its reduced runs.
 #include "study/StepLimit.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ study::StudyRow reduced(double error, long dofs) {
 study::StudyRow full(double error) { return row(study::RunKind::Method, false, error, 100); }
 study::StudyRow check(double error) { return row(study::RunKind::Check, false, error, 100); }
 
-/// Rows that all have the same list Transient.
+/// Messages for rows with the same list Transient.
 std::vector<std::string> said(const std::vector<study::StudyRow>& rows) {
   return study::stepLimits(rows, std::vector<std::string>(rows.size(), "1 ms"));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The Study list: what it means, what it refuses, and the runs it makes.
+/// The Study list: its meaning, refused lists, and its runs.
 #include <gtest/gtest.h>
 #include <string>
 

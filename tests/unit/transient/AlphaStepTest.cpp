@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Steps of generalized-alpha in which walls are met as impacts: what is left at their end is in
-/// balance.
+/// Steps of generalized-alpha with impacts on walls: the state at their end is in equilibrium.
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
@@ -10,7 +9,7 @@ namespace tooljoint::transient::testing {
 namespace AlphaStepTest {
 
 /// A chain of 400 consistent masses of 1 kg falls at 1 m/s; two of its nodes meet hard floors, far
-/// from each other and not together.
+/// from each other and at different times.
 model::SecondOrderModel chainOntoTwoFloors() {
   constexpr int n = 400;
   auto chain = springChain(n, 1.0, 10.0, 1e6);
@@ -33,8 +32,8 @@ model::SecondOrderModel chainOntoTwoFloors() {
   return chain;
 }
 
-/// M q'' + C v + K q = F + R'f: impacts act in full on q'' too, near the floors and (by M^-1, which
-/// falls by 3.7 from node to node) nowhere else.
+/// M q'' + C v + K q = F + R'f: impacts act in full on q'' too. M^-1 decreases by 3.7 from node to
+/// node, so they act near the floors only.
 TEST(AlphaStep, EndsInBalanceWhereWallsAreMetAsImpacts) {
   const auto model = chainOntoTwoFloors();
   const auto& floor = model.points[0];

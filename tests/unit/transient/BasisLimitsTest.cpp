@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a reduced motion tells of vibration where its basis ends, and beyond.
+/// Indicators of vibration at and above the cut-off of the basis of a reduced motion.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Blocks, products and factors against dense algebra, on chains, loops, stars, arrows and anything
-/// else.
+/// Blocks, products and factors against dense algebra, on chains, loops, stars, arrows and random
+/// graphs.
 #include "linalg/blocks/BlockFactor.hpp"
 
 #include <Eigen/LU>
@@ -89,7 +89,7 @@ void expectSolves(const Sample& sample) {
   pattern.add(sample.sparse, 1.0, values);
   BlockFactor factor(pattern);
   for (int repeat = 0; repeat < 2;
-       ++repeat) {  // the second factorisation must not see what the first left behind
+       ++repeat) {  // data of the first factorisation must not affect the second
     std::copy(values.begin(), values.end(), factor.values());
     ASSERT_EQ(factor.factor(), -1);
   }
@@ -119,8 +119,8 @@ void expectSolves(const Sample& sample) {
               1e-14 * x.cwiseAbs().dot(sample.dense.cwiseAbs() * x.cwiseAbs()));
 }
 
-/// A x and x'A x of a symmetric chain of blocks (but for its diagonal blocks, if so wanted), whole
-/// and in runs, against Eigen's sparse product.
+/// A x and x'A x of a symmetric chain of blocks (optionally with unsymmetric diagonal blocks),
+/// whole and in runs, against Eigen's sparse product.
 void expectSymmetricProduct(const std::vector<int>& widths, bool skewDiagonal = false) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -162,7 +162,7 @@ void expectSymmetricProduct(const std::vector<int>& widths, bool skewDiagonal = 
   const double sum = in.cwiseAbs().dot(size);
   EXPECT_NEAR(form, x.dot(matrix * x), 1e-14 * sum);
   EXPECT_NEAR(product.form(values.data(), in.data()), form, 1e-14 * sum);
-  // a little that is not symmetric is seen
+  // a small unsymmetric part is detected
   values[pattern.address(pattern.start(1), pattern.start(0))] *= 1 + 1e-9;
   EXPECT_FALSE(BlockProduct(pattern, {&values}).isSymmetric());
 }
@@ -264,8 +264,8 @@ TEST(BlockFactor, invertsWhatIsWanted) {
   }
 }
 
-// A force on one block of a stiff chain: the whole answer without a bound, what is above the bound
-// with one, and only there.
+// A force on one block of a stiff chain: the whole solution without a bound; with a bound only the
+// values above it.
 TEST(BlockFactor, solvesNearAForce) {
   for (const int width : {6, 3, 70}) {
     Sample sample(std::vector<int>(60, width), chain(60), 3);
@@ -287,7 +287,7 @@ TEST(BlockFactor, solvesNearAForce) {
     Vector whole = force;
     factor.solve(whole.data());
     for (const double small : {0.0, 1e-9}) {
-      std::vector<int> live{block, block};  // one may be named twice
+      std::vector<int> live{block, block};  // duplicates are allowed
       Vector near = force;
       factor.solveNear(near.data(), live, weight.data(), small);
       EXPECT_LE((near - whole).cwiseAbs().maxCoeff(), 4 * small + 1e-15) << width;
@@ -350,7 +350,7 @@ TEST(Partition, uncoupledFamiliesGetBlocksOfTheirOwn) {
   a(2, 2) = a(5, 5) = 2, a(2, 5) = a(5, 2) = -1;
   const Sparse sparse = a.sparseView();
   const auto partition = partitionDofs({&sparse}, {0, 0, 0, 1, 1, 1}, std::vector<int>(6, 0));
-  // Both nodes see the same neighbours in each family, so each family is one block.
+  // Both nodes have the same neighbours in each family, so each family is one block.
   EXPECT_EQ(partition.blocks(), 2);
   EXPECT_EQ(partition.dof, (std::vector<int>{0, 1, 3, 4, 2, 5}));
 }
@@ -376,7 +376,7 @@ TEST(BlockProduct, skipsZeroAndKnowsDiagonalBlocks) {
   BlockValues values(blocks.storage(), 0.0);
   blocks.add(sparse, 1.0, values);
   const BlockProduct product(blocks, {&values});
-  // What the product takes for zero is not read: spoil it.
+  // The product must not read entries that are assumed to be zero: they are set to other values.
   for (int row = 0; row < 2; ++row) values[blocks.offset(blocks.find(row, 1 - row))] = std::nan("");
   values[blocks.offset(blocks.find(0, 0)) + 1] = std::nan("");
   const Vector x = Vector::LinSpaced(20, 1, 3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The file of a checkpoint: everything in it comes back, and no changed byte is taken; and which
-/// models and steps it goes on with.
+/// The file of a checkpoint: all contents are restored, changed bytes are refused, and only
+/// matching models and steps are accepted.
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
@@ -131,7 +131,7 @@ TEST(Checkpoints, comeAtMultiplesOfTheirInterval) {
   ASSERT_EQ(points.size(), 2u);  // none at the end
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_NEAR(points[i].state.t, 0.1 * static_cast<double>(i + 1), 1.1e-3);
-  // a run that goes on has those that are left
+  // a continued run has the remaining ones
   const auto first = points.front();
   points.clear();
   hooks.resume = &first;
@@ -145,7 +145,8 @@ TEST(Checkpoints, comeAtMultiplesOfTheirInterval) {
   EXPECT_TRUE(points.empty());
 }
 
-/// On other ranks rounding of the static state is let pass, a change that matters is not.
+/// With another number of ranks, rounding of the static state is accepted, a relevant change is
+/// not.
 TEST(Identity, inFiguresLetsRoundingPass) {
   const auto o = wayToStep("Generalized-alpha", 0.3);
   const auto same = identityOf(eventful(), o).figures;
@@ -165,7 +166,7 @@ TEST(Identity, inFiguresLetsRoundingPass) {
   EXPECT_FALSE(agree(same, identityOf(eventful(), longer).figures));
 }
 
-/// What a checkpoint is compared with: everything that changes the motion changes it.
+/// The identity compared with a checkpoint: every input that affects the motion changes it.
 TEST(Identity, differsForEveryInput) {
   const auto o = wayToStep("Generalized-alpha", 0.3);
   const auto same = identityOf(eventful(), o).digest;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The compiled model says what the model says: laws, products, loads, point forces and their
+/// The compiled model agrees with the model: laws, products, loads, point forces and their
 /// tangents.
 #include "transient/compiled/CompiledModel.hpp"
 
@@ -167,7 +167,7 @@ TEST(CompiledModel, changeSinceAnotherTime) {
   EXPECT_LT((back - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-/// Bit by bit: what is formed decides in which order sums are taken.
+/// Bitwise: the order of sums depends on the formed matrices.
 TEST(CompiledModel, comesBackFromOtherTimes) {
   const auto source = rich();
   CompiledModel model(source);
@@ -273,8 +273,8 @@ TEST(PointBatch, forcesAreThoseOfTheModel) {
   }
 }
 
-// Without what pushes on, no motion of a point gains energy from its tangent; what does not push
-// stays as it is.
+// After the removal of destabilising parts, a tangent supplies no energy to any motion of its
+// point; other tangents do not change.
 TEST(PointBatch, takesOutWhatPushesOn) {
   auto source = rich();
   addBore(source, false);
@@ -324,8 +324,8 @@ Matrix onPattern(const linalg::BlockPattern& pattern, const std::vector<double>&
   return A;
 }
 
-// The filter of the phase correction is a positive matrix only if contact adds stiffness to it that
-// is symmetric and resists: friction, which follows the normal force, would make vibration grow.
+// The filter of the phase correction is a positive matrix only if contact adds symmetric, restoring
+// stiffness to it: friction depends on the normal force and would make vibration grow.
 TEST(PointBatch, whatResistsByPositionIsSymmetric) {
   for (bool general : {false, true}) {
     auto source = rich();
@@ -401,7 +401,7 @@ TEST(PointBatch, looksOnlyAtPointsThatCanTouchBeforeTheNextLook) {
   batch.look(0.0, 0.1, q.data());
   EXPECT_EQ(batch.active(), (std::vector<int>{3}))
       << "without a rate only what touches is looked at";
-  q << 0.4, 0.15, 0.00, 0.01;  // closing at 1, 0.5, 0.5 m/s; the last one leaves
+  q << 0.4, 0.15, 0.00, 0.01;  // closing at 1, 0.5, 0.5 m/s; the last one opens
   batch.look(0.1, 0.1, q.data());
   EXPECT_EQ(batch.active(), (std::vector<int>{2}));
   q << 0.3, 0.10, -0.05, 0.03;

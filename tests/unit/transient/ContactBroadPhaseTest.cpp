@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// No point loses its clearance in its sleep, and most of them do sleep.
+/// No inactive point closes its clearance, and most points are inactive.
 #include "transient/compiled/ContactBroadPhase.hpp"
 
 #include <algorithm>
@@ -83,7 +83,7 @@ Walk walk(double size, int steps) {
   return result;
 }
 
-/// A watch that takes over the memory of another wakes the same points from there on.
+/// A broad phase with the restored memory of another activates the same points.
 TEST(ContactBroadPhase, goesOnFromItsMemory) {
   const Cloud cloud(3);
   auto watch = cloud.watch();
@@ -130,8 +130,8 @@ TEST(ContactBroadPhase, PointsFarFromTheWallSleep) {
   EXPECT_LT(calm.looks, 4000L * Cloud::points / 2);
 }
 
-/// Rows of one sign that all coordinates pull alike: the bound is the way the point really goes, so
-/// it is looked at when it touches and not long before.
+/// Rows of one sign with all coordinates moving alike: the bound equals the true displacement of
+/// the point, so the point is evaluated when it touches and not long before.
 TEST(ContactBroadPhase, ThePointThatGoesStraightToTheWallIsLookedAtInTime) {
   constexpr int points = 3, width = 2, coordinates = 20;
   std::vector<int> rowBegin{0}, column;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The relaxation of point forces near few points: what is measured after it, and that it ends
-/// where the relaxation of all ends.
+/// The relaxation of point forces near few points: the evaluated points, and agreement of its
+/// result with that of the full relaxation.
 #include "transient/contact/ContactForceUpdate.hpp"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(ContactForceUpdate, MeasuresAPointAgainWhoseChangeDoesNotTravel) {
   ASSERT_GT(before, 1e3 * step.small);
   ASSERT_TRUE(step.relaxation.correct(0.0, cv, step.small, false))
       << "two points of 300 positions are few";
-  step.relaxation.solveNear(step.factor, 1e9, step.delta);  // nothing is large enough to travel
+  step.relaxation.solveNear(step.factor, 1e9, step.delta);  // no value is above the bound
   EXPECT_EQ(step.relaxation.reached(), 0U);
   EXPECT_DOUBLE_EQ(step.relaxation.nearShare(), 2 * Tuned::positionsPerPoint / 300.0);
   EXPECT_LT(step.error(), 1e-3 * before) << "its force is now that of where it is";
@@ -107,9 +107,9 @@ TEST(ContactForceUpdate, NearFewPointsEndsWhereAllEnd) {
             1e-10 * all.delta.cwiseAbs().maxCoeff() + 10 * near.small);
 }
 
-/// The same chain with floors 0.1 mm below it that damp hard, so that what is pressed onto them
-/// comes to rest within the micrometre in which they begin. The second one is met although it is
-/// not looked at, or (`seen`) is looked at from the start.
+/// The same chain with strongly damping floors 0.1 mm below it: a mass pressed onto them comes to
+/// rest within the first micrometre. The second floor is met although it is not active, or (`seen`)
+/// is active from the start.
 struct SoftFloors {
   explicit SoftFloors(bool seen)
       : source(testing::springChain(300, 1.0, 0.0, 1e6)),
@@ -135,7 +135,7 @@ struct SoftFloors {
     relaxation.solve(factor, nullptr, delta);
     settle(relaxation.evaluate(0.0, cv, delta, small, force));
   }
-  /// Iterations near few points until all are right; how many.
+  /// Iterates near few points until all have converged; returns the number of iterations.
   int settle(double error) {
     int count = 0;
     for (; error > small && count < 60; ++count) {
@@ -189,8 +189,8 @@ TEST(ContactForceUpdate, TakesNothingForAnImpactThatHasComeToRest) {
   EXPECT_FALSE(floors.isScaled());
 }
 
-/// Of one mass of 1 kg pressed onto a floor of this stiffness by 100 N, at the depth where it is
-/// expected to end: whether it is an impact.
+/// Whether a mass of 1 kg, pressed onto a floor of this stiffness by 100 N, counts as an impact at
+/// its expected final depth.
 bool isImpact(double stiffness, double depth) {
   auto source = testing::springChain(1, 1.0, 0.0, 1e3);
   testing::addFloor(source, stiffness, 1e4, 1e9);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The predicted cost of a step against counts that can be made by hand.
+/// The predicted cost of a step against counts made by hand.
 #include "transient/CostModel.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The energy ledger: what is lost is booked where it was lost, and energy made of nothing is no
-/// result.
+/// The energy ledger: losses are booked under their cause, and a run that generates energy is
+/// refused.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,7 @@ TEST(Energy, numericalDissipationShowsAsResidual) {
 }
 
 TEST(Energy, loadsAndGyroscopicsAreBooked) {
-  // A rotor pushed by a constant force; the gyroscopic term does no work and appears nowhere.
+  // A rotor pushed by a constant force; the gyroscopic term does no work and is not booked.
   auto model = denseModel(Matrix::Identity(2, 2), Matrix(), 100 * Matrix::Identity(2, 2), 2);
   Matrix G(2, 2);
   G << 0, 3, -3, 0;
@@ -74,8 +74,8 @@ TEST(Energy, loadsAndGyroscopicsAreBooked) {
 }
 
 /// A free body under a force 6 t moves as q = t^3/2: the work of the force is its kinetic
-/// energy 2.25 t^4. The mean of the force over a step counts, not that at its start or end, which
-/// would be 3 % off.
+/// energy 2.25 t^4. The work uses the mean of the force over a step; the force at its start or end
+/// would give an error of 3 %.
 TEST(Energy, aGrowingLoadDoesTheWorkOfItsMean) {
   auto model = oscillator(2.0, 0.0, 0.0, 0.0, 0.0);
   model.loads.push_back(
@@ -108,9 +108,9 @@ TEST(Energy, bouncingBallsBalance) {
   EXPECT_LT(std::abs(report.energy.residual()), 2e-3);
 }
 
-/// Dampers take more than c v^2 of the mean speed of a step: (omega h)^2 / 12 more of a vibration.
-/// A mass on a damped stop, omega = 500 1/s, booked every 0.5 ms, loses half a percent more, all of
-/// which is missing in its kinetic energy after the impact.
+/// Dampers dissipate more than c v^2 at the mean speed of a step: (omega h)^2 / 12 more in a
+/// vibration. With a mass on a damped stop, omega = 500 1/s, booked every 0.5 ms, this is half a
+/// percent of its kinetic energy after the impact.
 TEST(Energy, dampingOfAnImpactIsThatOfItsChangingSpeed) {
   const double m = 2, v = 0.4;
   auto model = denseModel(scalar(m), Matrix(), Matrix());
@@ -124,8 +124,8 @@ TEST(Energy, dampingOfAnImpactIsThatOfItsChangingSpeed) {
 }
 
 /// A body of 10 kg that flies against a hard wall and slides along it slowly: friction stops the
-/// sliding in the first steps of the impact and takes m u'^2/2 at most. The law in the middle of
-/// such a step, at half of the speed, would take mu F_n u'/2: up to twenty times as much.
+/// sliding in the first steps of the impact and dissipates at most m u'^2/2. The law in the middle
+/// of such a step, at half of the speed, would give mu F_n u'/2: up to twenty times as much.
 TEST(Energy, frictionThatStopsAPointWithinAStepTakesWhatItHad) {
   const double mass = 10.0, sliding = 0.01, had = 0.5 * mass * sliding * sliding;
   contact::ContactPoint wall;
@@ -153,14 +153,14 @@ TEST(Energy, frictionThatStopsAPointWithinAStepTakesWhatItHad) {
     acceptCoarseSteps(o);
     const auto report = integrate(model, o, samples);
     EXPECT_LT(report.energy.friction, 1.1 * had) << stiffness;
-    if (stiffness > 1e8) continue;  // harder ones let it go before it is at rest
+    if (stiffness > 1e8) continue;  // harder walls release it before it is at rest
     EXPECT_LT(std::abs(samples.v.back()[0]), 0.1 * sliding);
     EXPECT_NEAR(report.energy.friction, had, 0.3 * had);
   }
 }
 
-/// A floor that gives back more than it gets and keeps silent about it: what a step that makes
-/// energy looks like.
+/// A floor that returns more energy than it absorbs and reports none: it imitates a step that
+/// generates energy.
 class Trampoline final : public model::PointLaw {
  public:
   int size() const override { return 1; }
@@ -211,7 +211,7 @@ TEST(Energy, aRunThatLivesOnEnergyMadeOfNothingIsRefused) {
   }
 }
 
-/// Damping that is negative feeds the motion: that is work, and no instability of the scheme.
+/// Negative damping supplies energy to the motion: this is work, not an instability of the scheme.
 TEST(Energy, aVibrationThatGrowsByItselfIsNotRefused) {
   const double c = -0.8, omega = std::sqrt(400 - 0.16);
   auto model = oscillator(1, c, 400, 1e-3, 0);
@@ -252,7 +252,7 @@ TEST(Energy, aBalanceThatIsOpenIsWarnedOf) {
   }
 }
 
-/// A wall far too stiff for the step: impacts never make energy, at any spectral radius, and
+/// A wall far too stiff for the step: impacts generate no energy, at any spectral radius, and
 /// nothing passes through the wall.
 TEST(Energy, impactsOnAWallTooStiffForTheStepMakeNone) {
   for (double radius : {0.2, 0.8, 1.0})
@@ -262,7 +262,7 @@ TEST(Energy, impactsOnAWallTooStiffForTheStepMakeNone) {
       Keep samples;
       auto o = options("Generalized-alpha", 2.0, 2e-3, 0.01);
       o.own.set("Spectral Radius", radius);
-      acceptCoarseSteps(o);  // where the balls are after the first bounce is lost
+      acceptCoarseSteps(o);  // positions after the first bounce are inaccurate
       const auto report = integrate(model, o, samples);
       EXPECT_EQ(report.counters.unconvergedSteps, 0);
       EXPECT_GT(report.energy.numerical(), -0.01 * report.energy.supplied)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rebounds: a mass that falls on a wall far too stiff for the step comes back as the law says, at
-/// every step, spectral radius and place within a step; contact that rests costs no short steps.
+/// Rebounds: a mass that falls on a wall far too stiff for the step rebounds according to the law,
+/// for every step, spectral radius and time within a step; resting contact needs no short steps.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ model::SecondOrderModel fallingMass(double k, double c, double more, int count =
   return model;
 }
 
-/// Height of the first apex beside that of the drop, from the energy in free flight at 0.08 s.
+/// Height of the first apex over that of the drop, from the energy in free flight at 0.08 s.
 double apex(const model::SecondOrderModel& model, const TransientOptions& o) {
   Keep samples;
   integrate(model, o, samples);
@@ -51,7 +51,7 @@ TEST_P(Rebound, IsThatOfAnElasticWall) {
     }
 }
 
-/// Each has a fortieth of the energy that they misplace together.
+/// Each mass has a fortieth of the energy, and all of them misplace energy together.
 TEST_P(Rebound, OfManyMassesAtOnceIsThatOfOne) {
   const auto [h, radius] = GetParam();
   for (double k : {1e7, 1e9, 1e11}) {
@@ -61,8 +61,8 @@ TEST_P(Rebound, OfManyMassesAtOnceIsThatOfOne) {
   }
 }
 
-/// A body of 16,000 times the mass that vibrates with 0.2 m/s, and touches nothing, has most of the
-/// energy: what the light one loses is as much for it.
+/// Most of the energy belongs to a body of 16,000 times the mass that vibrates with 0.2 m/s without
+/// contact; the allowed loss of the light mass is the same.
 TEST_P(Rebound, IsThatOfTheWallBesideAHeavyBodyThatMoves) {
   const auto [h, radius] = GetParam();
   const double heavy = 16000 * mass, w = 2 * constants::pi * 9.0;
@@ -79,8 +79,8 @@ TEST_P(Rebound, IsThatOfTheWallBesideAHeavyBodyThatMoves) {
   }
 }
 
-/// A body of the same mass that swings with 2.5 m/s and touches nothing: the light fall, 0.14 m/s,
-/// is resolved as if it were alone.
+/// A body of the same mass swings with 2.5 m/s without contact: the slower fall, 0.14 m/s, is
+/// resolved as it would be alone.
 TEST_P(Rebound, IsThatOfTheWallBesideABodyThatIsFaster) {
   const auto [h, radius] = GetParam();
   const double fast = 2 * constants::pi * 8.0, low = 0.001;
@@ -97,7 +97,7 @@ TEST_P(Rebound, IsThatOfTheWallBesideABodyThatIsFaster) {
   }
 }
 
-/// The error of a step is that of a smooth motion; impacts shorten the steps that it allows.
+/// The local error is that of a smooth motion; impacts shorten the steps further.
 TEST_P(Rebound, IsThatOfTheWallInStepsChosenByTheirError) {
   const auto [h, radius] = GetParam();
   for (double k : {1e7, 1e9}) {
@@ -108,8 +108,8 @@ TEST_P(Rebound, IsThatOfTheWallInStepsChosenByTheirError) {
   }
 }
 
-/// k and c for which half of the velocity comes back: e = 0.5 of a spring and a dashpot that push
-/// only, with zeta = -ln(e) / sqrt(pi^2 + ln(e)^2) about; the truth is that of steps of 0.1 us.
+/// k and c for a restitution of e = 0.5, for a spring and a dashpot that only push: approximately
+/// zeta = -ln(e) / sqrt(pi^2 + ln(e)^2). The reference is a run with steps of 0.1 us.
 TEST_P(Rebound, IsThatOfALossyWall) {
   const auto [h, radius] = GetParam();
   for (double zeta : {0.05, 0.2, 0.35}) {
@@ -133,8 +133,8 @@ double dissipation(double e, double speed) {
   return low / speed;
 }
 
-/// Damping that grows with the depth asks for no shorter steps than its spring does, wherever in
-/// the wall the step ends in which it is met.
+/// Damping that grows with the depth needs no shorter steps than the spring, wherever in the wall
+/// the step of the impact ends.
 TEST_P(Rebound, IsThatOfTheLawOfHuntAndCrossley) {
   const auto [h, radius] = GetParam();
   const double e = 0.4;
@@ -152,8 +152,8 @@ TEST_P(Rebound, IsThatOfTheLawOfHuntAndCrossley) {
     }
 }
 
-/// Walls on which the force of the step stands at 1e-11 m, less than the tolerance of positions:
-/// the step may end beside the wall, and has had its force.
+/// Walls whose force of the step corresponds to a depth of 1e-11 m, less than the tolerance of
+/// positions: the step may end outside the wall although the force acted.
 TEST(Impacts, AreSeenWhereTheStepEndsBesideTheWall) {
   for (double k : {3e12, 5e13, 3e14})
     for (int i = 0; i < 20; ++i) {
@@ -180,8 +180,8 @@ TEST(Impacts, KeepTheirReboundInAdaptiveStepsOfRungeKutta) {
           << k << " " << phase;
 }
 
-/// The mean energy that rebounds lose in steps that do not resolve them, over all places within a
-/// step where the wall is met, beside reboundLoss(), which decides on halvings.
+/// The mean energy loss of unresolved rebounds, over all times of the impact within a step, against
+/// reboundLoss(), which decides on halvings.
 TEST(Impacts, UnresolvedReboundsLoseWhatTheFitSays) {
   for (double radius : {0.0, 0.2, 0.5, 0.8})
     for (double wh : {0.15, 0.3, 0.5, 0.8, 1.0, 1.2}) {
@@ -214,7 +214,8 @@ TEST(Impacts, AtRestStepsAreLongAgain) {
   EXPECT_LE(longer.counters.steps - first.counters.steps, 2100);
 }
 
-/// The step goes on from what its points were evaluated at, whatever the impact was looked at in.
+/// The step continues from the state at which its points were evaluated, wherever the impact was
+/// examined.
 TEST(Impacts, ALookLeavesThePointWhereItWas) {
   auto ball = denseModel(Matrix::Identity(1, 1), Matrix(), Matrix::Zero(1, 1));
   model::PointSet set;
@@ -286,10 +287,10 @@ std::vector<double> centre(const model::SecondOrderModel& bar, const TransientOp
   return speed;
 }
 
-/// Contact lasts 2 L / c, in which the momentum falls from -1 to 1 along a line. A bar of springs
-/// spreads the front of its wave, over some of them: the truth is RK4 in fine steps. Against a wall
-/// that stiff the order of roundings decides in which step a short bounce ends: the largest error
-/// is 0.017 in one build and 0.021 in another.
+/// Contact lasts 2 L / c, in which the momentum changes linearly from -1 to 1. In a bar of springs
+/// the wave front spreads over some springs; the reference is RK4 in fine steps. With such a stiff
+/// wall rounding decides in which step a short bounce ends: the largest error is 0.017 in one build
+/// and 0.021 in another.
 TEST(Impacts, ABarRebounds) {
   const auto bar = flyingBar();
   const double interval = 0.1 * contactTime, end = 1.4 * contactTime;
@@ -303,14 +304,14 @@ TEST(Impacts, ABarRebounds) {
     for (double h : {0.5 * perSpring, perSpring}) {
       auto o = options("Generalized-alpha", end, h, interval);
       o.own.set("Spectral Radius", radius);
-      acceptCoarseSteps(o);  // of the front of the wave, which is a jump
+      acceptCoarseSteps(o);  // the wave front is a jump
       const auto found = centre(bar, o);
       for (std::size_t i = 0; i < truth.size(); ++i)
         EXPECT_NEAR(found[i], truth[i], 0.025) << radius << " " << h << " " << i;
     }
 }
 
-/// A hard spring on a dof without mass is no impact: the dof stays in balance.
+/// A hard spring on a dof without mass is no impact: the dof stays in equilibrium.
 TEST(Impacts, ADofWithoutMassStaysInBalance) {
   Matrix M = Matrix::Zero(2, 2), K(2, 2);
   M(0, 0) = 2;
@@ -340,8 +341,8 @@ TEST(Impacts, ADofWithoutMassStaysInBalance) {
   }
 }
 
-/// A mass on a spring starts pressed 1 mm into a wall, which throws it out within the first steps:
-/// the strain of the wall, k d^2 / 2, becomes that of the spring at the apex.
+/// A mass on a spring starts pressed 1 mm into a wall, which ejects it within the first steps: the
+/// strain energy of the wall, k d^2 / 2, becomes that of the spring at the apex.
 TEST(Impacts, ContactThatIsClosedAtTheStartOpens) {
   const double pressed = 1e-3, spring = 400;
   for (double k : {1e5, 1e6, 3e6, 1e7, 1e9})

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Every integrator against closed forms, its order of convergence, and what each of its parameters
-/// does.
+/// Every integrator against closed forms, its order of convergence, and the effect of each
+/// parameter.
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
@@ -42,7 +42,7 @@ TransientReport runFor(const model::SecondOrderModel& model, const std::string& 
   auto o = options(integrator, end, step, end / 10);
   o.own = own;
   o.ledger = false;
-  acceptCoarseSteps(o);  // steps are counted, also those that lose the motion
+  acceptCoarseSteps(o);  // the test counts steps, also inaccurate ones
   return integrate(model, o, samples);
 }
 
@@ -74,11 +74,11 @@ TEST(Integrators, generalizedAlphaIsOfSecondOrderAtEverySpectralRadius) {
 }
 
 TEST(Integrators, phaseCorrectionFollowsVibrationToFourthOrder) {
-  // Undamped, so that the period error stands alone; the damping of spectral radii below 1 is of
+  // Undamped, so that only the period error remains; the damping of spectral radii below 1 is of
   // third order.
   const auto error = [](double h, double radius, bool corrected) {
-    // From rest: the velocity belonging to an amplitude is of second order still, at every time
-    // alike.
+    // The start is at rest: the velocity for a given amplitude has an error of second order, the
+    // same at every time.
     const auto model = oscillator(2, 0, 200, 0.3, 0.0);
     Keep samples;
     auto o = options("Generalized-alpha", 5.0, h, 1.0);
@@ -123,7 +123,7 @@ TEST(Integrators, adaptiveRungeKuttaFollowsItsTolerance) {
   double last = 1;
   for (double tolerance : {1e-4, 1e-6, 1e-8}) {
     auto own = with("Tolerance", tolerance);
-    own.set("Growth", 1.2);  // the growth of the source would need a thousand steps to show
+    own.set("Growth", 1.2);  // the growth of the source would show only after a thousand steps
     const double error = freeVibrationError("RK4 adaptive", 0, own);
     EXPECT_LT(error, last / 5) << "tolerance " << tolerance;
     last = error;
@@ -131,8 +131,8 @@ TEST(Integrators, adaptiveRungeKuttaFollowsItsTolerance) {
   EXPECT_LT(last, 1e-6);
 }
 
-/// q = sin(3 t) made to solve m q'' + (c + t^2 d) q' + (k + cos(t) e) q = F(t): every law of time
-/// is in it.
+/// q = sin(3 t) made to solve m q'' + (c + t^2 d) q' + (k + cos(t) e) q = F(t): it contains every
+/// law of time.
 model::SecondOrderModel manufactured() {
   auto model = oscillator(2.0, 0.5, 30.0, 0.0, 3.0);
   const int square = model.lawIndex({"t^2", [](double t) { return t * t; }});
@@ -213,15 +213,15 @@ TEST(Integrators, generalizedAlphaIsOfSecondOrderThroughASharpElasticStop) {
   EXPECT_GT(0.25 * std::log2(coarse / fine), 1.6);
 }
 
-/// Damping that sets in at once makes the force jump: where in the step that happens is not
-/// resolved, which costs an impulse proportional to the step.
+/// Damping that sets in at once makes the force jump. The time of the jump within the step is not
+/// resolved, which causes an error of the impulse proportional to the step.
 TEST(Integrators, generalizedAlphaIsOfFirstOrderWhereTheForceJumps) {
   const double coarse = impactError(4e-4, 7e11, 300);
   const double fine = impactError(2.5e-5, 7e11, 300);
   EXPECT_GT(0.25 * std::log2(coarse / fine), 0.8);
 }
 
-/// Steps of RK4 adaptive end where a law has a corner: none flies over a pulse from rest.
+/// Steps of RK4 adaptive end at corners of laws: a step from rest does not skip a pulse.
 TEST(Integrators, adaptiveStepsOfRungeKuttaEndAtCorners) {
   auto model = oscillator(1.0, 0.0, 0.01, 0.0, 0.0);
   const auto pulse = [](double t) {
@@ -244,7 +244,7 @@ TEST(Integrators, spectralRadiusDampsOnlyHighFrequencies) {
     auto o = options("Generalized-alpha", 0.5, 0.01, 0.01);
     o.own = with("Spectral Radius", radius);
     o.own.set("Phase Correction", false);  // it changes the inertia of such frequencies
-    o.ledger = false;                      // what is damped away would end the run
+    o.ledger = false;                      // the damping would end the run
     acceptCoarseSteps(o);
     integrate(oscillator(1, 0, omega * omega, 1.0, 0), o, samples);
     double largest = 0;
@@ -259,13 +259,13 @@ TEST(Integrators, spectralRadiusDampsOnlyHighFrequencies) {
 }
 
 TEST(Integrators, tighterNewtonToleranceCostsIterationsAndBuysAccuracy) {
-  // A heavy law that bends: a floor regularised over a tenth of its penetration.
+  // A strongly nonlinear law: a floor regularised over a tenth of its penetration.
   const auto model = droppedBalls(3, 1e6, 300, 1e4);
   const auto end = [&](double tolerance, long& iterations) {
     Keep samples;
     auto o = options("Generalized-alpha", 0.1, 2e-4, 0.1);
     o.own = with("Tolerance", tolerance);
-    o.own.set("Phase Correction", false);  // it takes an iteration whatever the tolerance
+    o.own.set("Phase Correction", false);  // it takes an iteration at any tolerance
     iterations = integrate(model, o, samples).counters.newtonIterations;
     return samples.q.back();
   };
@@ -332,8 +332,9 @@ TEST(Integrators, defaultRungeKuttaStepIsBoundedByTheLargestFrequency) {
   EXPECT_GT(report.counters.maxStep, 0.25 * limit);
 }
 
-/// A wall bounds the step of those that touch it and of those that may: 1e6 N/m on 1 kg turns by
-/// 1000 rad/s, and an impact is half a radian per step. Without it the sampling interval does.
+/// A wall bounds the step of points in contact and of points that may touch: 1e6 N/m on 1 kg gives
+/// 1000 rad/s, and an impact half a radian per step. Without a wall the sampling interval bounds
+/// the step.
 TEST(Integrators, theStepOfRungeKuttaKnowsContactThatIsOpenAtFirst) {
   auto model = oscillator(1.0, 0, 100.0, -0.001, 0);
   const auto without = runFor(model, "RK4", 0.1, 0);
@@ -347,7 +348,7 @@ TEST(Integrators, theStepOfRungeKuttaKnowsContactThatIsOpenAtFirst) {
   EXPECT_NEAR(without.counters.maxStep, 0.01, 1e-12);
 }
 
-/// A mass thrown at a wall of 3e9 N/m comes back with its energy.
+/// A mass thrown at a wall of 3e9 N/m rebounds with its energy.
 TEST(Integrators, theDefaultStepOfRungeKuttaResolvesAStiffWall) {
   auto model = oscillator(3.0, 0, 100.0, 0.02, -1.0);
   addFloor(model, 3e9, 0, 7e11);
@@ -388,7 +389,7 @@ TEST(Integrators, theDefaultStepOfRungeKuttaKnowsSkewStiffness) {
   EXPECT_LT(std::abs(report.energy.residual()), 0.02);
 }
 
-/// Dry friction of 1 N that is full from 1 mm/s on damps 1 kg by 1500 1/s where it sticks, but not
+/// Dry friction of 1 N, fully developed at 1 mm/s, damps 1 kg with 1500 1/s when it sticks, but not
 /// at the start, so that the sampling interval is the default step.
 TEST(Integrators, RungeKuttaWarnsOfStepsTooLongForALawThatSticks) {
   auto model = oscillator(1.0, 0, 10.0, 0, 1.0);
@@ -454,7 +455,8 @@ TEST(Integrators, adaptiveStepGrowsShrinksAndStartsAsAsked) {
   const auto still = runFor(model, "RK4 adaptive", 0.02, 0, with("Growth", 1.0));
   EXPECT_EQ(still.counters.steps, 2000);
   EXPECT_EQ(still.counters.rejected, 0);
-  // Far too long a first step is shrunk until the error fits: by 1.1 at a time, or at once.
+  // A first step that is far too long is shortened until the error is within the tolerance: by 1.1
+  // at a time, or at once.
   const auto shrunk = runFor(model, "RK4 adaptive", 0.2, 0, with("First Step", 0.05));
   auto own = with("First Step", 0.05);
   own.set("Shrink", 10.0);

@@ -13,8 +13,7 @@ namespace MasslessStartTest {
 
 constexpr double start = 0.1, omega2 = 150.0;
 
-/// The mass at 0.1 m, the node where it is not: at 0.
-/// \param own  spring of the node [N/m]
+/// The mass starts at 0.1 m, the node out of equilibrium at 0. \param own spring of the node [N/m]
 model::SecondOrderModel massAndNode(double own = 100.0) {
   Matrix M = Matrix::Zero(2, 2), K(2, 2);
   M(0, 0) = 1;
@@ -35,7 +34,7 @@ model::PointSet onNode(int size, int position, std::shared_ptr<const model::Poin
   return set;
 }
 
-/// q1 and q2 of the samples, where `rows` tells them from the dofs.
+/// q1 and q2 of the samples; `rows` computes them from the dofs.
 void expectMotion(const model::SecondOrderModel& model, const Matrix& rows) {
   log::clearWarnings();
   for (const double radius : {0.3, 0.8, 1.0})
@@ -74,7 +73,7 @@ TEST(MasslessStart, WithTheForceOfALaw) {
   expectMotion(model, Matrix::Identity(2, 2));
 }
 
-/// Turned dofs, each of which has mass.
+/// Rotated dofs: each has mass.
 TEST(MasslessStart, WhereNoDofAloneIsWithoutMass) {
   Matrix M = Matrix::Zero(2, 2), K(2, 2), T(2, 2);
   M(0, 0) = 1;
@@ -85,8 +84,8 @@ TEST(MasslessStart, WhereNoDofAloneIsWithoutMass) {
   expectMotion(model, T);
 }
 
-/// With a damper to the ground the node has a state of its own, x' = (100 q1 - 200 x) / c, and
-/// starts where it is given, at its rate. Errors are of second order in the step.
+/// With a damper to the ground the node has its own state, x' = (100 q1 - 200 x) / c, and starts at
+/// the given displacement with this rate. Errors are of second order in the step.
 TEST(MasslessStart, OfADampedNodeHasItsRate) {
   const Matrix T = (Matrix(2, 2) << 0.8, 0.6, -0.6, 0.8).finished();  // q = T x
   for (const bool turned : {false, true})

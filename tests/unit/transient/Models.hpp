@@ -168,13 +168,13 @@ inline TransientOptions options(const std::string& integrator, double end, doubl
   return o;
 }
 
-/// Neither a large step error nor an open balance of energy ends the run.
+/// Large step errors and an open energy balance do not end the run.
 inline void acceptCoarseSteps(TransientOptions& o) {
   o.stepErrorLimit = o.energyResidualLimit = std::numeric_limits<double>::infinity();
 }
 
-/// Balls with contact, plus a load and a damping that change with time, so that everything a run
-/// remembers matters.
+/// Balls with contact, plus a load and a damping that change with time, so that all stored data of
+/// a run affect the result.
 inline model::SecondOrderModel eventful() {
   auto model = droppedBalls(6, 1e6, 2e3, 7e11, 2e4);
   const int law = model.lawIndex({"swell", [](double t) { return 1 + 0.5 * std::sin(40 * t); }});
@@ -183,7 +183,7 @@ inline model::SecondOrderModel eventful() {
   return model;
 }
 
-/// A way to step that is no name of an integrator alone.
+/// An integrator with options, beside the plain names of integrators.
 inline constexpr const char* controlledAlpha = "Generalized-alpha with Step Tolerance";
 
 /// Options of an integrator, or of controlledAlpha, good for eventful().

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// One point against its compliance: balances of sharp contact with friction that falls with speed,
-/// from states all around touching and sticking.
+/// from states around touching and sticking.
 #include "transient/contact/PointSolve.hpp"
 
 #include <Eigen/LU>
@@ -68,8 +68,8 @@ PointSolve randomProblem(std::mt19937& random, double velocity) {
   return problem;
 }
 
-/// All but one in three thousand, where the step has Newton for the whole and shorter steps left;
-/// without the path it is one in a thousand.
+/// All but one in three thousand, for which the step can still use Newton's method for the whole
+/// model and shorter steps; without the path it is one in a thousand.
 TEST(PointSolve, findsABalanceOfSharpContactAndFallingFriction) {
   for (const double velocity : {0.1, 1e-3, 1e-4}) {
     const auto source = nodeInBore(velocity);
@@ -88,9 +88,9 @@ TEST(PointSolve, findsABalanceOfSharpContactAndFallingFriction) {
   }
 }
 
-/// Nodes that hit the wall with damping enough to throw them back within the step come to rest
-/// where the law switches, within 1e-12 m. That balance is known no better than rounding of the
-/// position, and is taken for one.
+/// Nodes that hit the wall with enough damping to reverse within the step come to rest where the
+/// law switches, within 1e-12 m. This balance is accurate only to the rounding of the position, and
+/// is accepted.
 TEST(PointSolve, takesABalanceKnownToRoundingForOne) {
   const auto source = nodeInBore(0.1);
   CompiledModel model(source);

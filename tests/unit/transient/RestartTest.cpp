@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A run that goes on from a checkpoint takes the steps of the run that was never stopped, to the
-/// last bit: every integrator, stopped at many places, twice in a row, on models where everything a
-/// checkpoint holds matters.
+/// A run restarted from a checkpoint takes the same steps as an uninterrupted run, bitwise: every
+/// integrator, stopped at many times, twice in a row, on models that depend on all contents of a
+/// checkpoint.
 #include <functional>
 #include <gtest/gtest.h>
 #include <optional>
@@ -13,15 +13,15 @@
 namespace tooljoint::transient::testing {
 namespace RestartTest {
 
-/// A run, and what it makes.
+/// A run and its results.
 struct Outcome {
   Keep samples;
   TransientReport report;
-  std::string error;             ///< when it was refused
+  std::string error;             ///< if it was refused
   std::vector<Checkpoint> kept;  ///< the first one and the last one, at most
 };
 
-/// Runs on from `from`, or from the start; stops before the step after so many.
+/// Runs from `from`, or from the start; stops after this many steps.
 Outcome run(const model::SecondOrderModel& model, const TransientOptions& options,
             const Checkpoint* from = nullptr, long stopAfter = -1) {
   Outcome out;
@@ -41,7 +41,7 @@ Outcome run(const model::SecondOrderModel& model, const TransientOptions& option
   return out;
 }
 
-/// As a file would have it.
+/// As written to a file and read again.
 Checkpoint reread(const Checkpoint& point) { return Checkpoint::decode(point.encode(), "a test"); }
 
 void expectSameSamples(const Keep& whole, const Keep& later, std::size_t from,
@@ -88,7 +88,7 @@ void expectSameReport(const TransientReport& whole, const TransientReport& later
   EXPECT_EQ(e.damping, f.damping) << where;
 }
 
-/// Stops after so many steps, goes on, stops after as many again, goes on to the end.
+/// Stops after this many steps, continues, stops after as many again, continues to the end.
 void expectSameAfterStopping(const model::SecondOrderModel& model, const TransientOptions& options,
                              const Outcome& whole, long steps) {
   const std::string where = "stopped after " + std::to_string(steps) + " steps";
@@ -109,8 +109,8 @@ void expectSameAfterStopping(const model::SecondOrderModel& model, const Transie
   expectSameReport(whole.report, second.report, where);
 }
 
-/// Stiffness and damping of two terms each whose law stands still from half of the run on: products
-/// then go by the sum of the terms, which rounds otherwise.
+/// Stiffness and damping of two terms each whose law is constant in the second half of the run:
+/// products then use the sum of the terms, which rounds differently.
 model::SecondOrderModel spinUp() {
   auto model = springChain(7, 1.3, 0.7, 211.0);
   const int law = model.lawIndex({"ramp", [](double t) { return std::min(1.0, t / 0.15); }});
@@ -123,7 +123,7 @@ model::SecondOrderModel spinUp() {
   return model;
 }
 
-/// Walls so stiff that they are met as impacts, which points and scheme remember.
+/// Walls so stiff that contacts are impacts, which are part of the memory of points and scheme.
 model::SecondOrderModel impacts() { return droppedBalls(5, 1e9, 0, 7e11, 2e5); }
 
 /// wayToStep() with checkpoints.
@@ -167,7 +167,7 @@ TEST_P(Restart, takesTheSameStepsAmongImpacts) {
   expectSameWherever(impacts(), o);
 }
 
-/// Rated states, held ones and impacts beside them.
+/// Rated and held states, together with impacts.
 TEST_P(Restart, carriesTheStatesOfPointLaws) {
   const auto integrator = IntegratorRegistry::instance().make(options().integrator, options().own);
   ASSERT_TRUE(integrator->carriesPointStates());
@@ -184,8 +184,7 @@ TEST_P(Restart, carriesTheStatesOfPointLaws) {
   }
 }
 
-/// A run that goes on and is stopped at once writes the checkpoint it came from: nothing is lost on
-/// the way.
+/// A restarted run that is stopped at once writes the checkpoint it started from: no data are lost.
 TEST_P(Restart, hasTheMemoryOfItsCheckpoint) {
   for (const auto& model : {eventful(), spinUp(), impacts()}) {
     auto o = options(0.15);
@@ -204,7 +203,7 @@ TEST_P(Restart, hasTheMemoryOfItsCheckpoint) {
   }
 }
 
-/// Killed, a run goes on from its last checkpoint, whatever it has done since.
+/// A killed run continues from its last checkpoint, whatever it did afterwards.
 TEST_P(Restart, goesOnFromAnEarlierCheckpoint) {
   const auto whole = run(eventful(), options());
   ASSERT_EQ(whole.kept.size(), 2u);
@@ -227,7 +226,8 @@ INSTANTIATE_TEST_SUITE_P(Transient, Restart,
                            return name;
                          });
 
-/// Where Newton fails, steps are halved; a run stopped within such a step goes on with its halves.
+/// If Newton's method fails, steps are halved; a run stopped within such a step continues with its
+/// halves.
 TEST(Restarts, keepTheHalvingsOfAStepUnderWay) {
   auto model = droppedBalls(6, 1e6, 2e3, 7e11, 1e5);
   auto o = options("Generalized-alpha", 0.06, 2e-3, 0.01);
@@ -248,11 +248,11 @@ TEST(Restarts, keepTheHalvingsOfAStepUnderWay) {
   EXPECT_GT(within, 3);
 }
 
-/// A run that is stopped while its steps are compared with shorter ones is not done.
+/// A run that is stopped during the comparison with shorter steps is not finished.
 TEST(Restarts, compareStepsWhereThatWasStopped) {
   const auto model = oscillator(1.0, 0.0, 100.0, 0.1, 0.0);
   auto o = options("Generalized-alpha", 2.0, 4e-2, 0.2);
-  o.stepErrorWarning = 1e-3;  // a scheme that damps more than a fifth of it is compared
+  o.stepErrorWarning = 1e-3;  // steps with damping above a fifth of it are compared
   const auto whole = run(model, o);
   ASSERT_TRUE(whole.error.empty()) << whole.error;
   ASSERT_GT(whole.report.stepError, 0.0);
@@ -263,7 +263,7 @@ TEST(Restarts, compareStepsWhereThatWasStopped) {
   }
 }
 
-/// A step that follows its error waits before it grows: the wait goes on, too.
+/// A step controlled by its error waits before it grows: a restart continues the wait.
 TEST(Restarts, keepTheWaitOfStepControl) {
   const auto model = eventful();
   auto o = keeping(controlledAlpha, 0.1);
@@ -276,7 +276,7 @@ TEST(Restarts, keepTheWaitOfStepControl) {
     expectSameAfterStopping(model, o, whole, steps);
 }
 
-/// Gives energy: pushes more strongly on the way out than on the way in.
+/// Generates energy: the force is larger on the way out than on the way in.
 class Spender final : public model::PointLaw {
  public:
   int size() const override { return 1; }
@@ -303,7 +303,8 @@ class Spender final : public model::PointLaw {
   }
 };
 
-/// A run that makes energy is refused after some samples in a row; a restart counts on.
+/// A run that generates energy is refused after some consecutive samples; a restart continues the
+/// count.
 TEST(Restarts, keepTheWatchForRunawayEnergy) {
   auto model = oscillator(1.0, 0.0, 100.0, 0.1, 0.0);
   model::PointSet set;
@@ -326,8 +327,8 @@ TEST(Restarts, keepTheWatchForRunawayEnergy) {
   EXPECT_GT(counting, 0);
 }
 
-/// A sum of terms whose laws stand still rounds otherwise than its terms one by one: which one it
-/// is goes on, too.
+/// A sum of terms with constant laws rounds differently from its single terms: a restart uses the
+/// same form.
 TEST(Restarts, keepHowSumsAreFormed) {
   const auto source = spinUp();
   const Vector x = Vector::LinSpaced(7, 0.137, 1.731);
@@ -354,8 +355,8 @@ TEST(Restarts, keepHowSumsAreFormed) {
   }
 }
 
-/// SUNDIALS begins anew at each checkpoint; where checkpoints come makes a difference there, but no
-/// large one.
+/// SUNDIALS begins anew at each checkpoint, so the times of checkpoints change the result, within
+/// the tolerance.
 TEST(Restarts, ofSundialsDependOnTheIntervalToTheTolerance) {
   for (const auto& integrator : {"SUNDIALS ARKODE", "SUNDIALS CVODE"}) {
     auto o = options(integrator, 0.3, 0, 0.005);

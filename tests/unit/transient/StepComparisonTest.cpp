@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The motion of a run beside that in half the step, and beside its neighbours.
+/// The motion of a run compared with that in half the step, and with neighbouring motions.
 #include "transient/verdict/StepComparison.hpp"
 
 #include <algorithm>
@@ -76,9 +76,9 @@ TEST(StepComparison, isThePhaseThatStepsLoseMoreThanHalves) {
   }
 }
 
-/// Beside a slow mass one that is too fast for the step, with a fiftieth of its displacement and
-/// as much velocity, or a third of that: the scheme takes it in its first steps, so that S has
-/// none.
+/// A slow mass beside one too fast for the step, with a fiftieth of its displacement and the same
+/// velocity, or a third of it: the scheme damps the fast vibration in its first steps, so that S
+/// does not contain it.
 TEST(StepComparison, warnsOfVelocitiesThatStepsDoNotResolve) {
   struct Fast {
     double part, radius, stiffness;
@@ -95,13 +95,13 @@ TEST(StepComparison, warnsOfVelocitiesThatStepsDoNotResolve) {
     log::clearWarnings();
     const auto report = integrate(model, o, samples);
     EXPECT_GT(report.stepError, o.stepErrorWarning);  // that of the warning, not the small D
-    EXPECT_LE(report.stepError, o.stepErrorLimit);    // velocities refuse nothing
+    EXPECT_LE(report.stepError, o.stepErrorLimit);    // velocities do not refuse a run
     ASSERT_FALSE(log::warnings().empty()) << fast;
     EXPECT_NE(log::warnings().back().find("and its velocities by"), std::string::npos);
   }
 }
 
-/// Halves have no numerical damping: what the scheme takes of the amplitude shows in the speeds.
+/// Half steps have no numerical damping: the loss of amplitude by the scheme shows in the speeds.
 TEST(StepComparison, showsWhatTheSchemeTakes) {
   const auto model = oscillator(1.0, 0.0, w * w, 0.3, 0.0);
   for (const double radius : {0.0, 0.2}) {
@@ -123,8 +123,8 @@ TEST(StepComparison, showsWhatTheSchemeTakes) {
   }
 }
 
-/// A disturbance of a thousandth stays one in a vibration, and parts balls that bounce against each
-/// other on a hard floor.
+/// A disturbance of a thousandth stays small in a vibration, and separates the motions of balls
+/// that bounce against each other on a hard floor.
 TEST(StepComparison, tellsChaosFromVibration) {
   const auto mass = oscillator(1.0, 0.0, w * w, 0.3, 0.0);
   Compared vibration(mass, 0.1, 1.0, true);
@@ -139,9 +139,9 @@ TEST(StepComparison, tellsChaosFromVibration) {
   EXPECT_GT(wild->size, 0.1);
 }
 
-/// A mass that rests on a floor with (w h / 2)^2 = 6, which halves take for an impact, too, beside
-/// one that swings freely. A negative damper makes vibration of the contact grow by exp(10 t);
-/// steps and halves hold it down, and S is that of the other mass.
+/// A mass rests on a floor with (w h / 2)^2 = 6, which is an impact for half steps, too, beside a
+/// mass that swings freely. A negative damper makes vibration of the contact grow by exp(10 t).
+/// Steps and half steps suppress it, and S is that of the other mass.
 TEST(StepComparison, seesContactThatHalvesHoldDownToo) {
   const auto said = [](double damper, double floor) {
     const Vector both = (Vector(2) << 0, w * w).finished(),
@@ -167,18 +167,18 @@ TEST(StepComparison, seesContactThatHalvesHoldDownToo) {
   EXPECT_NE(refused.find("too large: step error 1"), std::string::npos) << refused;
   EXPECT_NE(refused.find("estimated 0"), std::string::npos) << refused;
   EXPECT_NE(refused.find("from that in steps of 0.00063 s"), std::string::npos) << refused;
-  EXPECT_EQ(said(-20, 1e3), "");  // the floor takes more than the damper makes
+  EXPECT_EQ(said(-20, 1e3), "");  // the floor dissipates more than the damper supplies
   EXPECT_EQ(said(0, 0), "");
 }
 
-/// What a run of generalized-alpha says: the error it ends with, or
-/// else its warning. One number decides: it ends where its step error is above the limit.
+/// The error of a run of generalized-alpha, or else its warning. One number decides: the run is
+/// refused if its step error is above the limit.
 std::string saidOf(const model::SecondOrderModel& model, double end, double step,
                    double radius = 1.0, double limit = 0.2) {
   auto o = options("Generalized-alpha", end, step, step);
   o.own.set("Spectral Radius", radius);
   o.stepErrorLimit = limit;
-  o.ledger = false;  // its balance would refuse some of them first
+  o.ledger = false;  // its balance would refuse some runs first
   Keep samples;
   log::clearWarnings();
   try {
@@ -193,8 +193,8 @@ std::string saidOf(const model::SecondOrderModel& model, double end, double step
   return log::warnings().empty() ? "" : log::warnings().front();
 }
 
-/// A mass that rests until a load takes it to another place in 50 ms: its vibration is compared,
-/// not its rest. The steps have half a radian of it.
+/// A mass rests until a load moves it to another position in 50 ms: the vibration is compared, not
+/// the rest. A step is half a radian of the vibration.
 TEST(StepComparison, beginsWhereTheMotionDoes) {
   auto model = oscillator(1.0, 0.0, 50 * w * w, 0.0, 0.0);
   const int ramp = model.lawIndex(
@@ -226,9 +226,9 @@ TEST(StepComparison, looksAtTheBusiestMotionThatComesLater) {
   EXPECT_EQ(loaded(1e-5), "");
 }
 
-/// Balls that swing against each other fall after 6 s. On a floor of 5e5 N/m they part from any
-/// neighbour, and a D of 40 % says nothing of the step; on a softer one they do not, and one of 13
-/// % does.
+/// Balls that swing against each other fall after 6 s. On a floor of 5e5 N/m neighbouring motions
+/// separate, and a D of 40 % does not measure the step; on a softer floor they do not, and a D of
+/// 13 % does.
 TEST(StepComparison, saysNothingOfLaterChaos) {
   const auto said = [](double floor) {
     auto model = droppedBalls(6, floor, 0, 7e11, 1e5);
@@ -240,8 +240,8 @@ TEST(StepComparison, saysNothingOfLaterChaos) {
   EXPECT_NE(warned.find("step error 13 %: in the 1 s from t = 10 s"), std::string::npos) << warned;
 }
 
-/// A fast rotation beside a slow translation, in one model: lost where it has the energy, and of no
-/// weight as a trifle.
+/// A fast rotation beside a slow translation in one model: its loss counts if it has the energy,
+/// and has no weight if its energy is small.
 TEST(StepComparison, seesRotationsBesideTranslations) {
   Matrix K = Matrix::Zero(2, 2);
   K.diagonal() << 0.25 * w * w, 900 * w * w;
@@ -256,8 +256,8 @@ TEST(StepComparison, seesRotationsBesideTranslations) {
   EXPECT_EQ(said(1e-6), "");
 }
 
-/// Beside a mass that creeps back to rest, a vibration of a thirtieth of its displacement: the
-/// scheme damps it away, and it is all the speed of the second half.
+/// A mass creeps back to rest beside a vibration of a thirtieth of its displacement: the scheme
+/// damps the vibration, which is all the speed of the second half.
 TEST(StepComparison, hearsSpeedsOfMotionWithAShare) {
   Matrix C = Matrix::Zero(2, 2), K = Matrix::Zero(2, 2);
   C(0, 0) = 4 * w;
@@ -269,14 +269,14 @@ TEST(StepComparison, hearsSpeedsOfMotionWithAShare) {
   };
   EXPECT_EQ(said(0.01).find("too large"), std::string::npos) << said(0.01);
   EXPECT_NE(said(0.3).find("too large"), std::string::npos) << said(0.3);
-  // displacements within the warning of 5 %, velocities that are others altogether
+  // displacements within the warning of 5 %, uncorrelated velocities
   K(1, 1) *= 4;
   model = denseModel(Matrix::Identity(2, 2), C, K);
   EXPECT_NE(said(0.013).find("too large"), std::string::npos) << said(0.013);
 }
 
-/// Vibration of many radians in a step that is a thousandth of the motion: S is above 1, D is not,
-/// and only a motion that is compared in all its length passes.
+/// Vibration of many radians per step whose amplitude is a thousandth of the motion: S is above 1,
+/// D is not, and only a motion that is compared in full passes.
 TEST(StepComparison, savesAMotionOfWhichSSaysTooMuch) {
   Matrix K = Matrix::Zero(2, 2);
   K.diagonal() << w * w, 1e5 * w * w;
@@ -288,8 +288,8 @@ TEST(StepComparison, savesAMotionOfWhichSSaysTooMuch) {
 }
 
 /// A vibration of 5 Hz with a vibration error of 6 % after 3 s, a phase of 0.2 rad in second order:
-/// halves differ by 3/4 of that, within the warning, but S is above the limit, and eighths, which
-/// differ by 63/64, confirm nothing.
+/// half steps differ by 3/4 of that, within the warning, but S is above the limit, and eighths of
+/// the step, which differ by 63/64, do not confirm the motion.
 TEST(StepComparison, doubtsHalvesBesideALargerS) {
   const double fast = 10 * constants::pi, phase = 0.19, h = 0.01 * std::sqrt(phase / 0.775);
   auto o = options("Generalized-alpha", span, span / std::round(span / h), span);
@@ -306,7 +306,7 @@ TEST(StepComparison, doubtsHalvesBesideALargerS) {
 }
 
 /// Balls that strike a hard floor: the run halves its steps for each impact, whatever their length.
-/// What it is compared with halves them once more.
+/// The comparison halves them once more.
 TEST(StepComparison, halvesTheStepsOfImpactsToo) {
   const auto taken = [](bool sharp) {
     const auto balls = droppedBalls(6, 1e7, 0, 7e11, 2e4);
@@ -339,9 +339,9 @@ TEST(StepComparison, endsWhenItIsStopped) {
   EXPECT_EQ(looks, 11);
 }
 
-/// S is an estimate: steps whose S is above what is warned of differ from halves by less. That of a
-/// vibration is refused where nothing is allowed; of impacts nothing is said, and the report is
-/// that of a run that is not compared.
+/// S is an estimate: steps with S above the warning differ from half steps by less. A vibration is
+/// refused if no error is allowed. For impacts there is no message, and the report is that of a run
+/// without comparison.
 TEST(StepComparison, leavesTheRunAlone) {
   auto o = options("Generalized-alpha", 1.0, 2e-3, 0.01);
   o.stepErrorLimit = 1e-12;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Steps of Generalized-alpha that follow their error: what they promise, where they are short,
-/// what they refuse.
+/// Steps of Generalized-alpha controlled by their error: accuracy, length near impacts, and
+/// refusals.
 #include "transient/accuracy/StepControl.hpp"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ TEST(StepControl, halvesAsOftenAsAnErrorOfThirdOrderAsksFor) {
   EXPECT_EQ(control.shorter(3.9e-6, 3), 4);  // 4.9e-7 after one
   EXPECT_EQ(control.shorter(8e-6, 3), 5);    // 1e-6 after one, 1.25e-7 after two
   EXPECT_EQ(control.shorter(31e-6, 3), 5);   // 4.8e-7 after two
-  EXPECT_EQ(control.shorter(1.0, 3), 10);    // no deeper than it goes
+  EXPECT_EQ(control.shorter(1.0, 3), 10);    // the deepest level
   EXPECT_EQ(control.shorter(2e-6, 10), 11);  // nothing left
   EXPECT_EQ(control.shorter(std::nan(""), 3), 10);
 }
@@ -92,13 +92,13 @@ TEST(StepControl, lengthensOnlyWhatWasCalmForAWhileAndAtMultiplesOfTheLongerStep
   EXPECT_EQ(done % 16, 0);
   EXPECT_GE(steps, 4);
   EXPECT_LE(steps, 6);
-  // Too large for a longer step however long it lasts: an error eight times as large would be
+  // The error is too large for a longer step at any time: an error eight times as large would be
   // refused at once.
   level = control.shorter(2e-6, 0);
   for (int i = 0; i < 1000; ++i) ASSERT_EQ(control.next(1.3e-7, level, done += 8), 1);
 }
 
-/// What waits for another reason, such as an impact, gets the longer step when that is over.
+/// If another reason, such as an impact, delays the longer step, it is offered again afterwards.
 TEST(StepControl, offersALongerStepAgainUntilItIsTaken) {
   StepControl control;
   control.set(1e-6, 4, 4);
@@ -134,8 +134,8 @@ TEST(StepControl, isMorePatientAfterALongerStepThatFailed) {
 // The length
 // -------------------------------------------------------------------------------------------------
 
-/// Ten masses that move along x and turn, as they are and in modes of any scale: the same
-/// displacement has the same length.
+/// Ten masses that move along x and turn, in physical coordinates and in modes of any scale: the
+/// same displacement has the same norm.
 TEST(MassNorm, isTheSameInAllCoordinates) {
   const int n = 10;
   Matrix M = Matrix::Zero(2 * n, 2 * n);
@@ -172,7 +172,7 @@ TEST(MassNorm, isTheSameInAllCoordinates) {
   }
   const Vector moved = T * y;
   EXPECT_NEAR(lengths[0], moved.norm() / std::sqrt(n),
-              1e-3 * lengths[0]);  // turning adds its little inertia
+              1e-3 * lengths[0]);  // rotation adds its small inertia
   EXPECT_NEAR(lengths[1], lengths[0], 1e-3 * lengths[0]);
 }
 
@@ -198,9 +198,9 @@ double vibrationError(const TransientOptions& o, TransientReport& report) {
 }
 
 /// The local error is of third order, the scheme of second: errors fall as tolerance^(2/3), by 16
-/// for a tolerance 64 times as small. The steps are powers of two, so 64 is two halvings. With the
-/// phase corrected they are smaller at the same steps; there each change of the step leaves an
-/// error of third order, once.
+/// for a tolerance 64 times as small. The steps are powers of two, so 64 is two halvings. With
+/// phase correction they are smaller at the same steps; each change of the step then adds a single
+/// error of third order.
 TEST(ControlledSteps, errorFollowsTheTolerance) {
   for (const bool phase : {false, true}) {
     double last = 0;
@@ -213,7 +213,7 @@ TEST(ControlledSteps, errorFollowsTheTolerance) {
       const double error = vibrationError(o, report);
       const double h = report.counters.minStep;
       const double late = 0.3 * 20 * 0.088 * (10 * h) *
-                          (10 * h);  // amplitude w t e (w h)^2, what the scheme leaves after 2 s
+                          (10 * h);  // amplitude w t e (w h)^2, the error of the scheme after 2 s
       EXPECT_LT(error, (phase ? 0.4 : 2) * late) << "tolerance " << tolerance;
       if (last > 0) {
         EXPECT_GT(std::log2(last / error), phase ? 0 : 3.6)
@@ -230,7 +230,7 @@ TEST(ControlledSteps, errorFollowsTheTolerance) {
   }
 }
 
-/// In one vibration the steps settle: the length stays, and with it the factor.
+/// In a steady vibration the step length becomes constant, and the factor is kept.
 TEST(ControlledSteps, keepTheirLengthInSteadyVibration) {
   TransientReport report;
   vibrationError(controlled(1e-5, 20, 0.1, 0.1), report);
@@ -239,11 +239,11 @@ TEST(ControlledSteps, keepTheirLengthInSteadyVibration) {
   EXPECT_LT(report.counters.rejected, report.counters.steps / 20);
 }
 
-/// The error estimated for one step is the error of that step, but for the first two: A_0 is taken
-/// at t = 0.
+/// The estimated error of a step is its true error, except for the first two steps: A_0 is taken at
+/// t = 0.
 TEST(ControlledSteps, acceptsWhatTheFirstStepReallyMisses) {
-  // q = t^3/6 under a force m t from rest: q''' = 1, and a scheme of second order misses (d/2 + b -
-  // 1/6) h^3 a step.
+  // q = t^3/6 under a force m t from rest: q''' = 1, and a scheme of second order has an error of
+  // (d/2 + b - 1/6) h^3 per step.
   auto model = denseModel(scalar(3.0), Matrix(), Matrix());
   model.loads.push_back(
       {"ramp", Vector::Constant(1, 3.0), model.lawIndex({"t", [](double t) { return t; }})});
@@ -261,7 +261,7 @@ TEST(ControlledSteps, acceptsWhatTheFirstStepReallyMisses) {
 }
 
 /// A ball falls 5 mm onto a floor and bounces: long steps in the air, short ones on the floor, and
-/// the motion is right.
+/// an accurate motion.
 TEST(ControlledSteps, areShortOnlyAroundAnImpact) {
   const auto model = droppedBalls(1, 1e6, 0, 7e11);
   auto fine = options("RK4", 0.3, 1e-6, 0.004);
@@ -279,7 +279,7 @@ TEST(ControlledSteps, areShortOnlyAroundAnImpact) {
   EXPECT_GT(report.counters.rejected, 0);
   // Equal steps of the shortest length would be several times as many.
   EXPECT_LT(4 * static_cast<double>(report.counters.steps) * report.counters.minStep, 0.3);
-  // and fixed steps, as many of them, are less accurate
+  // and the same number of fixed steps is less accurate
   auto equal =
       options("Generalized-alpha", 0.3, 0.3 / static_cast<double>(report.counters.steps), 4e-3);
   equal.own.set("Resolve Impacts", false);
@@ -290,17 +290,17 @@ TEST(ControlledSteps, areShortOnlyAroundAnImpact) {
   EXPECT_GT(worstFixed, worst);
 }
 
-/// A wall too stiff for the longest step is an impact there; the tolerance says how well its time
-/// has to be known.
+/// A wall too stiff for the longest step is an impact; the tolerance determines the accuracy of its
+/// time.
 TEST(ControlledSteps, resolveAStiffWallAsFarAsAsked) {
   const auto model = droppedBalls(1, 1e10, 0, 7e11);
   for (const double tolerance : {1e-5, 1e-8}) {
     Steps samples;
     auto o = controlled(tolerance, 0.1, 1e-3, 1e-3);
     o.own.set("Smallest Step", 1e-8);
-    o.ledger = false;  // what a coarse tolerance loses would end the run
+    o.ledger = false;  // the loss of a coarse tolerance would end the run
     const auto report = integrate(model, o, samples);
-    // Energy of the ball over its mass: an elastic wall gives back what it takes.
+    // Energy of the ball over its mass: an elastic wall returns it.
     const double start = 9.81 * samples.place.front(),
                  end = 9.81 * samples.place.back() + 0.5 * std::pow(samples.speed.back(), 2);
     const double lost = std::abs(end - start) / start;
@@ -309,8 +309,8 @@ TEST(ControlledSteps, resolveAStiffWallAsFarAsAsked) {
   }
 }
 
-/// A wall of 1e9 N/m needs steps of 1e-6 s while it is touched, a fiftieth of the time: they grow
-/// again after each impact.
+/// A wall of 1e9 N/m needs steps of 1e-6 s during contact, a fiftieth of the time: they grow again
+/// after each impact.
 TEST(ControlledSteps, growAgainAfterAnImpact) {
   const auto model = droppedBalls(1, 1e9, 0, 7e11);
   for (const double tolerance : {1e-3, 1e-5}) {
@@ -335,14 +335,13 @@ TEST(ControlledSteps, samplesStandOnTheGrid) {
   EXPECT_LE(report.counters.maxStep, 0.02);
 }
 
-/// What the steps leave of the energy is what the scheme damps, and that shrinks with the
-/// tolerance.
+/// The energy residual of the steps is the damping of the scheme, and decreases with the tolerance.
 TEST(ControlledSteps, theLedgerCloses) {
   double last = 1;
   for (const double tolerance : {1e-6, 1e-8}) {
     Steps samples;
     auto o = controlled(tolerance, 0.3, 2e-3, 0.01);
-    o.own.set("Resolve Impacts", false);  // whose steps are short for themselves
+    o.own.set("Resolve Impacts", false);  // which would shorten steps by itself
     const auto report = integrate(droppedBalls(6, 1e6, 2e3, 7e11, 2e4), o, samples);
     EXPECT_LT(std::abs(report.energy.residual()), last / 2) << tolerance;
     last = std::abs(report.energy.residual());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Windows of steps taken again in halves: what they measure, and that the run does not notice
-/// them.
+/// Windows of steps repeated in halves: their results, and that they do not affect the run.
 #include "transient/verdict/StepError.hpp"
 
 #include <Eigen/Dense>
@@ -62,7 +61,7 @@ TEST(StepError, measuresThePhaseThatAWindowLoses) {
   }
 }
 
-/// Part of the amplitude that a run says its scheme takes [%]; 0 where it says nothing.
+/// Reported loss of amplitude by the scheme [%]; 0 without a report.
 double saidOfDamping(const TransientOptions& o, Keep& samples) {
   log::clearWarnings();
   integrate(oscillator(2.0, 0.0, 2 * w * w, 0.3, 0.0), o, samples);
@@ -72,9 +71,9 @@ double saidOfDamping(const TransientOptions& o, Keep& samples) {
   return 0;
 }
 
-/// What the scheme takes of a free vibration in 3 s is what its amplitude loses: the root of the
-/// energy, within what one step in eleven tells. With the phase corrected the mass of the scheme is
-/// another by some per cent.
+/// The reported damping in 3 s of a free vibration is the loss of its amplitude (root of the
+/// energy), within the accuracy of one sample in eleven steps. The phase correction changes the
+/// mass of the scheme by some per cent.
 TEST(StepError, saysWhatTheSchemeTakesOfTheAmplitude) {
   for (const double radius : {0.0, 0.2, 0.5})
     for (const bool corrected : {false, true}) {
@@ -102,9 +101,10 @@ TEST(StepError, saysWhatTheSchemeTakesOfTheAmplitude) {
   EXPECT_EQ(saidOfDamping(o, samples), 0.0);
 }
 
-/// With the phase corrected steps have it to fourth order, and S is that of the phase: it falls to
-/// a sixteenth with half the step (to a ninth in windows short beside a period), and is far below S
-/// without the correction. Windows that began with the velocity of the run would have 60 % of that.
+/// With phase correction the phase is accurate to fourth order, and S is its error: S falls to a
+/// sixteenth with half the step (to a ninth in windows short compared with a period), and is far
+/// below S without the correction. Windows that began with the velocity of the run would give 60 %
+/// of it.
 TEST(StepError, isThatOfTheCorrectedPhase) {
   for (double radius : {0.8, 1.0}) {
     const double coarse = ofVibration(0.2, radius, true), fine = ofVibration(0.1, radius, true);
@@ -114,9 +114,9 @@ TEST(StepError, isThatOfTheCorrectedPhase) {
   }
 }
 
-/// Window after window or one in many: same motion, same counts, to the last digit.
-/// Of a rotor whose gyroscopic terms split its frequencies the phase is right to second order only,
-/// in steps that are short beside it: windows of 8 of them said a third to a sixth of the error.
+/// Consecutive windows and widely spaced ones give the same motion and the same counts, to the last
+/// digit. In a rotor whose gyroscopic terms split its frequencies the phase is accurate to second
+/// order only. With short steps, windows of 8 steps gave a third to a sixth of the error.
 TEST(StepError, isThatOfARotor) {
   Matrix K(2, 2), G(2, 2);
   K << 1e4, 0, 0, 1.3e4;
@@ -173,8 +173,8 @@ TEST(StepError, leavesTheRunAlone) {
   EXPECT_GE(first.counters.steps, 100);
 }
 
-/// Balls that lie on a wall too stiff for the step have a velocity that depends on its length; no
-/// halves differ by it.
+/// Balls at rest on a wall too stiff for the step have a velocity that depends on the step length;
+/// the half steps do not differ because of it.
 TEST(StepError, contactThatLastsIsNoError) {
   auto model = droppedBalls(10, 1e8, 0, 7e11, 2e5);
   model.loads[0].vector *= 20;

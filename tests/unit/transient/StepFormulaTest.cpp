@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// One step of each scheme against its formulas worked out here: coefficients of generalized-alpha,
-/// stages of Runge-Kutta, and the error by which each of the two adaptive integrators judges a
-/// step.
+/// One step of each scheme against its formulas: coefficients of generalized-alpha, stages of
+/// Runge-Kutta, and the error estimates of the two adaptive integrators.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -60,8 +59,8 @@ TransientReport oneStep(const std::string& integrator, double h, const char* par
   return integrate(body(), o, samples);
 }
 
-/// error = (|q1 - q2| + |v1 - v2|)/15 of one step against two half steps, which are kept (Nguyen et
-/// al. 2020, appendix B).
+/// error = (|q1 - q2| + |v1 - v2|)/15 of one step against two half steps; the half steps are kept
+/// (Nguyen et al. 2020, appendix B).
 TEST(StepFormula, AdaptiveRungeKuttaDividesTheDifferenceByFifteen) {
   const double h = 0.06;
   const Point whole = rungeKutta({start, speed}, h),
@@ -74,8 +73,8 @@ TEST(StepFormula, AdaptiveRungeKuttaDividesTheDifferenceByFifteen) {
   EXPECT_NEAR(accepted.v.back()[0], halves.v, 1e-14);
 }
 
-/// A step whose error is below a hundredth of the tolerance is followed by one that is longer by
-/// the growth factor.
+/// After a step with an error below a hundredth of the tolerance the next step is longer by the
+/// growth factor.
 TEST(StepFormula, AdaptiveRungeKuttaGrowsBelowAHundredthOfTheTolerance) {
   const double h = 0.06;
   const Point whole = rungeKutta({start, speed}, h),
@@ -132,7 +131,7 @@ TEST(StepFormula, GeneralizedAlphaHasTheCoefficientsOfItsSpectralRadius) {
   }
 }
 
-/// Far above the step a vibration falls to the spectral radius from step to step.
+/// A vibration with a period far below the step decreases by the spectral radius in each step.
 TEST(StepFormula, GeneralizedAlphaHasItsSpectralRadiusAtInfinity) {
   for (const double radius : {0.2, 0.5, 0.8}) {
     auto o = options("Generalized-alpha", 0.041, 1e-3, 1e-3);
@@ -146,8 +145,8 @@ TEST(StepFormula, GeneralizedAlphaHasItsSpectralRadiusAtInfinity) {
   }
 }
 
-/// e = ((am - af)/2 + b - 1/6) h^2 (A_1 - A_0), the third term of the series of the displacement
-/// that the scheme has wrong.
+/// e = ((am - af)/2 + b - 1/6) h^2 (A_1 - A_0), the error of the scheme in the third term of the
+/// series of the displacement.
 TEST(StepFormula, GeneralizedAlphaJudgesAStepByTheTermItHasWrong) {
   const double h = 0.02, radius = 0.8;  // the default
   const double am = (2 * radius - 1) / (radius + 1), af = radius / (radius + 1),
@@ -163,8 +162,8 @@ TEST(StepFormula, GeneralizedAlphaJudgesAStepByTheTermItHasWrong) {
       0);
 }
 
-/// Undamped vibrations of 10 and 100 Hz over 3 s: the errors of the steps add up to no less than
-/// the error of the motion, and it is said where they are 5 % of it.
+/// Undamped vibrations of 10 and 100 Hz over 3 s: the sum of the step errors is at least the error
+/// of the motion, and a warning is given at 5 %.
 TEST(StepFormula, RungeKuttaSaysWhenItsErrorsAddUp) {
   const struct {
     double hertz, speed;

@@ -15,7 +15,7 @@ namespace SuddenLoadTest {
 
 constexpr double mass = 2.0, damping = 0.8, stiffness = 50.0, force = 3.0;
 
-/// Displacement and velocity of the oscillator a time t after the load has come.
+/// Displacement and velocity of the oscillator a time t after the load sets in.
 std::pair<double, double> stepResponse(double t) {
   if (t <= 0) return {0.0, 0.0};
   const double decay = 0.5 * damping / mass, omega = std::sqrt(stiffness / mass - decay * decay);
@@ -33,8 +33,8 @@ model::SecondOrderModel pushed(double from) {
   return model;
 }
 
-/// Largest error of displacement and velocity, in parts of their own size. At the end of the step
-/// in which the load comes the velocity is known to first order only.
+/// Largest relative error of displacement and velocity. At the end of the step in which the load
+/// sets in, the velocity is accurate to first order only.
 double errorOf(TransientOptions o, double from, double h) {
   o.step = h;
   Keep samples;
@@ -51,9 +51,8 @@ double errorOf(TransientOptions o, double from, double h) {
   return worst;
 }
 
-/// Of second order wherever the jump falls in the step, its ends included; a load that begins with
-/// the step it falls in, or with the next, would be off by the part of a step it comes early or
-/// late.
+/// Second order for every time of the jump within the step, its ends included. A load that began at
+/// the start of this step or of the next one would be early or late by a part of a step.
 TEST(SuddenLoad, isOfSecondOrderWhereverItFalls) {
   const double h = 0.01;
   for (const char* integrator : {"Generalized-alpha", "RK4"})
@@ -62,7 +61,7 @@ TEST(SuddenLoad, isOfSecondOrderWhereverItFalls) {
         auto o = options(integrator, 3.0, h, 0.05);
         if (integrator == std::string("Generalized-alpha"))
           o.own.set("Spectral Radius", radius).set("Phase Correction", false);
-        // the finer steps meet the jump at the same part of theirs
+        // the finer steps have the jump at the same fraction of a step
         const double coarse = errorOf(o, 1.0 + part * h, h),
                      fine = errorOf(o, 1.0 + 0.25 * part * h, 0.25 * h);
         EXPECT_LT(coarse, 0.02 * std::pow(h / 0.02, 2) * 4) << integrator << radius << " " << part;
@@ -70,8 +69,8 @@ TEST(SuddenLoad, isOfSecondOrderWhereverItFalls) {
       }
 }
 
-/// A spring of which nine tenths break at a time: second order wherever that falls, and the energy
-/// of what breaks is booked.
+/// Nine tenths of a spring break at some time: second order for every time within a step, and the
+/// energy of the broken part is booked.
 TEST(SuddenLoad, aSpringThatBreaksCountsFromThere) {
   const double omega = std::sqrt(stiffness / mass), left = omega * std::sqrt(0.1), q0 = 0.2;
   const auto errorOfBreak = [&](const char* integrator, double from, double h) {
@@ -107,7 +106,7 @@ TEST(SuddenLoad, aSpringThatBreaksCountsFromThere) {
     }
 }
 
-/// A heavy mass in motion: the work of a load that comes late in a step is that of the rest of it.
+/// A heavy mass in motion: a load that sets in late in a step works only in the rest of the step.
 TEST(SuddenLoad, worksFromWhenItComes) {
   const double heavy = 1e6, speed = 2.0, end = 2.0;
   for (const char* integrator : {"Generalized-alpha", "RK4"})
@@ -124,8 +123,9 @@ TEST(SuddenLoad, worksFromWhenItComes) {
     }
 }
 
-/// A pulse shorter than a step, between two ends of steps or around one of them, gives its impulse,
-/// at the end of a step: the motion is late or early by up to a step, h omega = 0.025 of it.
+/// A pulse shorter than a step, within a step or across the end of one, gives its full impulse at
+/// the end of a step: the motion is late or early by up to a step, a relative error of h omega =
+/// 0.025.
 TEST(SuddenLoad, aPulseShorterThanAStepGivesItsImpulse) {
   for (const char* integrator : {"Generalized-alpha", "RK4"})
     for (const auto& [from, to] : {std::pair{0.5013, 0.5016}, {0.4988, 0.5012}}) {
@@ -148,8 +148,8 @@ TEST(SuddenLoad, aPulseShorterThanAStepGivesItsImpulse) {
     }
 }
 
-/// A stiff spring and dashpot act all the time and are no wall: the motion takes the steps it takes
-/// with the same terms in its matrices, and is the same.
+/// A stiff spring and dashpot act all the time and are no wall: steps and motion are the same as
+/// with these terms in the matrices.
 TEST(SuddenLoad, aSpringIsNoWall) {
   for (const double k : {2e5, 2e7}) {
     const double c = 0.02 * std::sqrt(k), speed = 1.0;
@@ -178,8 +178,8 @@ TEST(SuddenLoad, aSpringIsNoWall) {
   }
 }
 
-/// A mass m with a dof without mass beyond a spring, which carries the load: at the start it is
-/// where spring and load put it, the motion is that of the mass under the load itself, and no
+/// A mass m is loaded through a spring to a dof without mass. The massless dof starts in
+/// equilibrium of spring and load, the motion is that of the mass under the load itself, and no
 /// energy is lost.
 TEST(SuddenLoad, aDofWithoutMassStartsInBalance) {
   const double k = 80.0, q0 = 0.01, v0 = 0.3;
@@ -204,7 +204,7 @@ TEST(SuddenLoad, aDofWithoutMassStartsInBalance) {
   }
 }
 
-/// With a damper beside its spring it keeps the start it is given, and creeps.
+/// With a damper beside its spring the dof keeps the given start and creeps.
 TEST(SuddenLoad, aDampedDofWithoutMassKeepsItsStart) {
   const double k = 80.0, c = 4.0, q1 = 0.05;
   Matrix M = Matrix::Zero(2, 2), C = Matrix::Zero(2, 2), K(2, 2);
@@ -221,8 +221,8 @@ TEST(SuddenLoad, aDampedDofWithoutMassKeepsItsStart) {
     EXPECT_NEAR(samples.q[i][1], q1 * std::exp(-k / c * samples.time[i]), 2e-3 * q1);
 }
 
-/// A law that does not tell its corners, as one of a user: pulses are followed, warned of or
-/// refused by steps that choose their length, and never lost without a word. J/(m omega) exp().
+/// A law without known corners, such as a user's law: steps of variable length follow a pulse, warn
+/// of it or refuse it, but never miss it silently. J/(m omega) exp().
 TEST(SuddenLoad, aPulseWithoutCornersIsNotLost) {
   for (const double length : {2e-4, 1e-3, 3e-3, 0.02}) {
     auto model = oscillator(mass, 0.0, stiffness, 0.0, 0.0);
@@ -233,7 +233,7 @@ TEST(SuddenLoad, aPulseWithoutCornersIsNotLost) {
     const double exact = force / std::sqrt(mass * stiffness);
     for (const char* integrator : {"RK4 adaptive", "SUNDIALS ARKODE", "SUNDIALS CVODE"}) {
       auto o = options(integrator, 2.0, 0, 5e-3);
-      o.ledger = false;  // which sees some of it, too
+      o.ledger = false;  // it would detect some of it, too
       Keep samples;
       const auto before = log::warnings().size();
       try {

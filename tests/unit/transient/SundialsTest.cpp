@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// ARKODE and CVODE against closed forms and other integrators, their Newton matrix against a dense
-/// one, what each parameter does and how they fail.
+/// one, the effect of each parameter, and failures.
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TransientReport run(const model::SecondOrderModel& model, const std::string& int
   Keep samples;
   auto o = options(integrator, end, 0, end / 10);
   o.own = own;
-  o.ledger = false;  // steps are counted, also those of coarse tolerances that lose the motion
+  o.ledger = false;  // the test counts steps, also inaccurate ones of coarse tolerances
   return integrate(model, o, samples);
 }
 
@@ -51,8 +51,8 @@ double largestDifference(const Keep& a, const Keep& b) {
   return difference;
 }
 
-/// Whether this build is without SUNDIALS, and the integrator says so; any other refusal is none of
-/// the build.
+/// Whether this build has no SUNDIALS and the integrator reports this; any other refusal has
+/// another cause.
 bool missing(const std::string& integrator) {
   const auto text = errorText([&] { run(oscillator(1, 0, 1, 1, 0), integrator, 0.1); });
   if (text.find("built without SUNDIALS") == std::string::npos) return false;
@@ -61,7 +61,7 @@ bool missing(const std::string& integrator) {
   return true;
 }
 
-/// Tests of both; in a build without SUNDIALS only that the integrators say so.
+/// Tests of both integrators; a build without SUNDIALS only tests that they report its absence.
 class Sundials : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -71,8 +71,8 @@ class Sundials : public ::testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Transient, Sundials, ::testing::Values(arkode, cvode),
                          [](const auto& each) { return each.param.substr(9); });
 
-/// Free vibration over 3 s. A micron is as large as what a step may be wrong by: the vibration is
-/// lost, and it is said. So it is where the errors of many steps add up.
+/// Free vibration over 3 s. An amplitude of a micron is within the tolerance of a step: the
+/// vibration is lost, with a warning. A warning is also given if the errors of many steps add up.
 TEST_P(Sundials, warnOfAMotionThatTheirTolerancesDoNotResolve) {
   const struct {
     double amplitude, omega, allowed;
@@ -125,9 +125,9 @@ double freeVibrationError(const std::string& integrator, const Teuchos::Paramete
 }
 
 TEST_P(Sundials, theErrorFollowsTheTolerance) {
-  // Local errors add up over a few periods: within 100 tolerances of the amplitude, and a
-  // thousandth at a thousandth, give or take a factor of 30 (the error per step is controlled, not
-  // that of the end).
+  // Local errors add up over a few periods: the error is within 100 tolerances of the amplitude. A
+  // thousandth of the tolerance gives a thousandth of the error within a factor of 30 (the error
+  // per step is controlled, not that at the end).
   const double coarse = freeVibrationError(GetParam(), tolerance(1e-4));
   const double fine = freeVibrationError(GetParam(), tolerance(1e-7));
   EXPECT_LT(coarse, 100 * 1e-4 * 0.3);
@@ -141,7 +141,7 @@ TEST_P(Sundials, samplesDoNotDependOnTheInterval) {
   const auto own = with("Maximum Step", 1.0, tolerance(1e-6));
   const auto coarse = run(model, GetParam(), 1.0, 0.25, own, few);
   const auto fine = run(model, GetParam(), 1.0, 0.0025, own, many);
-  // The interpolation is as good as the steps, which the samples do not shorten.
+  // The interpolation is as accurate as the steps, and samples do not shorten steps.
   EXPECT_NEAR(static_cast<double>(fine.counters.steps), static_cast<double>(coarse.counters.steps),
               2.0);
   for (std::size_t i = 0; i < few.time.size(); ++i)
@@ -153,8 +153,8 @@ TEST_P(Sundials, samplesDoNotDependOnTheInterval) {
   }
 }
 
-/// Steps end where a law has a corner and are no longer than the sampling interval: from rest none
-/// flies over a pulse of 4 ms, and one of 1 s needs no corner. An impulse of 1 N s moves 1 kg.
+/// Steps end at corners of laws and are no longer than the sampling interval: a step from rest does
+/// not skip a pulse of 4 ms, and a pulse of 1 s needs no corner. An impulse of 1 N s moves 1 kg.
 TEST_P(Sundials, fromRestNoPulseIsFlownOver) {
   for (const double half : {0.002, 0.5}) {
     auto model = oscillator(1.0, 0.0, 0.01, 0.0, 0.0);
@@ -175,7 +175,7 @@ TEST_P(Sundials, ballsFallOnTheFloorAsWithRungeKutta) {
   Keep reference, samples;
   run(model, "RK4 adaptive", 0.2, 0.005, with("Tolerance", 1e-9), reference);
   const auto report = run(model, GetParam(), 0.2, 0.005, tolerance(1e-8), samples);
-  // 6 mm of fall: the same motion to a hundredth of a percent of it
+  // a fall of 6 mm: the motions agree to a hundredth of a percent of it
   EXPECT_LT(largestDifference(samples, reference), 6e-7);
   EXPECT_LT(std::abs(report.energy.residual()), 1e-3);
   EXPECT_GT(report.contactEvaluations, 0);
@@ -185,7 +185,7 @@ TEST_P(Sundials, whatWasDoneIsCounted) {
   const auto report = run(droppedBalls(4, 1e6, 2e3, 7e11), GetParam(), 0.2, tolerance(1e-4));
   const auto& c = report.counters;
   EXPECT_GT(c.steps, 20);
-  EXPECT_GT(c.rejected, 0);  // the floor comes unannounced
+  EXPECT_GT(c.rejected, 0);  // the impact is not known in advance
   EXPECT_GE(c.newtonIterations, c.steps);
   EXPECT_GT(c.factorisations, 2);
   EXPECT_GT(c.rightHandSides, c.newtonIterations);
@@ -197,7 +197,7 @@ TEST_P(Sundials, whatWasDoneIsCounted) {
 
 TEST_P(Sundials, stepsStartAndEndAsAsked) {
   const auto model = oscillator(1, 0, 400, 0.1, 0);
-  // at a tolerance that asks for fewer steps than the bound
+  // at a tolerance that needs fewer steps than the bound
   const auto bounded = run(model, GetParam(), 1.0,
                            with("Maximum Step", 1e-3, with("Initial Step", 2e-5, tolerance(1e-4))));
   EXPECT_DOUBLE_EQ(bounded.counters.minStep, 2e-5);
@@ -264,8 +264,8 @@ TEST_P(Sundials, toleranceBelowRoundingIsRefused) {
 }
 
 TEST_P(Sundials, moreNewtonIterationsSaveSteps) {
-  // On walls from soft to hard, to coarse and fine tolerances: steps that had to be shortened
-  // because Newton was not done.
+  // Number of steps shortened because Newton's method did not converge, on soft to hard walls, with
+  // coarse and fine tolerances.
   const auto shortened = [&](int iterations) {
     long sum = 0;
     for (const double stiffness : {1e6, 1e9})
@@ -286,8 +286,8 @@ TEST_P(Sundials, absoluteTolerancesRuleSmallMotion) {
             usual);
 }
 
-/// Two inertias on a torsional spring, twist 0.2 cos(20 t), after 1e4 rad in common: the angle
-/// turned so far does not loosen the tolerance.
+/// Two inertias on a torsional spring, twist 0.2 cos(20 t), after a common rotation of 1e4 rad: the
+/// total angle does not loosen the tolerance.
 TEST_P(Sundials, whatHasTurnedIsFollowedAsClosely) {
   const auto twistError = [&](double turned) {
     const double k = 200.0;
@@ -334,8 +334,8 @@ TEST(SundialsMethods, ordersAboveTwoSaveStepsOnDampedMotionOnly) {
 // The Newton matrix
 // -------------------------------------------------------------------------------------------------
 
-/// A chain of nodes with two dofs each, unsymmetric K, changing damping, and points that touch,
-/// hang on several dofs or are away.
+/// A chain of nodes with two dofs each, unsymmetric K, changing damping, and points in contact,
+/// points on several dofs and distant points.
 model::SecondOrderModel entangled() {
   const int n = 8;
   Matrix M = 2.0 * Matrix::Identity(n, n), C = Matrix::Zero(n, n), K = Matrix::Zero(n, n);
@@ -398,8 +398,8 @@ TEST(FirstOrderForm, solvesWithItsJacobianForStatesOfPointLaws) {
 }
 
 TEST(FirstOrderForm, aPointActsWhereverItIsLookedAt) {
-  // The solver may ask for a state in contact after one far away, at any time: the force is that of
-  // the state.
+  // The solver may evaluate a state in contact after one far away, at any time: the force must be
+  // that of the state.
   auto source = oscillator(2.0, 0, 0, 1.0, 0);
   addFloor(source, 1e4, 0, 1e6);
   CompiledModel model(source);

@@ -15,7 +15,7 @@
 #include "substructures/contact/ContactLaw.hpp"
 #include "tests/support/ErrorText.hpp"
 
-// Counts every allocation of this program. The sanitizers bring their own malloc.
+// Counts every allocation of this program. The sanitizers have their own malloc.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && defined(__GLIBC__)
 #define COUNTS_ALLOCATIONS 1
 static long allocations = 0;
@@ -73,7 +73,7 @@ TEST(Transient, samplesBetweenLongStepsAreInterpolated) {
 }
 
 TEST(Transient, samplesAreInTheOrderOfTheModel) {
-  // Dofs of two nodes mixed: the kernel sorts them by node, the sink must not notice.
+  // Dofs of two nodes are mixed: the kernel sorts them by node, which must not affect the sink.
   auto model = springChain(4, 1, 0, 50);
   model.dofs = {model::DofLabel::physical(1, 0), model::DofLabel::physical(2, 0),
                 model::DofLabel::physical(1, 1), model::DofLabel::physical(2, 1)};
@@ -171,7 +171,7 @@ TEST(Transient, everyIntegratorDescribesItself) {
 // Failures
 // -------------------------------------------------------------------------------------------------
 
-/// Advice after a motion that is wrong names parameters this integrator has.
+/// The advice after a wrong motion names parameters of this integrator.
 TEST(Transient, adviceFitsTheIntegrator) {
   const auto& registry = IntegratorRegistry::instance();
   for (const auto& name : allIntegrators) {
@@ -244,7 +244,7 @@ TEST(Transient, notANumberInALoadEndsTheRunAtItsTime) {
   }
 }
 
-/// A push that is over within two steps, and one that takes a hundred.
+/// A pulse of two steps, and one of a hundred.
 TEST(Transient, aLawFasterThanTheStepsIsWarnedOf) {
   for (const double duration : {2e-3, 0.1}) {
     auto model = oscillator(1.0, 1.0, 4.0, 0.0, 0.0);
@@ -262,8 +262,8 @@ TEST(Transient, aLawFasterThanTheStepsIsWarnedOf) {
   }
 }
 
-/// A pulse that is over before the middle of a step, and before its quarter: sums over whole steps
-/// and their halves alone do not see it. Nothing of what it does is in the motion.
+/// A pulse that ends before the middle, or before a quarter, of a step: sums over whole and half
+/// steps do not detect it, and the motion contains none of its effect.
 TEST(Transient, aPulseBetweenTheHalvesOfAStepIsRefused) {
   auto model = oscillator(1.0, 1.0, 4.0, 0.0, 0.0);
   const double h = 1e-2, begin = 5e-2;
@@ -285,8 +285,8 @@ TEST(Transient, aPulseBetweenTheHalvesOfAStepIsRefused) {
   }));
 }
 
-/// A pulse of stiffness between two ends of steps is an impulse -q int k dt to generalized-alpha,
-/// as with short steps. RK4 refuses it: its stages would have large stiffnesses of both signs.
+/// In generalized-alpha a pulse of stiffness within a step is an impulse -q int k dt, as with short
+/// steps. RK4 refuses it: its stages would have large stiffnesses of both signs.
 TEST(Transient, aPulseOfStiffnessBetweenEndsOfStepsIsFollowedOrRefused) {
   for (const auto& [from, to] : {std::pair{0.5013, 0.5016}, {0.4997, 0.5003}}) {
     const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
@@ -314,8 +314,8 @@ TEST(Transient, aPulseOfStiffnessBetweenEndsOfStepsIsFollowedOrRefused) {
   }
 }
 
-/// A load that is let go at the start has its value there alone: its integral is none, and no part
-/// of it is lost.
+/// A load released at the start is nonzero at that time only: its integral is zero, and no part of
+/// it is lost.
 TEST(Transient, aLoadThatIsLetGoIsNotRefused) {
   auto model = oscillator(1.0, 1.0, 4.0, 0.0, 0.0);
   const int law = model.lawIndex({"let go", [](double t) { return t > 0 ? 0.0 : 1.0; }});
@@ -325,7 +325,7 @@ TEST(Transient, aLoadThatIsLetGoIsNotRefused) {
   EXPECT_NO_THROW(integrate(model, options("Generalized-alpha", 1.0, 1e-2, 0.1), samples));
 }
 
-/// q_{n+1} = q_n + h v_n; neither judges its steps nor takes one again.
+/// q_{n+1} = q_n + h v_n; has no error estimate and repeats no step.
 class Drift final : public Integrator {
  public:
   std::string advice() const override { return "Reduce Transient/Step"; }
@@ -398,7 +398,7 @@ class AllocationProbe final : public SampleSink {
     last = allocations;
   }
   long first = -1, last = -1;
-  long samples = 0;  ///< before which something was allocated
+  long samples = 0;  ///< number of samples with allocations before them
 };
 
 TEST(Cost, theStepLoopAllocatesNothing) {
@@ -429,7 +429,7 @@ TEST(Cost, statesOfPointLawsAllocateNothingInTheStepLoop) {
     EXPECT_GT(report.counters.steps, 100);
     EXPECT_EQ(probe.last - probe.first, 0) << integrator;
   }
-  // every hundredth step finds the rate of the laws anew
+  // every hundredth step recomputes the rate of the laws
   AllocationProbe probe;
   const auto report = integrate(model, wayToStep("RK4 adaptive", 0.2), probe);
   EXPECT_GT(report.counters.steps, 100);
@@ -441,7 +441,7 @@ TEST(Cost, statesOfPointLawsAllocateNothingInTheStepLoop) {
 TEST(Cost, onlyPointsNearTheFloorAreEvaluated) {
   auto model = droppedBalls(10, 1e6, 2e3, 7e11);
   for (int i = 0; i < 5; ++i)
-    model.initialDisplacement[i] = 10.0 + i;  // five never come down in time
+    model.initialDisplacement[i] = 10.0 + i;  // five do not come down in time
   Keep samples;
   const auto report = integrate(model, options("Generalized-alpha", 0.2, 1e-3, 0.05), samples);
   EXPECT_GT(report.contactEvaluations, 0);

@@ -88,8 +88,8 @@ TEST(BishopFrames, TurnAgainstTheFrenetFrameByTheTorsionIntegral) {
   }
 }
 
-// The spin x'.y of the frames is zero to second order of the spacing, whatever the spacing the
-// frames are asked for.
+// The spin x'.y of the frames is zero to second order of the spacing, for any spacing of the
+// depths.
 TEST(BishopFrames, DoNotDependOnTheDepthsAskedFor) {
   const auto well = minimumCurvature(
       {{0.0, 0.1, 0.0}, {30.0, 0.3, 1.0}, {47.0, 0.5, 0.2}, {90.0, 0.2, -1.0}, {120.0, 0.9, 2.0}});
@@ -114,8 +114,8 @@ TEST(BishopFrames, AreExactOnASurvey) {
   EXPECT_LT((bishopFrames(*well, {120.0}).front() - expected).norm(), 1e-11);
 }
 
-/// Nodes beside a depth where the curvature jumps, as rounding leaves them: the chord between them
-/// has no direction.
+/// Nodes that differ by rounding from a depth where the curvature jumps: the chord between them has
+/// no direction.
 TEST(BishopFrames, PassAJumpOfCurvatureAtANode) {
   const Well whole(
       minimumCurvature(

@@ -74,8 +74,7 @@ TEST(SurveyFile, UnitsOfTheDeckApplyWhereTheHeaderHasNone) {
   EXPECT_DOUBLE_EQ(stations[1].inclination, 0.1);
 }
 
-/// Each column alone in each unit: 50 gon would be 0.785 rad, and a unit that is not read leaves
-/// degrees.
+/// Each column alone in each unit: 50 gon are 0.785 rad, and an unread unit would give degrees.
 TEST(SurveyFile, TheUnitOfEachColumnIsReadFromTheHeader) {
   const auto second = [](const std::string& header, const std::string& row) {
     const CsvFile file(header + "\n0,0,0\n" + row + "\n");
@@ -109,7 +108,7 @@ TEST(SurveyFile, SemicolonsWithDecimalCommasAndTabs) {
   }
 }
 
-/// Two stations, the second at 200 m, 10 and 20 degrees, and what is said of them.
+/// Two stations, the second at 200 m, 10 and 20 degrees, and the message on them.
 std::string understood(const std::string& text) {
   const CsvFile file(text);
   const auto table = readSurveyTable(file.name());
@@ -210,7 +209,7 @@ TEST(SurveyFile, TextAboveTheHeaderIsNotRead) {
   ASSERT_EQ(table.remarks.size(), 1U);
   EXPECT_NE(table.remarks[0].find("2 lines above the header, 1 comment line"), std::string::npos)
       << table.remarks[0];
-  // faults keep the line of the file; a station above the header stays an error
+  // errors name the line of the file; a station above the header is an error
   EXPECT_NE(errorOf("Well A-1\nMD,Inc,Azi\n0,0,0\n100,x,0\n").find("F:4: the inclination \"x\""),
             std::string::npos);
   EXPECT_NE(errorOf("0,0,0\nMD,Inc,Azi\n100,5,0\n").find("F:2: "), std::string::npos);

@@ -135,8 +135,8 @@ TEST(Impact, RestitutionOfHuntAndCrossley) {
   }
 }
 
-// Friction on a turning string that cannot leave the drive drives it round backwards until it
-// rolls: whirl -Omega R_c/r, which is -Omega R_c/j0 but for the penetration m whirl^2 r/k.
+// Friction on a string turned by the drive moves it round the hole backwards until it rolls: whirl
+// -Omega R_c/r, which is -Omega R_c/j0 except for the penetration m whirl^2 r/k.
 TEST(Whirl, FrictionEndsInBackwardRolling) {
   const double speed = 12.0;
   const ContactPoint point = wall(1e4, 0.2);
@@ -149,8 +149,8 @@ TEST(Whirl, FrictionEndsInBackwardRolling) {
   EXPECT_NEAR(r - point.clearance, 50.0 * whirl * whirl * r / 1e7, 1e-8);
 }
 
-// Kinetic + stored energy plus what was lost minus what the drive fed in stays constant along a
-// bouncing, sliding motion.
+// Kinetic and stored energy plus losses minus the work of the drive are constant in a bouncing,
+// sliding motion.
 TEST(Energy, LedgerCloses) {
   const double mass = 50.0, inertia = 0.2;
   for (const char* name : {"Nguyen", "Clamped", "Hunt-Crossley"}) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A string whose parts are joined in every way the list Coupling knows: reduced with all modes it
-/// is the full model with the same connections, whatever the assembly, and where nothing pushes it
-/// stays at rest.
+/// A string with every kind of connection of the list Coupling: reduced with all modes it is the
+/// full model with the same connections, with any assembly, and without loads it stays at rest.
 #include <gtest/gtest.h>
 
 #include "coupling/CoupledModes.hpp"
@@ -40,7 +39,7 @@ TEST_P(CoupledScene, WithAllModesIsTheFullModel) {
     EXPECT_LE(std::abs(found[i] - exact[i]),
               1e-9 * std::abs(exact[i]) + 1e-15 * exact[exact.size() - 1])
         << "mode " << i + 1;
-  // and the shapes, by way of both models' maps
+  // and the shapes, through the maps of both models
   for (const auto& mode :
        estimate::compareModes(whole.model, resolved.parts, reduced, 12, whole.maps))
     EXPECT_GT(mode.mac, 1 - 1e-6);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Estimated against true errors over the scenes of xml/, and tolerances that are met there.
+/// Estimated against true errors over the scenes of xml/, and tolerances met there.
 #include "tests/support/Scenes.hpp"
 
 #include <algorithm>
@@ -32,14 +32,14 @@ using namespace tooljoint;
 
 std::string folder() { return testing_::sourceFolder() + "/xml/"; }
 
-/// Free dofs of the longest strings taken: twenty modes of a string of 5 km take minutes.
+/// Largest number of free dofs: twenty modes of a string of 5 km take minutes.
 constexpr int mostDofs = 20000;
-/// And without TOOLJOINT_THOROUGH in the environment (target `thorough`): those of a kilometre take
-/// half a minute.
+/// The limit without TOOLJOINT_THOROUGH in the environment (target `thorough`): strings of a
+/// kilometre take half a minute.
 constexpr int mostDofsInShort = 3000;
 
-/// Every deck of the project in xml/ that is a string with a Reduction list, but for strings of
-/// several kilometres, and for maps and studies of strings that have a deck of their own.
+/// Every deck of the project in xml/ that is a string with a Reduction list, except for strings of
+/// several kilometres, and for maps and studies of strings with their own deck.
 std::vector<std::string> scenes() {
   const int most = std::getenv("TOOLJOINT_THOROUGH") != nullptr ? mostDofs : mostDofsInShort;
   std::vector<std::string> files;
@@ -59,7 +59,7 @@ struct Rest {
   model::SecondOrderModel full;
 };
 
-/// Found once for all tests: none of them changes what the rest depends on.
+/// Computed once for all tests: none of them changes inputs of the state at rest.
 const Rest& restOf(const std::string& file) {
   static std::map<std::string, Rest> found;
   const auto it = found.find(file);
@@ -189,12 +189,12 @@ class Watched : public transient::SampleSink {
   estimate::MotionEstimator estimator_;
 };
 
-/// Half a second, before neighbouring motions part (beyond it what is compared is no longer the
-/// reduction), in steps that resolve the modes left out: at 1 ms and 200 Hz, 1.3 rad a step, the
-/// full model does not move as its modes do. Without the phase correction, whose share of noise
-/// (3e-4 between two models at 1 ms) is what 400 Hz leave out, and with iterations that are carried
-/// on until they add none (the default tolerance of 1e-5 decides which contact acts first: 1e-3 and
-/// more).
+/// Half a second, before neighbouring motions separate (later the difference is not that of the
+/// reduction), in steps that resolve the truncated modes: at 1 ms and 200 Hz, 1.3 rad per step, the
+/// full model does not move as its modes do. The phase correction is off, because its noise (3e-4
+/// between two models at 1 ms) equals the truncation error at 400 Hz. The iteration tolerance is
+/// small enough to add no error (with the default of 1e-5 it decides which contact acts first: 1e-3
+/// and more).
 const std::vector<std::string> window{"Transient/End Time=0.5", "Transient/Step=2.5e-4",
                                       "Transient/Progress=false",
                                       "Transient/Generalized-alpha/Phase Correction=false",
@@ -206,8 +206,8 @@ const std::vector<Vector>& referenceMotion(const Case& c) {
   return motion;
 }
 
-/// Measured: 0.48 to 0.80 times the true error. Where a part lacks a mode that the motion excites
-/// (25 Hz) the answer is not static, the estimate is too large and says so by being above 5 %.
+/// Measured: 0.48 to 0.80 times the true error. If a part lacks a mode that the motion excites (25
+/// Hz), the response is not static and the estimate is too large; it is then above 5 %.
 TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
   const Case c("helical_170m.xml", window);
   const Vector rest = c.stage.state.displacement;
@@ -263,7 +263,7 @@ TEST(MotionTolerance, IsMetOnTheReferenceScene) {
   for (double tolerance : {5e-2, 5e-3}) EXPECT_LE(chosen(c, reference, tolerance), tolerance);
 }
 
-/// The reference takes the same steps, so steps that are coarse for so short a motion do no harm.
+/// The reference takes the same steps, so coarse steps have no effect.
 TEST(MotionTolerance, IsMetAtTheStartOfEveryOtherScene) {
   ASSERT_GE(scenes().size(), 2u);
   for (const auto& file : scenes()) {

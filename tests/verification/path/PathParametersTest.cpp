@@ -25,7 +25,7 @@ TEST(PathParameters, AreReadAsTheyStandInTheDeck) {
   EXPECT_EQ(options.nodes, (std::vector<int>{1, 4, 9}));
   EXPECT_EQ(options.tolerance, 1e-8);
   EXPECT_EQ(options.maxIterations, 33);
-  // everything that is read is registered
+  // all parameters read are registered
   const deck::ListSpec spec = parameters();
   for (auto it = list.begin(); it != list.end(); ++it)
     EXPECT_NE(spec.findParameter(list.name(it)), nullptr) << list.name(it);

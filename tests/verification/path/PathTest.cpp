@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The string bent into straight, arced and helical wells, against what a bent elastic rod must do.
+/// The string bent into straight, arced and helical wells, against the theory of a bent elastic
+/// rod.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -136,7 +137,7 @@ TEST(Path, EndCouplesAlternateAndDecay) {
 }
 
 TEST(Path, ReactionsFormACoupleWhereTheStiffnessJumps) {
-  // the bending moment steps from E I_1 kappa to E I_2 kappa, so the guide holds a couple of the
+  // the bending moment jumps from E I_1 kappa to E I_2 kappa, so the guide exerts a couple of the
   // difference there
   const auto well = quarterArc(100.0);
   PathInput input = uniform(*well, 80, 80.0);
@@ -158,7 +159,7 @@ TEST(Path, ReactionsFormACoupleWhereTheStiffnessJumps) {
 
 TEST(Path, OnlyTheFullTangentLetsACurvedStringTurnAboutItsAxis) {
   // theta_z = 1 at all nodes: the energy of a straight rod bent into an arc does not change, while
-  // K_a + K_g charges E I kappa^2 L
+  // K_a + K_g gives E I kappa^2 L
   const double kappa = 0.01;
   const auto well = quarterArc(1.0 / kappa);
   const double length = 100.0;

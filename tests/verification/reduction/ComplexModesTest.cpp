@@ -81,7 +81,8 @@ double error(const std::string& basis, int modes, int count) {
   return std::sqrt(sum / count);
 }
 
-// With 4 vectors there are but two complex modes for eight eigenvalues, and real ones are no worse.
+// With 4 vectors there are only two complex modes for eight eigenvalues, and real modes are equally
+// accurate.
 TEST(ComplexModes, GiveBetterDampedEigenvaluesThanRealOnes) {
   for (const int modes : {6, 8, 12}) {
     const double complex = error("Complex Craig-Bampton", modes, 8),

@@ -214,7 +214,7 @@ TEST(SomeModes, StaticResponseToLoadsOnKeptDofsIsExactWhateverTheModes) {
 TEST(SomeModes, RetainedNodesSplitThePartIntoLinks) {
   const auto parts = samples::loopFrame(10, false, true);
   for (const auto& part : reduced(parts, someModes(4))) {
-    // The columns stand straight: their axial and bending motions are links of their own.
+    // The columns are straight: their axial and bending motions are separate blocks.
     const std::size_t links = part.name == "cantilever" ? 1 : part.name == "beam" ? 2 : 4;
     EXPECT_EQ(part.basis->partition.blocks.size(), links) << part.name;
     EXPECT_LT(part.report.staticDefect, 1e-10);

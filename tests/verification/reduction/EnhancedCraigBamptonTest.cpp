@@ -76,7 +76,7 @@ double error(const std::vector<model::Substructure>& parts, const std::string& b
   return (small.head(count).array() / full.head(count).array() - 1).maxCoeff();
 }
 
-// A spring at the joint, as a constant term and under a law of time: M^-1 K has it.
+// A spring at the joint, as a constant term and under a law of time: M^-1 K contains it.
 TEST(EnhancedCraigBampton, ASpringAtTheJointCountsHoweverItIsGiven) {
   const double stiffness = 50.0;
   const auto errorsOf = [&](const std::function<void(model::Substructure&)>& add) {
@@ -107,8 +107,8 @@ TEST(EnhancedCraigBampton, BeatsCraigBamptonOnAFrameWithALoop) {
   }
 }
 
-// Coordinates of their own span what tied ones follow: by Rayleigh and Ritz they are at least as
-// good.
+// Free coordinates span the space of the tied ones: by Rayleigh and Ritz they are at least as
+// accurate.
 TEST(EnhancedCraigBampton, FreeCoordinatesAreAtLeastAsGoodAsTiedOnes) {
   const auto parts = samples::loopFrame(10, false);
   for (const int modes : {1, 3, 5})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What every basis with constraint modes owes, whatever its modal vectors are: with all of them
-/// the model is the full one, floating parts stay free, loads on boundary dofs are answered
-/// exactly, and frequencies come from above.
+/// Properties of every basis with constraint modes, whatever its modal vectors: with all of them
+/// the model is the full one, floating parts stay free, responses to loads on boundary dofs are
+/// exact, and frequencies converge from above.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <fstream>
@@ -41,7 +41,7 @@ std::vector<Case> cases() {
       {"User Vectors", [](auto& list) { list.set("File", "vectors of %.mtx"); }, "UserVectors"}};
 }
 
-/// Files of vectors without meaning, as many as each part has interior dofs.
+/// Files of arbitrary vectors, as many as each part has interior dofs.
 void writeVectors(const std::vector<model::Substructure>& parts) {
   for (const auto& part : parts)
     if (!part.interior().empty())
@@ -80,8 +80,8 @@ TEST_P(FixedInterfaceBases, FloatingAssembliesKeepTheirRigidBodyModes) {
   }
 }
 
-// Tied residual coordinates bend with M^-1 K z, which is M^-1 f for a static load f: their statics
-// are not exact, and not promised.
+// Tied residual coordinates deform with M^-1 K z, which is M^-1 f for a static load f: their
+// statics are not exact.
 TEST_P(FixedInterfaceBases, LoadsOnKeptDofsAreAnsweredExactly) {
   if (GetParam().label == "EnhancedTied") GTEST_SKIP() << "not promised";
   const auto parts = samples::loopFrame(6, true, true);

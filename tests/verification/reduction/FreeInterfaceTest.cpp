@@ -64,7 +64,7 @@ TEST(AllModes, GyroscopicUnsymmetricFrameKeepsItsComplexEigenvalues) {
   for (const auto& s : full) largest = std::max(largest, std::norm(s));
   for (const auto& family : freeFamilies()) {
     if (family.basis == "Dual Craig-Bampton")
-      continue;  // multipliers have no mass; its motion is looked at elsewhere
+      continue;  // multipliers have no mass; other tests cover its motion
     const auto small = complexEigenvalues(synthesised(parts, family, -1).coupled.model, 0.5);
     ASSERT_EQ(full.size(), small.size()) << family.name();
     for (const auto& s : full) {
@@ -129,8 +129,8 @@ TEST(RigidBodyModes, AreKeptWhateverIsAskedForAndSaid) {
   }));
 }
 
-// One end pinned in space: the part still turns about its interface, which no constraint mode knows
-// of.
+// One end pinned in space: the part can still rotate about its interface, which no constraint mode
+// contains.
 TEST(RigidBodyModes, AnInteriorThatSwingsAboutItsInterface) {
   auto parts = floatingPair(5, false);
   parts.pop_back();
@@ -165,8 +165,8 @@ TEST(Statics, LoadsOnInterfaceAndRetainedDofsAreAnsweredExactly) {
       for (const auto& label :
            {model::DofLabel::physical(3, 0), model::DofLabel::physical(4, 2),
             model::DofLabel::physical(303, 1), model::DofLabel::physical(5, 1)}) {
-        // Forces between parts are equal and opposite: what a load on an interface dof does to the
-        // residual flexibility of one of them is not among its motions.
+        // Forces between parts are equal and opposite: the residual response of one part to a load
+        // on an interface dof is not among its motions.
         if (family.basis == "Dual Craig-Bampton" && label.entity < 5) continue;
         Vector load = Vector::Zero(full.size());
         load[samples::find(full, label)] = 1;

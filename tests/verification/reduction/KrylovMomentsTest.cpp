@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What Krylov vectors promise: the stiffness the neighbours feel, and what the interior answers,
-/// have the derivatives of the full part at the expansion point.
+/// Krylov vectors: the stiffness at the boundary and the response of the interior have the
+/// derivatives of the full part at the expansion point.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
@@ -108,11 +108,11 @@ int matched(const std::vector<Matrix>& small, const std::vector<Matrix>& full, d
   return count;
 }
 
-// Undamped and symmetric, k blocks of 6: k derivatives of the interior, 2k of what is felt
-// (Galerkin on both sides); at lambda_0 = 0, where the drive is proportional to lambda and psi
-// gives the first term, one and two more. Matched ones differ by 1e-13, the first other ones by
-// 1e-8 or more; with two blocks the next ones of what is felt, an error squared, are rounding
-// again.
+// Undamped and symmetric, k blocks of 6: k derivatives of the interior, 2k of the boundary
+// stiffness (Galerkin on both sides); at lambda_0 = 0, where the excitation is proportional to
+// lambda and psi gives the first term, one and two more. Matched derivatives differ by 1e-13, the
+// first other ones by 1e-8 or more; with two blocks the next ones of the boundary stiffness, an
+// error squared, are within rounding again.
 TEST(KrylovMoments, AreMatchedAtAFrequency) {
   for (const int blocks : {1, 2}) {
     const Pair pair = series(beam(false), 6 * blocks, 40.0, false, 2 * blocks + 2);
@@ -137,9 +137,9 @@ TEST(KrylovMoments, OneMoreAtZero) {
   }
 }
 
-// Damped and gyroscopic: blocks of 12 (mass and damping both drive), one derivative of the interior
-// and of what is felt for each; K and C are unsymmetric, so that nothing is gained on the other
-// side.
+// Damped and gyroscopic: blocks of 12 (mass and damping both excite), one derivative of the
+// interior and of the boundary stiffness for each; K and C are unsymmetric, so that nothing is
+// gained on the other side.
 TEST(KrylovMoments, OfAGyroscopicPartAreMatchedOnTheRealAxis) {
   const Pair pair = series(beam(true), 12, 20.0, true, 4);
   EXPECT_GE(matched(pair.small.interior, pair.full.interior, 1e-10), 1);
@@ -148,7 +148,7 @@ TEST(KrylovMoments, OfAGyroscopicPartAreMatchedOnTheRealAxis) {
   EXPECT_GE(matched(two.small.felt, two.full.felt, 1e-10), 2);
 }
 
-/// Largest error of the stiffness felt at a frequency near 40 Hz.
+/// Largest error of the boundary stiffness at a frequency near 40 Hz.
 double feltError(const std::string& basisName, double hertz) {
   const auto part = beam(false);
   Teuchos::ParameterList list("Reduction");

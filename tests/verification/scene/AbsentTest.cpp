@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a deck does not ask for is not built, stored or evaluated: counted, not believed.
+/// Features that a deck does not request are not built, stored or evaluated; checked by counters.
 #include <algorithm>
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@ namespace AbsentTest {
 
 using namespace tooljoint;
 
-/// A short motion of the full reference string without some lists; returns its model, the census
-/// tells what was done.
+/// A short motion of the full reference string without some lists; returns its model, and the
+/// census contains the counts.
 model::SecondOrderModel without(std::vector<std::string> overrides) {
   for (const char* override :
        {"!Reduction", "!Substructures", "Transient/End Time=0.02", "Transient/Progress=false"})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// With every interior mode kept the coupled model is the full model in other coordinates, however
-/// the string is cut: the same eigenvalues, and the same motion in contact from the same integrator
-/// and step.
+/// With every interior mode kept the coupled model is the full model in other coordinates, for any
+/// division of the string: the same eigenvalues, and the same motion in contact with the same
+/// integrator and step.
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 #include <string>
@@ -35,15 +35,15 @@ void PrintTo(const Cut& cut, std::ostream* out) { *out << cut.name; }
 class AllModes : public ::testing::TestWithParam<Cut> {};
 
 TEST_P(AllModes, IsTheFullModel) {
-  // Half of the string, since the eigenvalues are those of dense matrices. Retained nodes are few,
-  // so that most of it is modal; the step and the tolerance are those of both runs.
+  // Half of the string, since the eigenvalues are computed with dense matrices. Few nodes are
+  // retained, so that most coordinates are modal; step and tolerance are those of both runs.
   std::vector<std::string> overrides{
       "Drillstring/Assembly={pipe, last pipe, collar, stabiliser, 2*collar, stabiliser, collar, "
       "bit}",
       "!Reduction", "Reduction/Mode Selection/All Modes=true",
       "Substructures/Retained Nodes=Gauges", "Transient/End Time=0.25", "Transient/Step=0.001",
       "Transient/Generalized-alpha/Tolerance=1e-12",
-      // taken at an iterate, so equal in both models to the root of the tolerance alone
+      // taken at an iterate, so equal in both models only to the root of the tolerance
       "Transient/Generalized-alpha/Phase Correction=false", "Transient/Progress=false",
       "Transient/Energy Ledger=false"};
   overrides.insert(overrides.end(), GetParam().overrides.begin(), GetParam().overrides.end());

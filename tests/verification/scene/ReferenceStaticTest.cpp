@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The static state of the reference scene against the published one (Nguyen et al. 2020,
-/// section 5.2); docs/validation.md explains the differences the tolerances allow for.
+/// section 5.2); docs/validation.md explains the differences allowed by the tolerances.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <string>
@@ -38,10 +38,10 @@ TEST(ReferenceStatic, TheLastElementCarriesTheBitLoads) {
 }
 
 /// A string without bending stiffness on a helix (curvature kappa, constant inclination theta): its
-/// effective tension falls from the top by w cos(theta) a metre to the weight on bit, and it
-/// presses on the wall with sqrt((F kappa)^2 + (w sin(theta))^2) a metre, since the normal of a
-/// helix is horizontal. w is the weight in mud. Bending stiffness spreads the forces and leaves
-/// both sums where they are, to a per cent.
+/// effective tension decreases from the top by w cos(theta) per metre to the weight on bit, and it
+/// presses on the wall with sqrt((F kappa)^2 + (w sin(theta))^2) per metre, since the normal of a
+/// helix is horizontal. w is the weight in mud. Bending stiffness spreads the forces and does not
+/// change both sums by more than a per cent.
 TEST(ReferenceStatic, AgreesWithTheSoftString) {
   const auto scene = reference();
   const auto& state = sourcePrestress().state;
@@ -83,8 +83,8 @@ TEST(ReferenceStatic, BothRecipesFindTheSameState) {
 TEST(ReferenceStatic, TheFullTangentBalancesTheTorque) {
   const auto full = drillstring::solveStatic(reference({"Path/Pre-stress=Full tangent"})).state;
   EXPECT_EQ(full.contactNodes, 82);
-  // Turning the whole string about its curved axis must cost next to nothing; K_a + K_g alone
-  // resists like EI kappa^2 L.
+  // A rotation of the whole string about its curved axis must meet almost no resistance; K_a + K_g
+  // alone resists with EI kappa^2 L.
   EXPECT_LT(std::abs(full.torqueBalanceDefect()), 0.005 * std::abs(full.topTorque));
   EXPECT_GT(std::abs(sourcePrestress().state.torqueBalanceDefect()),
             0.5 * std::abs(full.topTorque));

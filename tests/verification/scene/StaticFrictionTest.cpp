@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which friction the static state has: decided by Static/Friction and by how the string turns when
-/// the motion starts.
+/// Friction of the static state, determined by Static/Friction and by the rotation at the start of
+/// the motion.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -68,13 +68,14 @@ TEST(StaticFriction, OfAPointLawBeginsWithTheMotion) {
   EXPECT_EQ(resting.why, "none: the friction of Maxwell begins with the motion");
 }
 
-/// The friction torque of the state is that of the coefficient, force by force.
+/// The friction torque of the state is that of the coefficient, at every contact.
 TEST(StaticFriction, ActsWithItsCoefficient) {
   const auto coefficient = [](const std::vector<std::string>& overrides) {
     const auto given = scene(overrides);
     const auto state = drillstring::solveStatic(given).state;
     EXPECT_GT(state.totalNormalForce, 1e3);
-    return -state.totalFrictionTorque / (0.084 * state.totalNormalForce);  // it lies on its joints
+    return -state.totalFrictionTorque / (0.084 * state.totalNormalForce);  // contact is at the
+                                                                           // joints
   };
   // eq. (9) of Nguyen et al. 2020 at v = Omega R_c = 4 pi 0.084 m/s, v_r = 0.1 m/s, mu_s = 0.3,
   // mu_d = 0.25
@@ -90,7 +91,7 @@ TEST(StaticFriction, ActsWithItsCoefficient) {
   EXPECT_EQ(coefficient({"!Rotary Speed"}), 0.0);
 }
 
-/// With friction along the hole the state is that of a string which its block moves.
+/// With friction along the hole the state is that of a string moved by its block.
 TEST(StaticFriction, ActsAgainstTheBlockToo) {
   const auto moving = [](std::vector<std::string> overrides) {
     overrides.insert(overrides.end(),
@@ -112,7 +113,7 @@ TEST(StaticFriction, ActsAgainstTheBlockToo) {
     const auto state = drillstring::solveStatic(moving(overrides)).state;
     return state.axialFriction.sum() / state.totalNormalForce;
   };
-  // mu_s, over the direction of the sliding
+  // mu_s, divided in the direction of sliding
   const double around = 4.0 * constants::pi * 0.084;
   EXPECT_NEAR(drag({"Static/Friction=Peak"}), 0.3 * 0.2 / std::hypot(0.2, around), 1e-9);
   EXPECT_NEAR(drag({"Static/Friction=Peak", "!Rotary Speed"}), 0.3, 1e-9);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The static state from nodes of the unloaded string and from nodes of the hanging one: the same
-/// forces where the string moves little, and both start the motion in balance.
+/// The static state from nodes of the unloaded string and from nodes of the hanging one: equal
+/// forces if the string moves little, and both start the motion in equilibrium.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -42,8 +42,8 @@ TEST(StaticReference, BothStartTheMotionInBalance) {
     EXPECT_LT(unbalance(drillstring::findEquilibrium(scene(reference))), 1e-7) << reference;
 }
 
-/// 38 m of string stretch by a tenth of a millimetre: the forces agree, and the stretch of the
-/// hanging string is in its nodes.
+/// 38 m of string stretch by a tenth of a millimetre: the forces agree, and the nodes of the
+/// hanging string contain its stretch.
 TEST(StaticReference, ChangesWhereDisplacementsCountFrom) {
   const auto unloaded = drillstring::findEquilibrium(scene("Unloaded"));
   const auto hanging = drillstring::findEquilibrium(scene("Hanging"));

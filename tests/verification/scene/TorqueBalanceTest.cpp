@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A section that spins about its own axis meets no elastic force, however the string bends: the
+/// A spin of a section about its own axis causes no elastic force, however the string bends: the
 /// torque at the top is the sum of the torques of bit and friction, on every mesh, at rest and in
 /// motion.
 #include <cmath>
@@ -47,7 +47,7 @@ class TorqueBalance : public testing::TestWithParam<WellCase> {
   }
 };
 
-/// A straight hole with an inclination has no torque at all: what rounding leaves is none either.
+/// A straight inclined hole has no torque, and rounding is not reported as torque.
 TEST(TorqueOfAStraightHole, IsNone) {
   for (const char* azimuth : {"0 deg", "37 deg", "200 deg"}) {
     const auto scene = drillstring::readScene(
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Wells, TorqueBalance, testing::ValuesIn(wells), [](cons
   return "well" + std::to_string(instance.index);
 });
 
-/// Every scene of strings but the published case, which takes the paper's pre-stress.
+/// Every scene of strings except the published case, which uses the paper's pre-stress.
 TEST(TorqueOfTheDecks, BalancesWithinHalfAPerCent) {
   for (const char* deck :
        {"xml/build_hold_1400m.xml", "xml/cms_variants.xml", "xml/inclined_1000m.xml",
@@ -95,9 +95,9 @@ TEST(TorqueOfTheDecks, BalancesWithinHalfAPerCent) {
 }
 
 /// Soft string (Johancsik, Friesen and Dawson 1984) from the bit up: q = |T kappa n + w (g - (g.t)
-/// t)| per length is what the wall carries. A string that turns climbs until normal force and
-/// friction together carry it, N sqrt(1 + mu^2) = q; its friction torque is mu N r with r of the
-/// joints, on which it lies. Left over: the bit, which a support holds, and the ends of the bend.
+/// t)| per length is the load on the wall. A rotating string climbs until normal force and friction
+/// together carry it, N sqrt(1 + mu^2) = q; its friction torque is mu N r with r of the joints,
+/// where it is in contact. Excluded are the bit, which a support holds, and the ends of the bend.
 TEST(TorqueOfTheWell, IsThatOfTheSoftString) {
   const auto scene = buildAndHold({"!Transient"});
   const auto state = drillstring::solveStatic(scene).state;
@@ -146,7 +146,7 @@ TEST(TorqueInMotion, ThePeakCoefficientWouldStartAJump) {
   EXPECT_GT((motion.back() - stage.state.displacement).cwiseAbs().maxCoeff(), 1e-3);
 }
 
-/// A static state whose top torque misses its balance by a share of the scale.
+/// A static state with a torque imbalance at the top, as a fraction of the scale.
 drillstring::StaticStage unbalanced(double share) {
   drillstring::StaticStage stage;
   stage.state.torqueScale = 1e4;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Curvature and stress of a string that is twisted by many radians. A spin of a section about its
-/// own axis bends nothing, however large it is and however it changes along the string: under a
-/// torque T at the bit alone
+/// Curvature and stress of a string twisted by many radians. A spin of a section about its own axis
+/// does not bend the string, whatever its size and its change along the string: under a torque T at
+/// the bit alone
 ///
 ///     theta_z' = T/(G J),  kappa = that of the well,  sigma^2 = (E kappa R)^2 + 3 (T R/J)^2
 #include <cmath>
@@ -23,7 +23,7 @@ using namespace tooljoint;
 constexpr double length = 1000.0;    // [m]
 constexpr double twist = 20.0;       // [rad] over all of it
 constexpr double negligible = 1e-6;  // [1/m], a bend of a thousandth of a radian in all
-/// The hinged ends bear no moment, which dies away by 0.27 from node to node.
+/// The hinged ends carry no moment; this disturbance decays by a factor of 0.27 per node.
 constexpr std::size_t nearEnds = 12;
 
 /// A thousand metres of pipe without weight, its nodes held on the axis of a well.

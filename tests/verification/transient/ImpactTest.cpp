@@ -35,7 +35,7 @@ TEST(Impact, reboundSpeedOfADampedStop) {
 /// A block on a rough conveyor (the wall turning under it): slides until it moves with the belt;
 /// the time is v / (mu g).
 TEST(Impact, frictionSpinsARotorUpAtConstantTorque) {
-  // Weight presses a rotor held by nothing against the bore; friction mu N R spins it against its
+  // Weight presses a free rotor against the bore; friction mu N R accelerates it against its
   // inertia.
   const double mass = 10, inertia = 0.02, radius = 0.1, clearance = 0.01, k = 1e6, mu = 0.2;
   auto model = denseModel(Vector(Eigen::Vector3d(mass, mass, inertia)).asDiagonal(),

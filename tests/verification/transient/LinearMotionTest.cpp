@@ -75,8 +75,8 @@ double errorAgainstExponential(const model::SecondOrderModel& model, const Trans
   return error / size;
 }
 
-/// The three softest shapes of the shaft as initial displacement: what an integrator at a sensible
-/// step resolves.
+/// The three softest shapes of the shaft as initial displacement, which an integrator resolves with
+/// a reasonable step.
 void bend(model::SecondOrderModel& model) {
   const Matrix K(model.stiffness[0].matrix);
   const auto modes = linalg::symmetricPairs(0.5 * (K + K.transpose()), Matrix(model.mass));
@@ -96,8 +96,8 @@ TEST(LinearMotion, spinningTwistedShaftFollowsTheMatrixExponential) {
   EXPECT_LT(errorAgainstExponential(model, o), 1e-4);
 }
 
-/// Without torque the start excites soft modes only, and steps of a sensible length show their
-/// order.
+/// Without torque the start excites soft modes only, and reasonable steps show the order of the
+/// method.
 TEST(LinearMotion, shaftConvergesAtTheOrderOfTheMethod) {
   auto model = shaft(6, 300.0, 2.0, 0.0);
   bend(model);
@@ -181,8 +181,8 @@ TEST(LinearMotion, gyroscopicRotorKeepsItsEnergyAndItsWhirl) {
 }
 
 TEST(LinearMotion, harmonicForceSettlesToItsResponse) {
-  // After the transient has died: amplitude F / sqrt((k - m w^2)^2 + (c w)^2), phase atan2(c w, k -
-  // m w^2).
+  // After the decay of the transient: amplitude F / sqrt((k - m w^2)^2 + (c w)^2), phase atan2(c w,
+  // k - m w^2).
   const double m = 1, c = 8, k = 900, w = 25, F = 3;
   auto model = oscillator(m, c, k, 0, 0);
   const int law = model.lawIndex({"cos", [w](double t) { return std::cos(w * t); }});
@@ -216,8 +216,8 @@ TEST(LinearMotion, fallingBodyIsExact) {
   }
 }
 
-/// A dof that has damping alone moves at F / c, in every spectral radius, beside a mass on a spring
-/// that it has no part in; one that has nothing is refused.
+/// A dof with damping alone moves at F / c for every spectral radius, beside an uncoupled mass on a
+/// spring; a dof without any term is refused.
 TEST(LinearMotion, aDofOfDampingAloneFollowsItsLoad) {
   Matrix M = Matrix::Zero(2, 2), C = M, K = M;
   M(0, 0) = 2.0, K(0, 0) = 800.0, C(1, 1) = 4.0;

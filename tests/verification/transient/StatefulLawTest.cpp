@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Point laws with states in every integrator that carries them: against closed forms, with the
+/// Point laws with states in every integrator that supports them: against closed forms, with the
 /// order of the scheme.
 ///
 /// Maxwell: the motion is that of a linear system of three equations. Elastic-plastic: free flight
-/// against constant friction between an elastic arrival and elastic vibration about the place where
-/// it sticks. Delay: q'' = -b q(t - tau) from rest at 1, by the method of steps:
-/// q(t) = sum_k (-b)^k (t - (k-1) tau)^{2k} / (2k)! over all k with t >= (k-1) tau.
+/// against constant friction between an elastic arrival and elastic vibration about the position
+/// where it sticks. Delay: q'' = -b q(t - tau) from rest at 1, by the method of steps: q(t) = sum_k
+/// (-b)^k (t - (k-1) tau)^{2k} / (2k)! over all k with t >= (k-1) tau.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -71,9 +71,9 @@ std::vector<std::string> sundials() {
   return built;
 }
 
-/// The error of a step is held to the tolerance beside the size of the motion, 3 cm and 1 m/s, and
-/// 1 cm and 1 m/s more; errors of v act over the relaxation time of 0.05 s. All steps together err
-/// by their sum at most. Masses of their own keep the states apart.
+/// The error of a step is within the tolerance relative to the size of the motion, 3 cm and 1 m/s,
+/// plus 1 cm and 1 m/s; errors of v act over the relaxation time of 0.05 s. The total error is at
+/// most the sum over the steps. Separate masses keep the states apart.
 TEST(StatefulLaw, MaxwellElementFollowsTheToleranceOfSundials) {
   const MaxwellMass mass;
   for (const auto& integrator : sundials()) {
@@ -99,8 +99,8 @@ TEST(StatefulLaw, MaxwellElementFollowsTheToleranceOfSundials) {
   }
 }
 
-/// What the dashpot loses, c x'^2, and what the spring stores close the ledger; at the end nearly
-/// all kinetic energy has been lost in the law.
+/// The loss of the dashpot, c x'^2, and the energy of the spring close the ledger; at the end the
+/// law has dissipated nearly all kinetic energy.
 TEST(StatefulLaw, LedgerCountsWhatTheLawDissipates) {
   const MaxwellMass mass;
   const double energy = 0.5 * mass.m * mass.speed * mass.speed;
@@ -164,7 +164,7 @@ TEST(StatefulLaw, ElasticPlasticSpringSlidesAndSticks) {
   }
 }
 
-/// A force that follows the displacement some time ago.
+/// A force on the displacement with a delay.
 struct Echo : model::Formula<1> {
   double b = 40.0, tau = 0.1;
   model::DelayLine past{1, 0.1, 64};
@@ -240,7 +240,7 @@ TEST(StatefulLaw, DelayShorterThanTheStepIsRefused) {
   }
 }
 
-/// Explicit Euler that knows nothing of states, with a parameter that is required.
+/// Explicit Euler without support of states, with a required parameter.
 class Stateless final : public FixedStepIntegrator {
  public:
   explicit Stateless(const Teuchos::ParameterList& own) : factor_(own.get<double>("Factor")) {}

@@ -65,7 +65,7 @@ TEST(StepAccuracy, refusesShortRuns) {
   }
 }
 
-/// What is damped out long before a step ends does not move any more.
+/// A strongly damped motion has ended long before the end of a step.
 TEST(StepAccuracy, passesWhatStandsStillOrCreeps) {
   NoSamples sink;
   EXPECT_NO_THROW(integrate(oscillator(1.0, 0.0, 1e8, 0.0, 0.0), steps(5e-2, 20.0), sink));
@@ -73,7 +73,7 @@ TEST(StepAccuracy, passesWhatStandsStillOrCreeps) {
   EXPECT_NO_THROW(integrate(creeping, steps(5e-2, 20.0), sink));
 }
 
-/// What a run with these steps says of them: the error it ends with, or else its warning.
+/// The error of a run with these steps, or else its warning.
 std::string saidOf(const model::SecondOrderModel& model, const TransientOptions& options) {
   NoSamples sink;
   log::clearWarnings();
@@ -88,9 +88,9 @@ std::string saidOf(const model::SecondOrderModel& model, const TransientOptions&
 }
 
 /// With r = 1 the scheme loses a phase of (w h)^2 / 12 per radian. Its vibration error in a run of
-/// 3 s at 5 Hz is 1/3 of the phase at the end, S 1/3 to 3/5 of it (the formulas of the scheme,
-/// evaluated apart): 3 % at 0.1 rad, 15 and 29 % at 0.3 and 0.5, 61 % at 1. The difference from
-/// half the step is 3/4 of the error. Bounds of 5 and 20 %.
+/// 3 s at 5 Hz is 1/3 of the phase at the end, S 1/3 to 3/5 of it (formulas of the scheme,
+/// evaluated separately): 3 % at 0.1 rad, 15 and 29 % at 0.3 and 0.5, 61 % at 1. The difference
+/// from half the step is 3/4 of the error. Bounds of 5 and 20 %.
 TEST(StepAccuracy, judgesVibrationByItsPhaseAtTheEnd) {
   const double w = 2 * constants::pi * 5, end = 3;
   const auto model = oscillator(1.0, 0.0, w * w, 1e-3, 0.0);
@@ -136,8 +136,8 @@ TEST(StepAccuracy, saysWhatMakesItWorse) {
       }
 }
 
-/// A kilometre hanging, its first two seconds: the vibration error beside 0.125 ms and 1e-8 is 6 %
-/// with steps of 10 ms and 0.1 % with steps of 1 ms.
+/// A hanging kilometre, its first two seconds: the vibration error relative to 0.125 ms and 1e-8 is
+/// 6 % with steps of 10 ms and 0.1 % with steps of 1 ms.
 TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
   const auto hang = [](const std::string& step) {
     const auto scene = drillstring::readScene(
@@ -154,7 +154,7 @@ TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
   EXPECT_LT(fine, 0.02);
 }
 
-/// What a run of a scene for 2 s says of its steps.
+/// Message of a run of a scene for 2 s on its steps.
 std::string saidOfScene(const std::string& deck, std::vector<std::string> more) {
   more.insert(more.end(), {"Transient/End Time=2", "Transient/Progress=false", "!Study"});
   const auto scene =
@@ -166,11 +166,11 @@ std::string saidOfScene(const std::string& deck, std::vector<std::string> more) 
 bool isRefused(const std::string& said) { return said.find("is too large") != std::string::npos; }
 
 /// The string of stress_170m on walls of 1e8 and 1e9 N/m without damping: friction makes it
-/// vibrate. RK4 has a lateral speed of 0.16 m/s rms from 1 to 2 s on the first. Steps with a radius
-/// of 0.2 and of 0 hold that at a tenth and less, with a step error of 2 %, a closed balance of
-/// energy, and halves that do so, too; with friction of 0.2 the scheme takes 2 % of the amplitude
-/// only, as what it takes is gone in its first steps. On the wall of the scene it takes nothing
-/// that matters.
+/// vibrate. With RK4 the lateral speed is 0.16 m/s rms from 1 to 2 s on the first wall. Steps with
+/// a radius of 0.2 and of 0 suppress it to a tenth and less, with a step error of 2 % and a closed
+/// energy balance, and so do half steps. With friction of 0.2 the measured loss of amplitude is
+/// only 2 %, because the loss occurs in the first steps. On the wall of the scene the loss is
+/// negligible.
 TEST(StepAccuracy, refusesDampingThatHoldsVibrationDown) {
   const auto said = [](const std::string& stiffness, const std::string& radius,
                        std::vector<std::string> more) {
@@ -191,9 +191,9 @@ TEST(StepAccuracy, refusesDampingThatHoldsVibrationDown) {
   EXPECT_EQ(saidOfScene("stress_170m", {}), "");
 }
 
-/// The inclined kilometre, beside steps of 0.125 ms: 10 ms have a vibration error of 64 % with a
-/// step error of 32 %, and 2.5 ms one of 13 %. Steps of 20 ms on helical_170m have a step error of
-/// 17 % and a vibration error of 1.3 %.
+/// The inclined kilometre, relative to steps of 0.125 ms: 10 ms have a vibration error of 64 % with
+/// a step error of 32 %, and 2.5 ms one of 13 %. Steps of 20 ms on helical_170m have a step error
+/// of 17 % and a vibration error of 1.3 %.
 TEST(StepAccuracy, judgesStringsByTheirMotion) {
   EXPECT_TRUE(isRefused(saidOfScene("inclined_1000m", {"Transient/Step=0.01"})));
   EXPECT_FALSE(isRefused(saidOfScene("inclined_1000m", {"Transient/Step=0.0025"})));

@@ -23,7 +23,7 @@ std::vector<Vector> motion(const model::SecondOrderModel& model,
 TEST(SundialsScene, theReferenceSceneMovesAsWithRungeKutta) {
   const auto scene = reference(common);
   const auto model = drillstring::fullModel(drillstring::solveStatic(scene));
-  // eps0 = 1e-2 leaves less than 1e-4 of the vibration, far below what is compared.
+  // eps0 = 1e-2 has an error below 1e-4 of the vibration, far below the compared differences.
   const auto exact = motion(model, {"Transient/Integrator=RK4 adaptive", "Transient/Step=1e-5"});
   ASSERT_EQ(exact.size(), 41u);
   std::vector<std::vector<Vector>> found;
@@ -39,8 +39,8 @@ TEST(SundialsScene, theReferenceSceneMovesAsWithRungeKutta) {
     GTEST_SKIP() << error.what();
   }
   for (std::size_t i = 0; i < found.size(); i += 2) {
-    // The tolerance is that of a step: the motion keeps within ten of them, and follows a smaller
-    // one.
+    // The tolerance applies to a step: the error of the motion is below ten tolerances, and
+    // decreases with a smaller one.
     EXPECT_LT(testing_::largestError(found[i], exact), 1e-2);
     EXPECT_LT(testing_::largestError(found[i + 1], exact), 1e-4);
     EXPECT_LT(testing_::largestError(found[i + 1], exact),

@@ -145,8 +145,8 @@ TEST(CraigBampton, ShapesAreZeroWhereNothingReaches) {
   samples::classify(part, {1, 10}, {4, 7});
   const Basis basis = craigBampton()->build(part, allModes());
   EXPECT_EQ(basis.vectors.cols(), 10);
-  // kept columns: 1 + 1 + 2 ends each reach 2 or 4 interior dofs; each of the 6 modes lives on its
-  // own link of 2 dofs
+  // kept columns: 1 + 1 + 2 ends couple to 2 or 4 interior dofs each; each of the 6 modes is
+  // nonzero in its own block of 2 dofs
   EXPECT_EQ(basis.vectors.nonZeros(), 4 + (2 + 2 + 4 + 4) + 6 * 2);
 }
 
@@ -205,7 +205,7 @@ TEST(CraigBampton, NegativeEigenvaluesAreKeptAndReported) {
 }
 
 TEST(CraigBampton, MechanismIsNamed) {
-  // A beam held at one end in u and v only: it can turn about that end.
+  // A beam held at one end in u and v only: it can rotate about that end.
   samples::Frame frame;
   frame.corners = {{1, {0, 0}}, {2, {1, 0}}};
   auto part = samples::framePart("arm", frame, {{1, 2, {11, 12}}});
@@ -244,7 +244,7 @@ TEST(CraigBampton, MoreModesThanThereAreIsSaid) {
 }
 
 TEST(CraigBampton, PairOfAShaftIsNotCut) {
-  // Two equal bars side by side in one part stand for the u and v planes of a shaft.
+  // Two equal bars side by side in one part represent the u and v planes of a shaft.
   auto part = samples::bar("shaft", 1, 8, 3.0, 2.0);
   auto& m = part.model;
   const auto doubled = [](const Sparse& A) {

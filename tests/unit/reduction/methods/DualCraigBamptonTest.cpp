@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The dual Craig-Bampton basis: matrices, static state in the forces, motion, who refuses it.
+/// The dual Craig-Bampton basis: matrices, static state in the forces, motion, refusals.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
@@ -56,7 +56,7 @@ TEST(DualCraigBampton, BringsANegativeEigenvalueForEveryForceWithMass) {
   EXPECT_EQ(negative(dualWithMass), 9) << "three parts meet in node 3, two in node 4";
 }
 
-/// The frame under weight, started in its static state, and a force that sets in.
+/// The frame under weight, started in its static state, and a force applied suddenly.
 std::vector<model::Substructure> loadedFrame(bool push) {
   auto parts = samples::loopFrame(6, true, true);
   for (auto& part : parts) {

@@ -12,7 +12,7 @@
 namespace tooljoint::reduction {
 namespace FullBasisTest {
 
-/// Rows that are full, and some with one entry, as of boundary dofs; more rows than a block has.
+/// Full rows, and some with one entry, as of boundary dofs; more rows than in a block.
 struct Basis {
   static constexpr int rows = 2600, columns = 11;
   Basis() : dense(linalg::scatteredNumbers(rows, columns, 3)) {

@@ -48,7 +48,7 @@ TEST(Guyan, OfABarIsOneLongElement) {
   }
 }
 
-// A cantilever of eight elements: rotations carry next to no mass, so the masters are
+// A cantilever of eight elements: rotations have very little inertia, so the masters are
 // displacements, spread over the length.
 TEST(Guyan, MastersOfACantileverAreDisplacements) {
   samples::Frame frame;
@@ -65,7 +65,7 @@ TEST(Guyan, MastersOfACantileverAreDisplacements) {
     EXPECT_EQ(part.model.dofs[static_cast<std::size_t>(ranking.positions[i])].component, 1);
   for (Eigen::Index i = 1; i < ranking.ratios.size(); ++i)
     EXPECT_LE(ranking.ratios[i - 1], ranking.ratios[i]);
-  // Guyan: from above, and better with every master. The first frequency of the continuum
+  // Guyan: frequencies converge from above with every master. The first frequency of the continuum
   // is 3.516015 sqrt(EI / mu l^4).
   const double exact = eigenvalues(part.model)[0];
   double before = 1;
@@ -85,7 +85,7 @@ TEST(Guyan, MastersOfACantileverAreDisplacements) {
               1e-4);
 }
 
-/// Springs between neighbours in a box, each node with one dof and a mass of its own.
+/// Springs between neighbours in a box, each node with one dof and its own mass.
 model::Substructure box(int nx, int ny, int nz) {
   model::Substructure part;
   part.name = "box";
@@ -122,8 +122,7 @@ model::Substructure box(int nx, int ny, int nz) {
   return part;
 }
 
-// The ranking of Henshell and Ong one dof after the other with dense matrices, as it stands in
-// their paper.
+// The ranking of Henshell and Ong, one dof after the other with dense matrices, as in their paper.
 TEST(Guyan, MastersAreThoseOfTheEliminationOneByOne) {
   const auto part = box(7, 6, 5);
   const Partition p = partition(part);
@@ -145,7 +144,7 @@ TEST(Guyan, MastersAreThoseOfTheEliminationOneByOne) {
   EXPECT_EQ(ranking.positions, order);
 }
 
-// What a user waits for: 3,700 dofs in space took over a minute.
+// Limit of the time: 3,700 dofs in space once took over a minute.
 TEST(Guyan, MastersOfThousandsOfDofsTakeSeconds) {
   const auto part = box(16, 16, 15);
   const PartView view = part;

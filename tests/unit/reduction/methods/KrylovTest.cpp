@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The Krylov basis of single parts: how many vectors, deflation, pieces nothing drives,
+/// The Krylov basis of single parts: number of vectors, deflation, pieces without excitation,
 /// resonances.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
@@ -71,7 +71,7 @@ TEST(Krylov, FirstVectorsOfABarSpanWhatTheInertiaOfStraightMotionBends) {
 
 TEST(Krylov, VectorsThatRepeatAreDeflated) {
   // Both ends of two equal bars tied to one boundary dof each: the second retained dof in the
-  // middle cuts them; blocks shrink to what is new.
+  // middle cuts them; blocks shrink to the independent directions.
   auto part = bar(8);
   part.retained = {4};
   const auto basis = build(part, -1);  // two links of three dofs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// MacNeal's and Craig and Chang's matrices against their formulas; parts that leave little
-/// residual flexibility; who integrates them.
+/// MacNeal's and Craig and Chang's matrices against their formulas; parts with little residual
+/// flexibility; integrators that accept them.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rubin's basis of single parts: its space, floating parts, special cases, who asks how.
+/// Rubin's basis of single parts: its space, floating parts, special cases, requests.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
@@ -42,7 +42,7 @@ Matrix textbookSpace(const model::Substructure& part, const std::vector<int>& ke
   return space;
 }
 
-/// Largest part of a unit column of `a`, in the mass norm, that the columns of `b` do not have.
+/// Largest component, in the mass norm, of a unit column of `a` outside the span of `b`.
 double missing(const Matrix& a, const Matrix& b, const Matrix& M) {
   const Matrix L = M.llt().matrixU();
   const Matrix inner =
@@ -96,7 +96,7 @@ TEST(Rubin, FindsRigidBodyModes) {
   }
 }
 
-// A torque's skew stiffness acts on rigid-body motion: it is not one that nothing resists.
+// The skew stiffness of a torque acts on rigid-body motion, which is then not free of forces.
 TEST(Rubin, SkewStiffnessLeavesNoRigidBodyModeItActsOn) {
   const auto part = samples::loopFrame(6, true)[2];
   const Matrix K = constantStiffness(part.model);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A user's own vectors: their span, and everything a file can have wrong.
+/// User vectors: their span, and possible errors of a file.
 #include <Eigen/Dense>
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
