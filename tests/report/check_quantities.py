@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a report computes itself, against closed forms: check_quantities.py
+"""Quantities computed by a report, against closed forms: check_quantities.py
 
 Stresses, curvatures, precession, spectra, envelopes, units, the deck with its overrides, best and
 worst points of maps, and the numbers of the 3-D view.
