@@ -49,7 +49,7 @@ FORBIDDEN = [
 FOREIGN = re.compile(r"(?i)drill[\s_-]?(string|pipe)")
 BY_NAME = re.compile(r'\b(?:name|law) [!=]= "1"')
 PERSONS = re.compile(r"(?i)\b(looked at|unasked|(?:is|are|was|were) (?:asked|told))\b"
-                     )  # in product code and pages: what people do
+                     )  # in product code and pages: verbs of people
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 

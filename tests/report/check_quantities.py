@@ -101,8 +101,8 @@ def touching():
 
 
 def recorded():
-    """The table of docs/report.md keeps what reports promise: at most 10 s and 5 MB for 20 s of
-    motion."""
+    """The table of docs/report.md is within the limits of reports: at most 10 s and 5 MB for 20 s
+    of motion."""
     rows = re.findall(
         r"^\| (?:`tooljoint new`|(xml/\S+)) \| (\d+) \| (\d+) \| \d+ MB \| (\S+) s \| (\S+) s \| "
         r"(\S+) MB \|$", (ROOT / "docs/report.md").read_text(encoding="utf-8"), re.M)
