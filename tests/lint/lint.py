@@ -156,8 +156,8 @@ def size_table(root):
 
 
 def strangers(root):
-    """Complaints about what git keeps at the top level and no room holds: results of a run, most
-    often."""
+    """Complaints about tracked files at the top level that belong to no folder of the project,
+    usually results of a run."""
     listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], stdout=subprocess.PIPE,
                             stderr=subprocess.DEVNULL, text=True, check=False).stdout
     known = set(ROOMS) | {".ci"}

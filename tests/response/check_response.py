@@ -372,9 +372,9 @@ def turning():
 
 
 def critical_speeds(reduced, settings):
-    """Critical speeds of the string itself: those of the reduced model are apart from those of the
-    full one by what was estimated. The estimate is of first order in the error, which is 1e-6 and
-    less here; rounding and the tolerance of the crossings are below 1e-9."""
+    """Critical speeds of the string itself: those of the reduced model differ from those of the
+    full one by the estimate. The estimate is of first order in the error, which is 1e-6 and less
+    here; rounding and the tolerance of the crossings are below 1e-9."""
     done = tooljoint("campbell", "string.xml", "--output", "string_full", "--without", "Reduction",
                      "--without", "Substructures",
                      *(word for one in settings for word in ("--set", one)))
