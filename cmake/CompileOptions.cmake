@@ -10,7 +10,7 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 # Neither -march=native nor -ffast-math: golds hold on every machine, and NaN checks work.
-# Release is -O3 -DNDEBUG; checks that guard a result never hang on NDEBUG.
+# Release is -O3 -DNDEBUG; checks of results do not depend on NDEBUG.
 add_compile_options(-fno-semantic-interposition)
 add_link_options(LINKER:--as-needed)
 
@@ -23,13 +23,15 @@ endif()
 add_library(tooljoint_warnings INTERFACE)
 target_compile_options(tooljoint_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
 if(TOOLJOINT_SANITIZE)
-  # GCC's manual advises against -Werror with sanitizers: what they insert makes -Wmaybe-uninitialized warn of moved std::variants. The other builds hold it.
+  # GCC's manual advises against -Werror with sanitizers: their code makes -Wmaybe-uninitialized
+  # warn of moved std::variants. The other builds use it.
   target_compile_options(tooljoint_warnings INTERFACE -Wno-maybe-uninitialized)
 endif()
 
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # What ccache has to know of precompiled headers; paths relative to the sources, so that all clones share what one has compiled.
+  # Settings of ccache for precompiled headers; paths are relative to the sources, so that all
+  # clones share compiled objects.
   set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CCACHE})
 endif()
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cpack: the Debian packages tooljoint (program, libraries, documents, scenes), libtooljoint-dev (headers, find_package) and
-# python3-tooljoint (the Python package, where it is built). What depends on what is looked up by dpkg-shlibdeps; cmake/DebianFiles.cmake brings the installed files into the form of the distribution.
+# python3-tooljoint (the Python package, where it is built). dpkg-shlibdeps determines the
+# dependencies; cmake/DebianFiles.cmake brings the installed files into the form of the
+# distribution.
 if(NOT UNIX OR APPLE)
   return()
 endif()
@@ -31,7 +33,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tooljoint)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
-# What others that link to the libraries depend on, and the cache of the loader.
+# Dependencies of packages that link to the libraries, and the cache of the loader.
 set(control ${PROJECT_BINARY_DIR}/debian)
 file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
 file(WRITE ${control}/shlibs "")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Run by cpack between installation and packing: copyright and changelog of each package, compressed manual pages, no RPATH (the libraries are
-# in folders of the system), nothing that the copyright repeats.
+# in folders of the system), no files whose text the copyright contains.
 find_program(GZIP gzip REQUIRED)
 string(TIMESTAMP today "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(READ ${CPACK_TOOLJOINT_LICENCE} licence)

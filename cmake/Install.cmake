@@ -20,7 +20,7 @@ install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint COMPONE
 install(DIRECTORY substructures DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
 install(CODE "set(HEADERS \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/tooljoint\")
   include(\"${PROJECT_SOURCE_DIR}/cmake/InstalledIncludes.cmake\")" COMPONENT dev)
-# As in the source tree, so that the documents find what they link to.
+# The same layout as in the source tree, so that links in the documents work.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint)
 install(DIRECTORY docs examples xml DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint PATTERN ".*" EXCLUDE PATTERN "__pycache__" EXCLUDE
   PATTERN conf.py EXCLUDE PATTERN Doxyfile.in EXCLUDE)

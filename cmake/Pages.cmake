@@ -5,7 +5,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
   # Open MPI starts no daemon for a program without mpiexec.
   set(ENV{OMPI_MCA_ess_singleton_isolated} 1)
   set(ENV{OMPI_MCA_orte_create_session_dirs} 0)
-  # Of a build with sanitizers: leaks of Open MPI are none of ours.
+  # In a build with sanitizers leaks of Open MPI are ignored.
   set(ENV{LSAN_OPTIONS} suppressions=${CMAKE_CURRENT_LIST_DIR}/leaks.supp:print_suppressions=0:use_tls=0)
   function(tooljoint_page file)
     execute_process(COMMAND ${PROGRAM} doc ${ARGN} OUTPUT_VARIABLE text RESULT_VARIABLE failed)

@@ -33,7 +33,7 @@ file(MAKE_DIRECTORY ${package_in_build})
 set_target_properties(tooljoint_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${package_in_build} CXX_VISIBILITY_PRESET default
   DEBUG_POSTFIX "")
 target_include_directories(tooljoint_python PRIVATE python/core)
-# Both libraries, kept although the module may use nothing of them but variants that register themselves.
+# Both libraries, linked even if the module uses only variants that register themselves.
 target_link_libraries(tooljoint_python PRIVATE ${libraries} tooljoint_warnings)
 target_link_options(tooljoint_python PRIVATE LINKER:--push-state,--no-as-needed,${files},--pop-state)
 target_compile_options(tooljoint_python PRIVATE -Wno-attributes)  # pybind11 hides its own symbols, our classes hold its objects
@@ -47,7 +47,8 @@ foreach(module ${modules})
 endforeach()
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/tooljoint/plots ${package_in_build}/plots SYMBOLIC)
 
-# Where Debian's interpreter looks below /usr; under another prefix PYTHONPATH names the folder.
+# Search folder of Debian's interpreter below /usr; with another prefix set PYTHONPATH to the
+# folder.
 set(TOOLJOINT_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Folder of the Python package below the prefix")
 file(RELATIVE_PATH package_to_lib /prefix/${TOOLJOINT_PYTHON_DIR}/tooljoint /prefix/${CMAKE_INSTALL_LIBDIR})
 set_target_properties(tooljoint_python PROPERTIES INSTALL_RPATH $ORIGIN/${package_to_lib})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# SUNDIALS is optional: without it its two integrators say so when a deck asks for them.
+# SUNDIALS is optional: without it its two integrators give an error if a deck uses them.
 set(TOOLJOINT_SUNDIALS AUTO CACHE STRING "Integrators of SUNDIALS: AUTO takes them when they are found, ON requires them, OFF leaves them out")
 set_property(CACHE TOOLJOINT_SUNDIALS PROPERTY STRINGS AUTO ON OFF)
 if(NOT TOOLJOINT_SUNDIALS MATCHES "^(AUTO|ON|OFF)$")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Finds MPI, parallel HDF5, Eigen and Trilinos and gives them as Tooljoint::trilinos. Used by the build and, installed beside TooljointConfig.cmake,
-# by clients: the only place that knows how Trilinos 13.2 spells its targets.
+# by clients: the only file with the target names of Trilinos 13.2.
 include(CMakeFindDependencyMacro)
 
 # FindHDF5 compiles C; a project of LANGUAGES CXX gets the language here.

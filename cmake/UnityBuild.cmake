@@ -5,8 +5,9 @@
 option(TOOLJOINT_UNITY "Compile sources of a folder together" ON)
 set(TOOLJOINT_UNITY_SOURCES 12 CACHE STRING "Most sources compiled together")
 if(TOOLJOINT_UNITY)
-  # Sources follow one another: types of one stand beside its class, names of one are not hidden by another, and what is inlined across
-  # them makes GCC 12 warn of branches that are never taken.
+  # Sources are included one after the other: types of one are beside its class, names of one are
+  # not hidden by another, and code inlined across them makes GCC 12 warn of branches that are never
+  # taken.
   target_compile_options(tooljoint_warnings INTERFACE -Wno-subobject-linkage -Wshadow=local -Wno-array-bounds)
 endif()
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A portal frame with a gable: five parts, one closed loop, nodes that three parts share.
+/// A portal frame with a gable: five parts, one closed loop, nodes shared by three parts.
 ///
 ///             5
 ///           /   \            left rafter 4-5, right rafter 3-5

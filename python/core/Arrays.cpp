@@ -67,7 +67,8 @@ Sparse toSparse(const py::object& matrix, const std::string& what) {
   refuseMasked(matrix, "The " + what);
   py::object csr;
   try {
-    // arrays of a matrix may have been changed since it was made; what reads them trusts them
+    // the arrays of a matrix may have changed since it was made; the reading code does not check
+    // them
     if (py::hasattr(matrix, "check_format")) matrix.attr("check_format")(true);
     csr = scipySparse().attr("csr_matrix")(matrix);
     if (csr.attr("dtype").attr("kind").cast<std::string>() == "c")

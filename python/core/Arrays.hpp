@@ -18,14 +18,14 @@ namespace tooljoint::python {
 
 namespace py = pybind11;
 
-/// A scipy.sparse.csr_matrix; the type stands in the signatures.
+/// A scipy.sparse.csr_matrix; the type appears in the signatures.
 class CsrMatrix : public py::object {
  public:
   PYBIND11_OBJECT_DEFAULT(CsrMatrix, object, isObject)
   static bool isObject(PyObject*) { return true; }
 };
 
-/// Anything numpy takes as numbers; ArrayLike in the signatures.
+/// Anything numpy accepts as numbers; ArrayLike in the signatures.
 class Numbers : public py::object {
  public:
   PYBIND11_OBJECT_DEFAULT(Numbers, object, isObject)
@@ -42,7 +42,7 @@ CsrMatrix toScipy(const model::SharedSparse& matrix);
 /// for anything else. Entries given twice are added.
 Sparse toSparse(const py::object& matrix, const std::string& what);
 
-/// A numpy array that takes the values over, row-major.
+/// A numpy array that takes ownership of the values, row-major.
 template <class T>
 py::array toNumpy(std::vector<T> values, std::vector<py::ssize_t> shape) {
   auto* owned = new std::vector<T>(std::move(values));
@@ -55,7 +55,7 @@ py::array toNumpy(std::vector<T> values) {
   return toNumpy(std::move(values), {size});
 }
 
-/// ModelError when a function that `who` names returned complex numbers.
+/// ModelError if the function named by `who` returned complex numbers.
 void requireReal(const py::object& values, const std::string& who);
 
 /// Takes the values of `array` as rows x columns. ModelError, naming `who`, when it has another

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reduction bases written in Python: they join the registry and can be named like any other, by a
-// call, by a deck or by a study.
+// Reduction bases written in Python: they are added to the registry and can be named like any other
+// in a call, a deck or a study.
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <map>
@@ -48,7 +48,7 @@ std::map<std::string, WrittenBasis>& writtenBases() {
   return *bases;
 }
 
-/// Constraint modes and the lowest Ritz vectors in the span of what build(part, count) returns,
+/// Constraint modes and the lowest Ritz vectors in the span of the vectors of build(part, count),
 /// interior dofs x vectors.
 class PythonBasis final : public reduction::ReductionMethod {
  public:

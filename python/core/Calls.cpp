@@ -15,10 +15,10 @@ namespace {
 
 // Changed with the GIL only.
 int depth = 0;  ///< of calls, nested ones and those of other threads
-/// What stood before the first of them, for the signals that the toolkit takes.
+/// Handlers before the first call, of the signals handled by the toolkit.
 std::map<int, struct sigaction> handlers{{SIGINT, {}}, {SIGTERM, {}}, {SIGXFSZ, {}}};
 
-/// The exception of Python behind the error on its way through the toolkit; null: none.
+/// The Python exception that caused the current error of the toolkit; null: none.
 py::object& cause() {
   static auto* kept = new py::object;
   return *kept;
@@ -108,7 +108,7 @@ void fromPython(const std::string& who, const std::function<void()>& work) {
 
 Kept::Kept(py::object object)
     : object_(new py::object(std::move(object)), [](py::object* held) {
-        if (Py_IsInitialized() == 0) return;  // the memory goes with the process
+        if (Py_IsInitialized() == 0) return;  // the process frees the memory
         const py::gil_scoped_acquire gil;
         delete held;
       }) {}

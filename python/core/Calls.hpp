@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Calls that cross the border: long ones from Python into the toolkit, and those of the toolkit
-/// back into Python.
+/// Long calls from Python into the toolkit, and calls of the toolkit back into Python.
 #pragma once
 
 #include <functional>
@@ -18,9 +17,9 @@ namespace tooljoint::python {
 
 namespace py = pybind11;
 
-/// A call from Python into the toolkit, which begins without warnings. While it lives, SIGINT and
-/// SIGTERM set the flag of the toolkit, which long work looks at, and not the one of Python. May be
-/// nested.
+/// A call from Python into the toolkit, which begins without warnings. During its lifetime SIGINT
+/// and SIGTERM set the flag of the toolkit, which long work checks, and not the one of Python. May
+/// be nested.
 class CallScope {
  public:
   CallScope();
@@ -29,12 +28,12 @@ class CallScope {
   CallScope& operator=(const CallScope&) = delete;
 };
 
-/// Held by the call that runs; by its own thread again where it comes back through a function of
-/// Python.
+/// Held by the running call; recursive, because a Python function may call the toolkit again in the
+/// same thread.
 std::recursive_mutex& turn();
 
 /// Runs work() without the GIL, one call at a time: the toolkit and MPI serve one thread, calls
-/// from others wait. InterruptedError when a signal came in the meantime.
+/// from others wait. InterruptedError if a signal arrived in the meantime.
 template <class Work>
 auto longCall(const Work& work) {
   const CallScope call;
@@ -53,14 +52,13 @@ auto longCall(const Work& work) {
   }
 }
 
-/// Runs work() with the GIL and turns an exception of Python into one of the toolkit: an
-/// exception that came from the toolkit into what it was, KeyboardInterrupt into
-/// InterruptedError, any other into ModelError. `who` begins the sentence: `The basis "A"`. The
-/// exception that Python sees in the end has the first one as its cause.
+/// Runs work() with the GIL and converts a Python exception into one of the toolkit: an exception
+/// of the toolkit into the original one, KeyboardInterrupt into InterruptedError, any other into
+/// ModelError. `who` begins the message: `The basis "A"`. The final Python exception has the first
+/// one as its cause.
 void fromPython(const std::string& who, const std::function<void()>& work);
 
-/// A Python object that outlives the interpreter without harm, to be held by the toolkit. Copies
-/// need no GIL.
+/// A Python object held by the toolkit that may safely outlive the interpreter. Copies need no GIL.
 class Kept {
  public:
   explicit Kept(py::object object);

@@ -29,8 +29,8 @@ py::object listToPython(const Teuchos::ParameterList& list);
 
 namespace {
 
-/// A deck as Python holds it: a file, the text that stands for it (empty: the file as it is), and
-/// changes as `--set` takes them.
+/// A deck in Python: a file, the text that replaces it (empty: the file itself), and changes in the
+/// form of `--set`.
 struct DeckSource {
   std::string file, text;
   std::vector<std::string> overrides;
@@ -57,7 +57,7 @@ std::shared_ptr<ReadDeck> readDeck(const DeckSource& from) {
   return std::make_shared<ReadDeck>(ReadDeck{std::move(deck), deck::manualJson(spec)});
 }
 
-/// While it lives, lines of the log are printed or not.
+/// Switches the printing of log lines during its lifetime.
 class Quiet {
  public:
   explicit Quiet(bool quiet) : before_(log::quiet()) { log::setQuiet(quiet); }

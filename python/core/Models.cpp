@@ -46,7 +46,7 @@ void recoverAll(SecondOrderModel& model) {
   model.recoveryNodes = nodes;
 }
 
-/// Every dof has a label of its own, and every component a name.
+/// Every dof has its own label, and every component a name.
 void requireOwnNames(const SecondOrderModel& model) {
   std::map<std::string, std::size_t> position;
   for (std::size_t i = 0; i < model.dofs.size(); ++i)
@@ -101,7 +101,7 @@ py::dict terms(const model::SharedList<model::MatrixTerm>& list) {
 
 CsrMatrix sum(const Sparse& matrix) { return toScipy(matrix); }
 
-/// A change that is refused leaves the model as it was. Copies share what is not changed.
+/// A refused change does not modify the model. Copies share unchanged data.
 template <class Change>
 void change(SecondOrderModel& model, const Change& make) {
   SecondOrderModel changed = model;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tooljoint._core: MPI and Kokkos live from the import to the end of the interpreter.
+// tooljoint._core: MPI and Kokkos are initialised at the import and finalised at the end of the
+// interpreter.
 #include <Kokkos_Core.hpp>
 #include <Tpetra_Core.hpp>
 #include <memory>
@@ -17,7 +18,8 @@ namespace tooljoint::python {
 
 namespace {
 
-/// Begun at the import; MPI that somebody else (mpi4py) has begun is theirs to end.
+/// Initialised at the import; MPI initialised by another package (mpi4py) is finalised by that
+/// package.
 std::unique_ptr<Tpetra::ScopeGuard> session;
 
 void begin() {
@@ -29,7 +31,7 @@ void begin() {
   session = std::make_unique<Tpetra::ScopeGuard>(&none, &nothing);
 }
 
-/// Ends all ranks: one that meets an error alone must not let the others wait for it.
+/// Ends all ranks: after an error on one rank the others must not wait for it.
 [[noreturn]] void abortAll(int code) {
   MPI_Abort(MPI_COMM_WORLD, code);
   std::abort();

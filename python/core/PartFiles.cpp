@@ -61,7 +61,7 @@ void write(const PartPointer& part, const std::string& path, const Sets& interfa
   }
   const auto ending = path.rfind(".h5");
   const bool hdf5 = ending != std::string::npos && ending + 3 == path.size();
-  longCall([&] {  // all ranks wait for the one that writes
+  longCall([&] {  // all ranks wait for the writing rank
     parallel::agree([&] {
       parts::writePart(content, path, hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
     });
@@ -70,7 +70,7 @@ void write(const PartPointer& part, const std::string& path, const Sets& interfa
 
 using Laws = std::map<std::string, model::ScalarLaw>;
 
-/// The laws of time that a file names without saying what they are.
+/// The laws of time that a file names without defining them.
 void setLaws(parts::PartContent& content, Laws given) {
   const std::string who = "Part \"" + content.part.name + "\" (" + content.file + ")";
   for (auto& law : content.part.model.laws.own()) {

@@ -21,8 +21,8 @@ namespace {
 
 using reduction::ReducedSubstructure;
 
-/// What joins parts, and the parts it is for: those of a list Coupling get node numbers of their
-/// own and retained dofs.
+/// Connections and their parts: the parts of a list Coupling get their own node numbers and
+/// retained dofs.
 coupling::ResolvedCoupling resolve(const Parts& parts, const Joining& joining) {
   if (const auto* list = std::get_if<List>(&joining))
     return coupling::resolve(valuesOf(parts), coupling::readCoupling(**list));

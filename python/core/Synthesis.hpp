@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The result of a component mode synthesis as Python holds it.
+/// The result of a component mode synthesis in Python.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace tooljoint::python {
 
 using Parts = std::vector<PartPointer>;
 
-/// What joins parts beside equal labels: nothing, a list Coupling, or the connections of a deck.
+/// Connections in addition to equal labels: none, a list Coupling, or the connections of a deck.
 using Joining = std::variant<std::monostate, List, coupling::CouplingOptions>;
 
 struct Synthesised {

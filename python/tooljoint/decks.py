@@ -166,8 +166,8 @@ class Deck:
             raise FileError(f"The deck {file} cannot be written: {error.strerror}.") from error
 
     def check(self, quiet: bool = True) -> None:
-        """Refuse what a run would refuse; with quiet=False print what will be modelled, as
-        `tooljoint check`."""
+        """Raise the errors of a run; with quiet=False print a summary of the model, as `tooljoint
+        check`."""
         _core.check(self._source(), quiet)
 
     def run(self, output: str | os.PathLike = "", restart: str | os.PathLike = "",

@@ -108,7 +108,7 @@ def compare_modes(synthesis: _core.Synthesis, count: int, full: HasModel | None 
 
 def estimate_frequencies(synthesis: _core.Synthesis, count: int) -> list[dict[str, Any]]:
     """Estimated relative errors of the lowest coupled frequencies, without the full model: a list
-    of dicts with frequency_hz, error, by_part (what the truncated modes of each part contribute)
+    of dicts with frequency_hz, error, by_part (contribution of the truncated modes of each part)
     and definite (False: modes are missing below this frequency)."""
     call = "estimate_frequencies"
     return _core.estimate_frequencies(one_of(synthesis, ("Synthesis",), call, "synthesis"),

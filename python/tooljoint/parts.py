@@ -115,7 +115,7 @@ def write_part(part: _core.Part, path: str | os.PathLike,
 def read_part(path: str | os.PathLike, name: str = "part",
               laws: dict[str, Any] | None = None) -> _core.Part:
     """Read a part: a file .h5 or .json, or a folder with a part.json.
-    DeckError for what is malformed, ModelError.
+    DeckError for malformed data, ModelError.
 
     laws: of every law of time that terms of the file name, its function of the time [s], or a
     number: `laws={"Omega": 12.5}`. A file cannot contain point laws; a warning names omitted ones.

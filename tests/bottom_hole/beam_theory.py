@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Beam-column of constant section on supports, as textbooks have it: what `tooljoint bha` is
-compared with.
+"""Beam-column of constant section on supports, as in textbooks, for comparison with `tooljoint
+bha`.
 
 x runs from the bit up the hole, v across it, with the bit at x = 0 on the axis. With the
 compression P, the load q along v and the transverse force Q of a fixed direction

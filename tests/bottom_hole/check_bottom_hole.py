@@ -313,8 +313,8 @@ def lying():
     walls = sum(one["wall_force_high"] for one in row["profile"])
     length = row["profile"][-1]["from_bit"]
     tangency = (24 * RIGIDITY * CLEARANCE / weight)**0.25
-    # the cut is held on the axis, which lifts the string over a length of the kind of the tangency
-    # point: there it bears w L/2 less what it lifts off the wall
+    # the cut is held on the axis, which lifts the string over a length similar to that to the
+    # tangency point: it carries w L/2 less the weight lifted off the wall
     bearing = walls - row["side_force_high"]
     near("walls and bit bear the buoyed weight less that at the cut", bearing,
          weight * length - weight * tangency / 2, 1e-2)

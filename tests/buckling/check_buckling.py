@@ -189,8 +189,8 @@ def transition():
     jumps = [one["weight_on_bit"] for one in said.get("jumps", [])]
     expect(f"the string jumps, under {jumps}", bool(jumps) and found[-1]["branch"] == len(jumps))
     last = [row for row in found if row["branch"] == 0][-1]
-    # what is buckled half a wave longer or shorter turns over a few per cent of the load earlier or
-    # later
+    # a pipe buckled with half a wave more or less turns over at a load a few per cent smaller or
+    # larger
     near("compression of the last sinusoidal state over the first buckling",
          last["compression"] / critical, 2.8, 0.1)
     expect(
@@ -360,9 +360,9 @@ def refusals():
 
 
 def buckled_runs():
-    """A horizontal pipe that turns, pushed past its buckling load: the stages of its static state
-    do not converge, and it slides to a state in balance; harder still, friction drives it round the
-    hole, and the run says so and what helps."""
+    """A horizontal pipe that turns, loaded beyond its buckling load: the stages of its static state
+    do not converge, and it slides to an equilibrium. At a higher load friction drives it round the
+    hole, and the message of the run says so and gives a remedy."""
     survey = pathlib.Path("horizontal.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 90, 0\n2000, 90, 0\n", encoding="utf-8")
     pipe = ('<ParameterList name="pipe"><Parameter name="Length" type="double" value="100"/>'

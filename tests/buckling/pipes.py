@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pipes between hinges for `tooljoint buckling`, and what the wall bears by theory: of
-check_buckling.py and of docs/validation.md."""
+"""Pipes between hinges for `tooljoint buckling`, and the theoretical wall forces, for
+check_buckling.py and docs/validation.md."""
 import csv
 import math
 import pathlib

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line as a person meets it.
+"""The command line for a user.
 
     check_command_line.py PROGRAM MPIEXEC DECK PARTS_DECK PLOTTER
 

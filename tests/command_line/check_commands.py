@@ -91,7 +91,7 @@ def shortened(words):
     """The words of a command with overrides that make it quick."""
     if pathlib.Path(words[0]).name != "tooljoint" or words[1] not in SHORT or "Transient" in words:
         return words
-    if words[1] == "map":  # a second map of a deck goes on from the points of the first
+    if words[1] == "map":  # a second map of a deck continues from the points of the first
         at = words.index("--output") + 1
         words = [*words[:at], MAPPED.setdefault(words[2], words[at]), *words[at + 1:]]
     compared = words[1] == "run" and "Measured Log" in (PROJECT / words[2]).read_text(

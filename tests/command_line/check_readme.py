@@ -41,7 +41,7 @@ PICTURED = {
 
 
 def block():
-    """The lines of the block as they stand, without what indents them."""
+    """The lines of the block without their indentation."""
     text = (PROJECT / "README.md").read_text(encoding="utf-8")
     section = re.search(r"^## Go on\n\n((?:    .*\n)+)", text, re.M)
     return [line[4:] for line in section.group(1).splitlines()]

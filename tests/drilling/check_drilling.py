@@ -143,8 +143,8 @@ def steady(program):
 
 
 def among_bending(program):
-    """The torsional growth of a bit law is seen behind the bending modes of a long string; the
-    truth is the Campbell diagram at that speed."""
+    """The torsional growth of a bit law is detected beyond the bending modes of a long string; the
+    reference is the Campbell diagram at that speed."""
     deck = HERE.parents[1] / "xml/map_inclined_1000m.xml"
     settings = {
         "Rotary Speed/Law": "Constant", "Rotary Speed/Constant/Speed": "45 rpm",
@@ -297,7 +297,7 @@ def matched(program):
         near(
             f"{name}: the motion is that of the modes of the characteristic equation, first s = "
             f"{slow:.4f} 1/s", misfit(t[later], angle[later], roots.values()), 0.0, 5e-3)
-        # which damps its first mode so strongly that little of it is left
+        # which nearly removes its first mode by damping
         off = 1.1 if name == "high-pass" else 1.02
         wrong = [root * off if root == slow else root for root in roots.values()]
         expect(f"{name}: a root {100 * (off - 1):.0f} % off would show",

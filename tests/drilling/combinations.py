@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every law of the bit and every control of the drive under every integrator, in the full and the
-reduced model: one motion, a ledger that closes, figures of merit, and a run that goes on from its
-checkpoint to the same numbers."""
+reduced model: one motion, a ledger that closes, figures of merit, and a run restarted from its
+checkpoint with the same numbers."""
 import resource
 import subprocess
 
@@ -51,10 +51,10 @@ SCENES = {
     "penetration, autodriller and PI drive": ({"Law": "Tucker-Wang"}, {**SPEED, **DRILLER}, None),
 }
 # settings, and bounds of the difference from RK4 over the change of the motion: of the angle of the
-# bit and of its advance. The steps of the order h^2 leave a thousandth of the wave that returns
-# from the bit; tolerances of a step add up over hundreds of them. RK4 adaptive and ARKODE have
-# their usual tolerances. A steep law makes forces of what is small in velocities: they may be ten
-# times as wrong as the advance.
+# bit and of its advance. The error of steps of order h^2 is a thousandth of the wave that returns
+# from the bit; tolerances of a step add up over hundreds of steps. RK4 adaptive and ARKODE have
+# their usual tolerances. A steep law turns small errors of velocities into forces: their errors may
+# be ten times that of the advance.
 REFERENCE = ("RK4", {"Transient/Integrator": "RK4", "Transient/Step": 1e-4})
 HALF = "generalized-alpha, half the step"
 INTEGRATORS = (
@@ -167,7 +167,7 @@ def combinations(program, sundials=True):
                        str(run.motion["energy_residual"]))
                 wrong = figures_of(run, weight is None)
                 expect(f"{what}: figures of merit", not wrong, str(wrong))
-                if integrator != HALF:  # the same scheme goes on with the other step
+                if integrator != HALF:  # the same scheme continues with the other step
                     wrong = goes_on(program, name, path, run, settings, without)
                     expect(f"{what}: goes on from its checkpoint to the same numbers", not wrong,
                            "; ".join(wrong[:4]))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction along the hole (Contact/Friction/Axial): drag of steady sliding by formula, a string
-that slips and sticks on its way down against scipy, its damped modes and response against a matrix
-of its own, and a string that begins to turn while it slides."""
+that slips and sticks on its way down against scipy, its damped modes and response against a
+separate matrix, and a string that begins to turn while it slides."""
 import csv
 import math
 
@@ -63,8 +63,8 @@ def turning(speed):
 
 
 def steady(program):
-    """Hook load w L (cos a -+ mu sin a) of a string that slides, less by v_a/v where it turns too,
-    at rest and in the motion that goes on so."""
+    """Hook load w L (cos a -+ mu sin a) of a sliding string, less by v_a/v if it also turns, at
+    rest and in the steady motion."""
     for name, feed, omega in (("up", -0.3, 0.0), ("down and turning back", 0.2, -OMEGA)):
         run = program.run("steady",
                           deck(program, "steady", feed, **(turning(omega) if omega else {})))
@@ -212,9 +212,9 @@ def slopes(program):
 
 
 def spun_up(program):
-    """A string that slides begins to turn: drag gives way to torque, in both models and by two
-    integrators. Where translations alone are retained, the torque of friction acts on the four
-    modes of a part."""
+    """A string that slides begins to turn: torque replaces drag, in both models and with two
+    integrators. If only translations are retained, the torque of friction acts on the four modes of
+    a part."""
     lists = {
         "Rotary Speed": {
             "Law": "Exponential",

@@ -68,8 +68,8 @@ def string_deck(pieces, **lists):
 
 
 class TorsionalString:
-    """Linear torsional elements, in the frame that turns with Omega(t): an implementation of its
-    own."""
+    """Linear torsional elements, in the frame that turns with Omega(t): an independent
+    implementation."""
     def __init__(self, pieces, damping=0.0, inertia=0.0):
         elements = [(part, part["Length"] / part["Elements"]) for part, count in pieces
                     for _ in range(count * part["Elements"])]

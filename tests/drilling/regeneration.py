@@ -76,7 +76,7 @@ class Drilling:
 
 
 def beside(name, run, drilling):
-    """The static state of the run beside the characteristic equation."""
+    """The static state of the run compared with the characteristic equation."""
     static, s = run.summary["static"], drilling.rightmost()
     expect(f"{name}: steady drilling is unstable", s.real > 0.05 and not static["stable"], str(s))
     near(f"{name}: growth [1/s]", static["growth_rate"], s.real, 0.02 * s.real)

@@ -149,8 +149,8 @@ def limits(program):
 
 
 def alone(program):
-    """The scene beside masses and springs of its own, integrated with a tolerance: speeds of the
-    bit, peak, share stuck, mean period of the last 30 s; prints a table."""
+    """The scene compared with a separate model of masses and springs, integrated with a tolerance:
+    speeds of the bit, peak, share stuck, mean period of the last 30 s; prints a table."""
     final = 80 * math.pi / 30
     times = np.arange(0, 60.0 + 1e-9, 0.02)
     truth = torsion.LumpedString(LINE,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Torsion of a string between a drive and a bit whose friction depends on its speed: roots of the
-line without a mesh, and a motion of its own."""
+line without a mesh, and an independent motion."""
 import math
 
 import numpy as np
@@ -51,7 +51,7 @@ class Line:
         return None
 
     def roots(self, slope, drive, highest):
-        """Those that vibrate up to `highest` [rad/s], the largest real part first; starts are the
+        """Vibrating roots up to `highest` [rad/s], the largest real part first; starts are the
         eigenvalues of lumped masses."""
         lumped = LumpedString(self, min(50.0, 3200.0 / highest))
         starts = [s for s in lumped.eigenvalues(slope, drive) if 1e-3 < s.imag < highest]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What ends how: check_exit_codes.py PROGRAM MPIEXEC DECK [without-sundials]
+"""Exit codes: check_exit_codes.py PROGRAM MPIEXEC DECK [without-sundials]
 
 Runs the program into every kind of end and compares exit code and message, on one rank and on two;
 shows that a failed run spoils no finished result, and that an interrupted run goes on to the same

@@ -4,8 +4,9 @@
 check_inputs.py PROGRAM
 
 Every file a deck or a command line can name is replaced by a FIFO, a device and a terabyte of
-zeros, and parts announce matrices they do not hold: each is refused with a sentence, in seconds and
-without memory. What `run` refuses without solving, `check` refuses with the same exit code.
+zeros, and parts announce matrices they do not hold: each is refused with a message, in seconds and
+without memory. `check` refuses everything that `run` refuses without solving, with the same exit
+code.
 """
 import json
 import os

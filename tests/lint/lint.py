@@ -49,7 +49,7 @@ FORBIDDEN = [
 FOREIGN = re.compile(r"(?i)drill[\s_-]?(string|pipe)")
 BY_NAME = re.compile(r'\b(?:name|law) [!=]= "1"')
 PERSONS = re.compile(r"(?i)\b(looked at|unasked|(?:is|are|was|were) (?:asked|told))\b"
-                     )  # in product code and pages: what people do
+                     )  # in product code and pages: verbs of people
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
@@ -156,8 +156,8 @@ def size_table(root):
 
 
 def strangers(root):
-    """Complaints about what git keeps at the top level and no room holds: results of a run, most
-    often."""
+    """Complaints about tracked files at the top level that belong to no folder of the project,
+    usually results of a run."""
     listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], stdout=subprocess.PIPE,
                             stderr=subprocess.DEVNULL, text=True, check=False).stdout
     known = set(ROOMS) | {".ci"}

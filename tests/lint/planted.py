@@ -97,7 +97,7 @@ PLACES = {
 
 
 def all_cases(longest):
-    """Of all rules; `longest`: lines of a source file."""
+    """Cases of all rules; `longest`: lines of a source file."""
     long = {
         "src/io/L.cpp": (SPDX + "\n" * longest, "more than"),
         "tools/L.py": (PYTHON + "\n" * longest, "more than"),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Names of src/common in sources whose includes do not reach the header that declares them. Sources
-of a folder are compiled together, so that a compiler finds such a name by way of another source."""
+of a folder are compiled together, so that a compiler finds such a name through another source."""
 import pathlib
 import re
 

@@ -20,8 +20,8 @@ def code(text):
 
 
 def of_texts(texts):
-    """Complaints about what stands twice in `texts`, {relative name: text}; one for each repeat,
-    however long."""
+    """Complaints about repeated code in `texts`, {relative name: text}; one for each repeat, of any
+    length."""
     seen = {}
     for name, text in sorted(texts.items()):
         if not name.startswith(WHERE) or not name.endswith((".cpp", ".hpp", ".py")):

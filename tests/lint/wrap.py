@@ -49,7 +49,7 @@ def end_of(line):
 
 
 def is_code(line, before):
-    """An indented line behind an empty one, unless it goes on with an item of a list."""
+    """An indented line after an empty one, unless it continues an item of a list."""
     if not re.match(r" {4}|\t", line) or (before and before[-1].strip()):
         return False
     left = next((each for each in reversed(before) if each.strip() and not each.startswith(" ")),

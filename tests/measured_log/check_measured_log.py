@@ -4,8 +4,8 @@
 
 A log made of a run gives no difference, one that is scaled and shifted the difference that numpy
 gives; spectra are those of scipy, peaks those of a sine. CSV, LAS and wrapped LAS files with other
-units give the same numbers, and so do two ranks and a run that is stopped and goes on. Files and
-decks without sense end with a sentence.
+units give the same numbers, and so do two ranks and a run that is stopped and goes on. Invalid
+files and decks end with a message.
 """
 import csv
 import json

@@ -103,8 +103,8 @@ exec /sbin/ldconfig -r "$DPKG_ROOT" "$@"
 
 
 def install(packages):
-    """dpkg unpacks and configures all packages in the root, which has no others; the machine's own
-    cache of libraries is left alone."""
+    """dpkg unpacks and configures all packages in an empty root; the library cache of the machine
+    does not change."""
     for folder in ("var/lib/dpkg/info", "var/lib/dpkg/updates", "var/lib/dpkg/triggers", "etc"):
         (ROOT / folder).mkdir(parents=True)
     for file in ("var/lib/dpkg/status", "var/lib/dpkg/available", "etc/ld.so.conf"):

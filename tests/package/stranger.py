@@ -67,7 +67,7 @@ def installed(folder):
 
 
 def judge(done, home):
-    """What a stranger sees at the end."""
+    """The final result for a new user."""
     expect("every command of the page succeeds", done.returncode == 0,
            done.stdout[-600:] + done.stderr[-600:])
     if done.returncode:

@@ -105,8 +105,8 @@ def unstable_equilibria():
     count = len(bar["dofs"])
 
     def rest(name, share, damping):
-        """What a run says of these bars in a row, held on the left, with this damping; `share` of
-        the stiffness of both is taken off the free end."""
+        """Message of a run on these bars in a row, held on the left, with this damping; the free
+        end loses `share` of the stiffness of both."""
         weak = dict(bar)
         K = np.array(bar["stiffness"])
         K[-1, -1] -= share * 1e6 / (count - 1) / 2
@@ -183,7 +183,7 @@ def motion_tolerance_of_fast_parts():
 
 
 def relaxed_laws_at_rest():
-    """A law whose state is relaxed at rest has no force there, however stiff it is beside the
+    """A law with a relaxed state at rest has no force there, whatever its stiffness relative to the
     parts: 100 N on 20 springs in a row, 2 mm."""
     for law, values in (
         ("Maxwell", {"Stiffness": 1e7, "Damping": 40.0}),

@@ -186,8 +186,8 @@ def turned_out_of_the_plane():
 
 
 def starts_that_coordinates_lose():
-    """Coordinates that depend on others, and modes of interfaces, lose of a start what the bases
-    have: the warning counts that too."""
+    """Dependent coordinates and interface modes do not represent an initial state that the bases
+    contain: the warning includes this loss."""
     start = {
         "Starts": {
             f"s{i}": {"Part": part, "Node": node, "Component": "u", "Velocity": v}
@@ -213,9 +213,9 @@ def starts_that_coordinates_lose():
 
 
 def massless_nodes_of_dual_assemblies():
-    """A node without mass starts in balance with the others, also where a multiplier joins it: q2 =
-    q1/2 beside q3, whatever it is given. The parts are turned, so that no dof alone is without
-    mass in the common frame; across their axis nothing moves."""
+    """A node without mass starts in equilibrium with the others, also if a multiplier joins it: q2
+    = q1/2 beside q3, whatever start it is given. The parts are turned, so that no dof alone is
+    without mass in the common frame; across their axis nothing moves."""
     for part, m, k, ends in (
         ("a", [1.0, 0.0, 1.0], [[2e4, -1e4, 0], [-1e4, 2e4, -1e4], [0, -1e4, 1e4]], {"r": [3]}),
         ("b", [1.0, 1.0], [[1e4, -1e4], [-1e4, 1e4]], {"l": [1]}),

@@ -21,7 +21,7 @@ for name, errors in lines.items():
 
 
 def run(code):
-    """Output of a block in a process of its own, with the frame of xml/ beside it."""
+    """Output of a block in a separate process, with the frame of xml/ beside it."""
     shutil.copy(SOURCE / "xml/frame.xml", "frame.xml")
     shutil.copytree(SOURCE / "xml/frame", "frame", dirs_exist_ok=True)
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False,

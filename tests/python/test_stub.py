@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python/tooljoint/_core.pyi is what the module says of itself.
-`test_stub.py --update` writes it."""
+"""python/tooljoint/_core.pyi agrees with the module. `test_stub.py --update` writes it."""
 import inspect
 import os
 import pathlib

@@ -13,8 +13,8 @@ from written import EFFECTS, ROOT, STRING, figures, page
 
 
 def analysis(chromium, title, command, deck, wanted, *arguments):
-    """The report of an analysis: what it is of, warnings first, headline figures before the
-    sections, the deck; its text and its summary, {} where there is none."""
+    """The report of an analysis: its title, warnings first, headline figures before the sections,
+    the deck; its text and its summary, {} where there is none."""
     folder = f"analysis_{command}"
     shutil.rmtree(folder, ignore_errors=True)
     done = tooljoint(command, deck, "--output", folder, *arguments)

@@ -88,7 +88,7 @@ class Browser:
             self.events.append(answer)
 
     def open(self, path, width, height=900):
-        """Loads a file; what the page says on the console from then on is in faults()."""
+        """Loads a file; faults() contains the console output of the page from then on."""
         self.events = []
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=1, mobile=False)

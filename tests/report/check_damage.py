@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reports of folders with a damaged file: check_damage.py PROGRAM
 
-One of several files is damaged: a report of the others says so first, with exit code 5. A full disk
-is called one and leaves nothing.
+If one of several files is damaged, a report of the others begins with it, with exit code 5. A full
+disk is reported as such, and no file is left.
 """
 import html
 import pathlib

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a report computes itself, against closed forms: check_quantities.py
+"""Quantities computed by a report, against closed forms: check_quantities.py
 
 Stresses, curvatures, precession, spectra, envelopes, units, the deck with its overrides, best and
 worst points of maps, and the numbers of the 3-D view.
@@ -101,8 +101,8 @@ def touching():
 
 
 def recorded():
-    """The table of docs/report.md keeps what reports promise: at most 10 s and 5 MB for 20 s of
-    motion."""
+    """The table of docs/report.md is within the limits of reports: at most 10 s and 5 MB for 20 s
+    of motion."""
     rows = re.findall(
         r"^\| (?:`tooljoint new`|(xml/\S+)) \| (\d+) \| (\d+) \| \d+ MB \| (\S+) s \| (\S+) s \| "
         r"(\S+) MB \|$", (ROOT / "docs/report.md").read_text(encoding="utf-8"), re.M)

@@ -363,8 +363,8 @@ def refusals():
 
 
 def failed():
-    """Runs that did not converge, before and after the state at rest: a page of what there is, with
-    the reason first."""
+    """Runs that did not converge, before and after the state at rest: a page of the existing
+    results, with the reason first."""
     for folder, setting, wanted, reason in (
         ("no motion", "Transient/Step=0.1", WITHOUT_MOTION, "The time step (0.1 s) is too large"),
         ("no rest", "Static/Max Iterations=1", set(), "The static equilibrium did not converge"),

@@ -37,8 +37,8 @@ def run(folder, deck, *arguments):
 
 
 def report(folder, *arguments):
-    """Runs the command; (what it said, CPU seconds of it and its script), which other tests beside
-    it do not lengthen."""
+    """Runs the command; (output, CPU seconds of the command and its script), which parallel tests
+    do not increase."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = tooljoint("report", folder, *arguments)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)

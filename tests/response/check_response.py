@@ -215,7 +215,7 @@ def transfer():
             1j * rows["node 1:at 3_phase"])
     close("harmonic loads add with their phases",
           loads["node 1_amplitude"] * np.exp(1j * loads["node 1_phase"]), sum_of, 1e-12)
-    # a free chain near 0 Hz moves as much as hides what few of its modes lack elsewhere
+    # near 0 Hz the motion of a free chain is so large that the error of a few modes is hidden
     links = np.diff(np.eye(12), axis=0)
     free = 1e12 * links.T @ np.diag(k * (1 + 0.3 * np.sin(range(1, 12)))) @ links
     turn = np.array([[0.8, 0.6], [-0.6, 0.8]]) @ np.diag([1, 0.7]) @ np.array([[0.8, -0.6],
@@ -308,7 +308,7 @@ def shaft():
 
 
 def walls():
-    """Unbalance of the shaft, by the scene and by the analysis, and the distance it leaves to a
+    """Unbalance of the shaft, by the scene and by the analysis, and the remaining distance to a
     wall."""
     contact = lists("Contact", values(Stiffness=1e7))
     response = lists(
@@ -352,8 +352,8 @@ def walls():
 
 
 def turning():
-    """A response at 0 rpm of a shaft that turns is warned of, one at a given speed is not. Along
-    the shaft nothing bends, and no moment is said."""
+    """A response at 0 rpm of a turning shaft gives a warning, one at a given speed does not. The
+    shaft does not bend, and no moment is printed."""
     loads = lists("Loads", lists("middle", values(Node=21, Component="u")))
     response = lists(
         "Response",
@@ -372,9 +372,9 @@ def turning():
 
 
 def critical_speeds(reduced, settings):
-    """Critical speeds of the string itself: those of the reduced model are apart from those of the
-    full one by what was estimated. The estimate is of first order in the error, which is 1e-6 and
-    less here; rounding and the tolerance of the crossings are below 1e-9."""
+    """Critical speeds of the string itself: those of the reduced model differ from those of the
+    full one by the estimate. The estimate is of first order in the error, which is 1e-6 and less
+    here; rounding and the tolerance of the crossings are below 1e-9."""
     done = tooljoint("campbell", "string.xml", "--output", "string_full", "--without", "Reduction",
                      "--without", "Substructures",
                      *(word for one in settings for word in ("--set", one)))

@@ -42,8 +42,8 @@ def whole_run(deck, options):
 
 
 def interrupted_twice(title, deck, options, ranks=(1, 1, 1), tolerance=0.0, but=None):
-    """Stopped by SIGTERM, gone on with and killed, gone on with: the numbers of a run that was not.
-    `but`: beginning of names of what is rounding."""
+    """Stopped by SIGTERM, continued and killed, continued: the numbers of an uninterrupted run.
+    `but`: beginnings of names of values within rounding."""
     whole = whole_run(deck, tuple(options))
     for _ in range(5):  # a machine that is busy elsewhere may let a run end before its signal
         fresh("halted")
@@ -165,7 +165,7 @@ def other_ranks():
     interrupted_twice("string on 2, 1 and 2 ranks", STRING, LONG, ranks=(2, 1, 2))
     interrupted_twice("frame divided among 2, 3 and 2 ranks", FRAME,
                       [*LONG, "--set", "Transient/Ranks=Divide"], ranks=(2, 3, 2), tolerance=1e-6)
-    # two ranks find its static state to other last digits than one
+    # its static state on two ranks differs from that on one in the last digits
     options = [
         "--set", "Transient/End Time=12", "--set", "Transient/Checkpoint Interval=0.4", "--set",
         "Transient/Progress=false", "--set", "Transient/Ranks=Divide"
@@ -176,8 +176,8 @@ def other_ranks():
 
 
 def two_runs_in_one_folder():
-    """Another run in the folder of an interrupted one, failing or not, leaves the pair of
-    checkpoint and samples whole."""
+    """Another run in the folder of an interrupted one, failing or not, preserves the pair of
+    checkpoint and samples."""
     other = {
         STRING: ["--set", "Contact/Stiffness=2e7"],
         FRAME: ["--set", "Parts/Loads/shaker/Value=600"],

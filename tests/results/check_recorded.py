@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Recording of chosen depths and nodes, and compression: check_recorded.py PROGRAM MPIEXEC
 
-What is recorded of chosen nodes is, to the bit, what a run that records all nodes has of them, on
-one rank and two and after a restart; reports, comparisons and pictures are made of it or say why
-not; what names no node is refused. Compression changes no number.
+Records of chosen nodes equal, bitwise, those of a run that records all nodes, on one rank and two
+and after a restart. Reports, comparisons and pictures use them or state why not; a depth or name
+without a node is refused. Compression changes no number.
 """
 import pathlib
 import shutil

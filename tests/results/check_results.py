@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run writes means what docs/file-formats.md says: check_results.py PROGRAM
+"""Files of a run agree with docs/file-formats.md: check_results.py PROGRAM
 
 Every dataset has the shape and the unit of its row in the table, and every row is written by some
 run; velocities are rates of displacements, contact forces those of the law, tables and summary

@@ -306,8 +306,7 @@ def inclined():
 
 
 def unsettled():
-    """A point whose stick-slip still grows counts as safe by its index; the map says that it has
-    not settled, and names it."""
+    """A point with growing stick-slip is safe by its index; the map names it as not settled."""
     deck = pathlib.Path(__file__).resolve().parent / "unsettled.xml"
     done = tooljoint("map", deck, "--output", "unsettled")
     growth = []

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `tooljoint study` leaves behind: check_study.py PROGRAM MPIEXEC DECK
+"""Results of `tooljoint study`: check_study.py PROGRAM MPIEXEC DECK
 
 Runs a study of a few seconds and looks at its rows; compares an error with that of two separate
 runs; interrupts it and goes on; lets a method, and the reference, fail; changes one method and sees

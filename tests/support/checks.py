@@ -37,7 +37,7 @@ def tooljoint(*arguments, ranks=1, seconds=240):
     command = ([sys.argv[2], "-np", str(ranks)] if ranks > 1 else []) + [sys.argv[1], *arguments]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           check=False, timeout=seconds * TIME_FACTOR, env=of_ranks(ranks))
-    # mpiexec joins what ranks write at the same time
+    # mpiexec mixes simultaneous output of ranks
     own = [
         line for line in wide(done.stderr if ranks == 1 else "")
         if line.startswith(("warning:", "tooljoint:", "  "))

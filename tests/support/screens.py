@@ -86,8 +86,8 @@ def _rounds(value, text):
 
 
 def expect_screen(done, folder, analysis):
-    """Every number of the screen is that of the summary as it is rounded there, it says where the
-    report is, and what to try next."""
+    """Every number on the screen is the rounded one of the summary; the screen names the report and
+    the next steps."""
     summary = json.loads((pathlib.Path(folder) / "summary.json").read_text(encoding="utf-8"))
     said = re.sub(r"\x1b\[\d+m", "", done.stdout)
     screen = said[said.rfind("\n\n", 0, max(said.rfind("\nopen "), said.rfind("\nreport ")) - 1):]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a person sees: the last screen of a run, the progress of a motion, colours on terminals
-only, --quiet and --verbose.
+"""Output for a user: the last screen of a run, the progress of a motion, colours on terminals only,
+--quiet and --verbose.
 
     check_terminal.py PROGRAM
 """

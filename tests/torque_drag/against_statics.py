@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The stiff string of torque and drag beside the program's own static state and motion."""
+"""The stiff string of torque and drag compared with the static state and motion of the program."""
 import json
 import pathlib
 import re
@@ -125,8 +125,8 @@ def weight_on_bit():
 
 
 def level():
-    """Nothing but bending resists a string on the axis of a long level hole, where the stages of
-    the static state begin."""
+    """A string on the axis of a long level hole, where the stages of the static state begin, has
+    only its bending stiffness."""
     survey = pathlib.Path("level.csv").resolve()
     stations = "".join(f"{depth}, {min(90.0, max(0.0, (depth - 900) / 12)):.2f}, 45\n"
                        for depth in range(0, 4501, 30))

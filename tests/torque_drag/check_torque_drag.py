@@ -218,8 +218,8 @@ def grouped():
 
 def locked():
     """Pushed so hard that it locks up, a string has no loads at the surface, and its profile ends
-    below the lock-up. With bending stiffness it locks up, too, where its elements resolve the
-    waves; else that is said."""
+    below the lock-up. With bending stiffness it locks up, too, if its elements resolve the waves;
+    else a message says so."""
     survey = pathlib.Path("horizontal.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 90, 0\n2000, 90, 0\n", encoding="utf-8")
     words = ["torque-drag", DECK]
@@ -294,8 +294,8 @@ near("5 and 10 km have the same lower end: contact forces", long["total_normal_f
 expect("neither moves along a well that turns",
        not any("along the well" in w for w in alone["warnings"] + long["warnings"]),
        alone["warnings"] + long["warnings"])
-# From the nodes of the unloaded string it does, and presses on the wall too hard: the program says
-# so.
+# From the nodes of the unloaded string it touches, with too large forces: the program gives a
+# warning.
 unloaded = static_state("vertical_5000m", 1, "Static/Reference=Unloaded")
 expect("vertical_5000m from unloaded nodes: contact forces are too large",
        unloaded["total_normal_force"] > 1.1 * alone["total_normal_force"],

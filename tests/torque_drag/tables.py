@@ -68,8 +68,8 @@ def tables_and_refusals():
 
 
 def stopped(folder, how, settings):
-    """Stops a command by a signal after two depths; returns its exit code and how many depths it
-    has left."""
+    """Stops a command by a signal after two depths; returns its exit code and the number of stored
+    depths."""
     arguments = [part for setting in settings for part in ("--set", setting)]
     command = subprocess.Popen([sys.argv[1], "torque-drag", DECK, "--output", folder, *arguments],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -82,8 +82,8 @@ def stopped(folder, how, settings):
 
 
 def resumed():
-    """A command that was stopped goes on: the depths it had are not computed again, and the tables
-    are those of one that was not."""
+    """A stopped command continues: finished depths are not computed again, and the tables are those
+    of an uninterrupted command."""
     settings = ("Torque and Drag/Count=6", "Torque and Drag/Stiff String=All Depths",
                 "Torque and Drag/Operations={Trip out, Drill rotating}")
     whole = run("whole", *settings)

@@ -81,7 +81,7 @@ model::PointLaw::Power LawFunction::power(const LawInput& input, const Values* m
 
 LawFunction::Slopes LawFunction::differences(const LawInput& input) const {
   static const double relative = std::cbrt(std::numeric_limits<double>::epsilon());
-  constexpr double least = 1e-9;  // [m, m/s, unit of a state]: below what a law resolves
+  constexpr double least = 1e-9;  // [m, m/s, unit of a state]: below the resolution of laws
   const int columns = 2 * width_ + states_;
   // all inputs once for each column, up and then down
   LawInput many{input.t, 2 * columns * input.n, {}, input.parts};

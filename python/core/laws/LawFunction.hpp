@@ -2,7 +2,7 @@
 /// \file
 /// A function of Python that gives the forces of a point law, one call for a batch of points:
 /// force(t, d, v, **parameters), and of a law with states force(t, d, v, x, **parameters) ->
-/// (forces, rates). Arrays have one dimension where a point has one number, else points x numbers.
+/// (forces, rates). Arrays have one dimension if a point has one number, else points x numbers.
 /// Needs no GIL.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace tooljoint::python {
 
 using Values = std::vector<double>;
 
-/// Functions of a law: `tangent`, `power` and `start` are None where it has none.
+/// Functions of a law: `tangent`, `power` and `start` may be None.
 struct LawFunctions {
   Kept force, tangent, power, start, parameters;
 };
@@ -31,7 +31,7 @@ struct LawInput {
   int parts = 2;
 };
 
-/// What `all` has of these points, `each` numbers for a point.
+/// Values of these points in `all`, `each` numbers per point.
 Values gather(const std::vector<int>& points, int each, const double* all);
 void scatter(const std::vector<int>& points, int each, const Values& some, double* all);
 
@@ -42,12 +42,12 @@ class LawFunction {
   int width() const { return width_; }
   int states() const { return states_; }
   const LawFunctions& functions() const { return functions_; }
-  /// Begins sentences: `The point law "A"`.
+  /// Begins messages: `The point law "A"`.
   const std::string& who() const { return who_; }
 
   LawInput input(double t, const std::vector<int>& points, const double* d, const double* v,
                  const double* x = nullptr) const;
-  /// With arrays of their own, which the function may keep. The GIL is held. `more` joins them.
+  /// Passes new arrays, which the function may keep, and `more`. The GIL is held.
   py::object call(const Kept& function, const LawInput& input, const Values* more = nullptr) const;
   /// Forces and rates, n x width and n x states.
   std::array<Values, 2> operator()(const LawInput& input) const;

@@ -51,7 +51,7 @@ void PythonLaw::clearanceLeft(const std::vector<int>& points, const double*, dou
 
 model::PointLaw::Power PythonLaw::power(double t, const std::vector<int>& points, const double* d,
                                         const double* v) const {
-  constexpr double instant = 1e-6;  // [s]: for dV/dt, below what a motion resolves
+  constexpr double instant = 1e-6;  // [s]: for dV/dt, below the resolution of a motion
   const auto input = function_.input(t, points, d, v);
   if (!(*function_.functions().power).is_none()) return function_.power(input);
   const auto& [place, velocity, none] = input.at;
@@ -84,8 +84,8 @@ Values PythonLaw::force(double t, Values d, Values v, int n) const {
   return function_(LawInput{t, n, {std::move(d), std::move(v), {}}})[0];
 }
 
-/// V of all points; where a wall is on the way to 0.2 % of what its force would store from d = 0
-/// on.
+/// V of all points; with a wall on the path, accurate to 0.2 % of the energy of its force from d =
+/// 0 on.
 double PythonLaw::potential(double t, const Values& d, int n) const {
   static const auto* rule = new std::array<Values, 2>(gaussRule());
   const auto& [places, weights] = *rule;

@@ -26,8 +26,8 @@ class PythonLaw final : public model::PointLaw {
                            const double* v, double* f, double* dfdd, double* dfdv) const override;
   void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override;
   /// By the function `power`. Without it the force at rest has a potential, V(t, d) =
-  /// -int_0^1 f(t, s d, 0) d ds, of which dV/dt at fixed d is fed in; what else velocities add to
-  /// the force is damping.
+  /// -int_0^1 f(t, s d, 0) d ds, whose dV/dt at fixed d is supplied power; the part of the force
+  /// that depends on velocities is damping.
   Power power(double t, const std::vector<int>& points, const double* d,
               const double* v) const override;
   std::vector<model::Channel> channels() const override;

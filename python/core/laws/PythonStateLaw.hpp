@@ -12,7 +12,7 @@
 
 namespace tooljoint::python {
 
-/// (f, g) of LawFunction. All states follow their rates; none is held.
+/// (f, g) of LawFunction. All states are rated; none is held.
 class PythonStateLaw final : public model::StatefulPointLaw {
  public:
   PythonStateLaw(int points, LawFunction function)
@@ -30,8 +30,8 @@ class PythonStateLaw final : public model::StatefulPointLaw {
   void forcesWithTangents(double t, const std::vector<int>& points, const double* d,
                           const double* v, const double* x, double* f, double* g,
                           const model::StateTangents& tangents) const override;
-  /// By the function `power`, which gets xDot behind the states. Without it nothing is stored, and
-  /// all that the forces take is damping.
+  /// By the function `power`, which gets xDot after the states. Without it no energy is stored, and
+  /// all work of the forces is damping.
   Power powers(double t, const std::vector<int>& points, const double* d, const double* v,
                const double* x, const double* xDot) const override;
   std::vector<model::Channel> channels() const override;

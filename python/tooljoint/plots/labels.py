@@ -17,7 +17,7 @@ SHARED = 1.0  # of two boxes that touch and do not overlap [pixels]
 
 
 class Place(NamedTuple):
-    """Where a text would stand [pixels]."""
+    """Position of a text [pixels]."""
 
     cost: float
     left: float
@@ -114,9 +114,8 @@ class Labels:
 
 
 def name_lines(labels: Labels, lines: Mapping[str, Any], size: float = 9) -> bool:
-    """Names each line (name -> Line2D) beside it.
-    Where one of the names has no free place, all stand in a legend below the axes instead, in the
-    order of the lines; the result is then False."""
+    """Names each line (name -> Line2D) beside it. If one of the names has no free place, all are in
+    a legend below the axes instead, in the order of the lines; the result is then False."""
     names = {name: wrapped(name) for name in lines}
     before, found = len(labels.boxes), {}
     for name, line in lines.items():

@@ -106,8 +106,8 @@ def semi_axis(u: Any, v: Any) -> Any:
 
 
 def shape_places(group: Any, most: int = MOST_SHAPES) -> list[int]:
-    """The shapes that are drawn: those at critical speeds, then those of the one speed, with what
-    lateral displacement has first; by frequency."""
+    """The shapes to draw: those at critical speeds, then those of the one speed, lateral shapes
+    first; by frequency."""
     at_speed = np.flatnonzero(group["excitation"][:] == 0)
     critical = np.flatnonzero(group["excitation"][:] > 0)
     chosen = list(critical[:most]) + list(at_speed[:max(0, most - len(critical))])
@@ -133,7 +133,7 @@ def row_of_shapes(count: int) -> tuple[Any, Any]:
 
 def shapes_figure(results: Any, most: int = MOST_SHAPES) -> Any:
     """Modes in the hole: displacements across the axis against depth, at two instants a quarter
-    period apart, and what the orbits reach; None without a string."""
+    period apart, and the envelope of the orbits; None without a string."""
     if "shapes" not in results or "profile/s" not in results:
         return None
     group, depth = results["shapes"], results["profile/s"][:]
@@ -243,8 +243,8 @@ def response_figure(results: Any) -> Any:
 
 
 def profile_figure(results: Any) -> Any:
-    """Bending moments and distances to the wall along a string: what each place reaches in the
-    sweep, and where over speed or frequency; None without a string."""
+    """Bending moments and distances to the wall along a string: extremes of each node in the sweep,
+    and their distribution over speed or frequency; None without a string."""
     rows = columns(results, "response")
     groups = [(name, group) for name in ("bending", "margins")
               if (group := columns(results, name)) is not None]

@@ -186,9 +186,9 @@ def percent(value: float, low: float | None = None, high: float | None = None) -
 
 
 def logarithmic(axis: Any, formatter: Callable[..., str] = plain) -> None:
-    """Ticks of a logarithmic axis that has its limits: decades, what is between them unless there
-    are many, and 2, 3, 5 with numbers where there is less than a decade and a half. `formatter`
-    writes a number of an axis whose least and largest decade it is given."""
+    """Ticks of a logarithmic axis with final limits: decades, minor ticks unless there are many,
+    and numbered ticks at 2, 3, 5 below one and a half decades. `formatter` writes a number, given
+    the least and largest decade of the axis."""
     def text(value: float, _: Any = None) -> str:
         low, high = sorted(axis.get_view_interval())
         return formatter(
@@ -207,7 +207,7 @@ def logarithmic(axis: Any, formatter: Callable[..., str] = plain) -> None:
 
 
 def log_log(axes: Any, x: Callable[..., str] = plain, y: Callable[..., str] = plain) -> None:
-    """Logarithmic axes with the limits of what is drawn; `x`, `y` write the ticks."""
+    """Logarithmic axes with the limits of the data; `x`, `y` write the ticks."""
     axes.set_xscale("log"), axes.set_yscale("log")
     logarithmic(axes.xaxis, x)
     logarithmic(axes.yaxis, y)

@@ -21,8 +21,8 @@ def two_beams(program, name, elements):
 
 
 def estimates(program, run, full, end, points):
-    """Measures a row: the true error beside the estimated one, and their ratio where the true one
-    is above 1 %."""
+    """Measures a row: the true and the estimated error, and their ratio if the true one is above 1
+    %."""
     def said():
         true, guess = program.vibration_error(
             run, full, end), run.summary["reduction"]["estimate"]["motion_error"]

@@ -145,7 +145,7 @@ def break_away(program, short):
 
 
 def twisted_string(program, short):
-    """A string at rest on the wall, twisted at its end by a part of what its friction can hold."""
+    """A string at rest on the wall, twisted at its end by a part of its limit of friction."""
     radius, length = OUTER, 60.0
     hold = 0.3 * DENSITY * AREA * GRAVITY * math.sin(math.radians(80)) * length * radius
     base = {

@@ -135,7 +135,7 @@ def large_steps(program, short):
 
 
 def orders(program, short):
-    """Two coupled oscillators of 8 and 30 rad/s that swing freely: error beside exp(A t) by the
+    """Two coupled oscillators of 8 and 30 rad/s in free vibration: error against exp(A t) by the
     step, and its order."""
     K, c, end, sampling = np.array([[500.0, -430.0], [-430.0, 480.0]]), 0.5, 1.6, 0.032
     file = program.part("orders", ["u", "v"], np.eye(2), K, C=c * np.eye(2))

@@ -33,7 +33,7 @@ class NoResult(Exception):
 
 
 class Run:
-    """What a command left: exit code, the sentence it ended with, summary.json and results.h5."""
+    """Results of a command: exit code, final message, summary.json and results.h5."""
     def __init__(self, folder, code, output, cpu):
         self.folder, self.code, self.output, self.cpu = folder, code, output, cpu
         path = folder / "summary.json"

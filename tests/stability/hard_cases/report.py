@@ -72,7 +72,7 @@ def span(values, digits=2):
 
 
 def overview_line(case, rows):
-    """A case, how many of its rows have each verdict, and what it costs."""
+    """A case, the number of its rows with each verdict, and its cost."""
     anchor = re.sub(r"[^a-z0-9 -]", "", f"{case.number}. {case.title}".lower()).replace(" ", "-")
     counts = [sum(row.verdict == verdict for row in rows) for verdict in ORDER]
     return line((case.number, f"[{case.title}](#{anchor})", *(count or "" for count in counts),
@@ -124,7 +124,7 @@ def csv_name(case):
 
 
 def in_all(folder, cases):
-    """A sentence: how many rows of the tables of these cases have each verdict."""
+    """A sentence: number of rows with each verdict in the tables of these cases."""
     counts = collections.Counter()
     for case in cases:
         with open(folder / csv_name(case), newline="", encoding="utf-8") as table_of_case:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the cases share: decks, settings of integrators, a ball, a planar beam, measures of a
+"""Shared parts of the cases: decks, settings of integrators, a ball, a planar beam, measures of a
 motion."""
 import math
 

@@ -49,7 +49,7 @@ def stored(path):
 
 
 def store(path, found, complete):
-    """Writes what a case has found so far, so that a stopped one leaves its rows."""
+    """Writes the present results of a case, so that an interrupted case keeps its rows."""
     kinds = {
         name: [dataclasses.asdict(item) for item in found if isinstance(item, kind)
                ] for name, kind in (("rows", table.Row), ("plots", table.Plot))

@@ -71,7 +71,7 @@ TEST(Multilevel, TreeSeparatesItsPieces) {
   }
 }
 
-// Beside Schur complements the factors are several times as large.
+// With Schur complements the factors would be several times larger.
 TEST(Multilevel, LeavesKeepTheFactorsOfTheirInteriorAlone) {
   const auto part = solidBlock(12, 3, 3);
   const Sparse K = constantStiffness(part.model), &M = part.model.mass;

@@ -29,8 +29,8 @@ const model::SecondOrderModel& withFloors(model::SecondOrderModel& chain, double
   return chain;
 }
 
-/// A chain of 300 masses of 1 kg, of which two stand 0.1 mm above floors, is pressed onto one of
-/// them by 1500 N.
+/// A chain of 300 masses of 1 kg, two of them 0.1 mm above floors, is pressed onto one floor by
+/// 1500 N.
 struct TwoFloors {
   TwoFloors()
       : source(testing::springChain(300, 1.0, 0.0, 1e6)),
