@@ -10,11 +10,13 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "linalg/blocks/BlockFactor.hpp"
+#include "model/NodalFrequency.hpp"
 
 namespace tooljoint::transient {
 namespace {
 
-/// tau^2 as a part of the smallest M_ii / K_ii: what has mass moves by this part of its deflection.
+/// tau^2 as a part of 1/omega^2 of the fastest node: what has mass moves by this part of its
+/// deflection.
 constexpr double still = 1e-13;
 /// The same where motions of several dofs have no mass, whose tau^2 K stands beside rounding of M.
 constexpr double stillOfSeveral = 1e-10;
@@ -33,15 +35,10 @@ constexpr double creeping = 0.1;
 /// on the way.
 constexpr int fewIterations = 3, mostIterations = 60;
 
-/// tau [s], tau^2 this part of the smallest M_ii / K_ii; 0 where nothing has mass and stiffness.
-double shortTime(const CompiledModel& model, double part) {
-  Vector mass(model.size()), stiffness(model.size());
-  model.diagonal(1.0, 0.0, 0.0, mass.data());
-  model.diagonal(0.0, 0.0, 1.0, stiffness.data());
-  double most = 0.0;
-  for (int i = 0; i < model.size(); ++i)
-    if (mass[i] > 0.0) most = std::max(most, std::abs(stiffness[i]) / mass[i]);
-  most = model.cut().largest(most);
+/// tau [s], tau^2 this part of 1/omega^2 of the fastest node; 0 where nothing has mass and
+/// stiffness.
+double shortTime(const CompiledModel& model, double t, double part) {
+  const double most = model.cut().largest(model::fastestNode(model.source(), t));
   return most > 0.0 ? std::sqrt(part / most) : 0.0;
 }
 
@@ -60,7 +57,7 @@ class Balance {
         state_(state),
         factor_(model.pattern()),
         reference_(referenceSize(model)),
-        tau_(shortTime(model, part)) {}
+        tau_(shortTime(model, state.t, part)) {}
 
   bool possible() const { return tau_ > 0.0; }
 
