@@ -27,6 +27,7 @@ from bars import bars  # noqa: E402
 from frequencies import ROOT, hertz  # noqa: E402
 from joints import (laws_on_joints, massless_nodes_of_dual_assemblies, released, starts_of_joints,
                     starts_that_coordinates_lose, turned_out_of_the_plane)  # noqa: E402
+from massless import massless_directions  # noqa: E402
 from dynamics import (creeping_dofs, floating_beams, motion_tolerance_of_fast_parts,
                       relaxed_laws_at_rest, responses_beyond_the_linear_range,
                       unstable_equilibria)  # noqa: E402
@@ -297,6 +298,7 @@ if __name__ == "__main__":
     laws_on_joints()
     starts_of_joints()
     massless_nodes_of_dual_assemblies()
+    massless_directions()
     floating_beams()
     creeping_dofs()
     unstable_equilibria()

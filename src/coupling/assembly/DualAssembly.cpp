@@ -11,6 +11,7 @@
 #include "coupling/assembly/Congruence.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "model/DofNames.hpp"
+#include "model/NodalFrequency.hpp"
 
 namespace tooljoint::coupling {
 
@@ -238,9 +239,8 @@ class Builder {
   ///
   ///     [M . ; . .] (a, lambda) + J (a, lambda) = (F + R'f - C v - K q, 0)
   ///
-  /// Coordinates without mass get that of the highest diagonal frequency of the others. Massless
-  /// motions of several coordinates, as of turned dofs, get a small part of it. This hardly affects
-  /// the forces.
+  /// Coordinates without mass get that of the frequency of the fastest node. Massless motions of
+  /// several coordinates, as of turned dofs, get a small part of it. This hardly affects the forces.
   void startConsistently() {
     SecondOrderModel& m = out_.model;
     const Eigen::Index n = m.mass.rows();
@@ -253,11 +253,9 @@ class Builder {
       }
     Vector r = m.loadAt(0.0) + m.pointForce(0.0, m.initialDisplacement, m.initialVelocity) -
                m.dampingAt(0.0) * m.initialVelocity - m.stiffnessAt(0.0) * m.initialDisplacement;
-    double fastest = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
+    const double fastest = model::fastestNode(m, 0.0);
+    for (Eigen::Index i = 0; i < n; ++i)
       if (bare[at(i)]) r[i] = 0.0;
-      if (mass[i] > 0) fastest = std::max(fastest, std::abs(stiffness[i]) / mass[i]);
-    }
     if (r.isZero(0.0) || !contains(bare, 1)) return;
     Triplets entries;
     forEachEntry(m.mass, [&](int i, int j, double value) { entries.emplace_back(i, j, value); });
@@ -273,14 +271,17 @@ class Builder {
           if (!isForce[at(i)] && !isForce[at(j)])
             entries.emplace_back(i, j, part / fastest * value);
         });
+    // their stiffness as a mass, so that it does not hide the small part beside it
+    const double unit = fastest > 0 ? 1.0 / fastest : 1.0;
     if (joining_)
       forEachEntry(m.stiffness[*joining_].matrix, [&](int i, int j, double value) {
-        if (bare[at(i)] != 0 || bare[at(j)] != 0) entries.emplace_back(i, j, value);
+        if (bare[at(i)] != 0 || bare[at(j)] != 0)
+          entries.emplace_back(i, j, value * (bare[at(i)] ? unit : 1) * (bare[at(j)] ? unit : 1));
       });
     const linalg::DirectSolver solver(sparse(n, n, entries), model::namer(m));
     const Vector x = solver.solve(r);
     for (Eigen::Index i = 0; i < n; ++i)
-      if (bare[at(i)]) m.initialDisplacement[i] = x[i];
+      if (bare[at(i)]) m.initialDisplacement[i] = unit * x[i];
   }
 
   const std::vector<AlignedPart>& alignedParts_;

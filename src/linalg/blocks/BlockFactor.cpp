@@ -199,12 +199,14 @@ void BlockFactor::findEarlier() {
 
 bool BlockFactor::Pivot::inverted() const { return width <= kernel::largestInverse; }
 
-int BlockFactor::factor() {
-  const int bad = factorInterior();
+static_assert(BlockFactor::vanished == kernel::smallestPivot);
+
+int BlockFactor::factor(double smallest) {
+  const int bad = factorInterior(smallest);
   return cut_ ? factorCut(bad) : bad;
 }
 
-TOOLJOINT_CLONES int BlockFactor::factorInterior() {
+TOOLJOINT_CLONES int BlockFactor::factorInterior(double smallest) {
   double* values = values_.data();
   std::fill(values + patternStorage_, values + values_.size(), 0.0);
   for (std::size_t k = 0; k < pivots_.size(); ++k) {  // size of each row before elimination
@@ -215,7 +217,7 @@ TOOLJOINT_CLONES int BlockFactor::factorInterior() {
       for (int j = 0; j < p.width; ++j) size = std::max(size, std::abs(D[j * p.width + i]));
       // an empty row, or NaN; at the cut another rank may have entries
       if (!(size > 0) && k < eliminated_) return p.start + i;
-      scale_[at(p.start + i)] = size;
+      scale_[at(p.start + i)] = size * (smallest / kernel::smallestPivot);
     }
   }
   for (std::size_t k = 0; k < eliminated_; ++k) {

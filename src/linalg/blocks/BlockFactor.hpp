@@ -36,10 +36,12 @@ class BlockFactor {
   /// Values to set before factor(), in the layout of the pattern (BlockPattern::storage() doubles).
   double* values() { return values_.data(); }
 
+  /// A pivot below this part of the size of its row has vanished.
+  static constexpr double vanished = 1e-14;
   /// Factors the matrix in values(), which is overwritten. Returns -1, or the position of the dof
   /// whose pivot vanished (the number of positions if it vanished on another rank). After a failure
   /// the factors are unusable.
-  int factor();
+  int factor(double smallest = vanished);
 
   /// x := A^-1 x, in positions.
   void solve(double* x) const;
@@ -120,7 +122,7 @@ class BlockFactor {
     int rows, columns;
   };
   void listCut(const BlockPattern& pattern, const std::map<std::pair<int, int>, std::size_t>& fill);
-  int factorInterior();
+  int factorInterior(double smallest);
   int factorCut(int bad);
 
   int factorPivots(const std::vector<int>& pivots);

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ constexpr double massless = 1e-13;
 /// An eigenvalue of the shift-inverted operator below this fraction of the largest one belongs to
 /// an infinite eigenvalue of the pencil.
 constexpr double infinite = 1e-13;
+/// A mode from a shift that is so many times its value, or this part of it, has lost six digits.
+constexpr double reach = 1e6;
+/// A value below this part of the first shift may be that of a rigid-body motion.
+constexpr double rigid = 1e-9;
 
 /// M = W W'; the number of columns of W is the rank of M.
 Matrix root(const Sparse& M, const DofNamer& name) {
@@ -121,6 +126,40 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
   return modes;
 }
 
+/// The largest positive value below `end`, 0 if there is none.
+double largestBelow(double end, const Vector& values) {
+  double largest = 0;
+  for (const double value : values)
+    if (value < end) largest = std::max(largest, value);
+  return largest;
+}
+
+/// Modes from the first shift, and again from shifts among the wanted values until each mode comes
+/// from a shift within `reach` of its value: very light dofs vibrate decades above the others.
+EigenPairs fromShifts(const Matrix& K, const Sparse& M, const Matrix& W, double first, int count,
+                      const DofNamer& name) {
+  EigenPairs modes = shifted(K, M, W, -first, count, name);
+  double end = std::numeric_limits<double>::infinity();
+  bool again = count > 0;
+  while (true) {
+    const double wanted = largestBelow(end, modes.values);
+    const bool inReach = wanted <= reach * first && first <= reach * wanted;
+    if (wanted == 0.0 || (!again && (inReach || wanted <= rigid * first))) break;
+    double begin = wanted / reach;
+    if (largestBelow(begin, modes.values) <= rigid * first) begin = 0;
+    const EigenPairs better = shifted(K, M, W, -wanted, count, name);
+    for (int k = 0; k < std::min(modes.count(), better.count()); ++k) {
+      const double size = std::abs(modes.values[k]);
+      if (size < begin || size >= end) continue;
+      modes.values[k] = better.values[k];
+      modes.vectors.col(k) = better.vectors.col(k);
+    }
+    end = begin;
+    again = false;
+  }
+  return modes;
+}
+
 /// Forces, displacements and modal amplitudes are coordinates of one model, so the condition of K -
 /// sigma M depends on their units. Of the given units and those with equal masses (powers of two),
 /// the better conditioned ones are chosen.
@@ -154,13 +193,8 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count,
     none.method = "no mass";
     return none;
   }
-  EigenPairs modes =
-      shifted(dense, m, W, options.shift.value_or(-middle(k, m)), count, options.name);
-  if (count > 0 && modes.count() > 0 &&
-      !options.shift) {  // again with a shift among the wanted values
-    const double wanted = std::abs(modes.values[modes.count() - 1]);
-    if (wanted > 0) modes = shifted(dense, m, W, -wanted, count, options.name);
-  }
+  EigenPairs modes = options.shift ? shifted(dense, m, W, *options.shift, count, options.name)
+                                   : fromShifts(dense, m, W, middle(k, m), count, options.name);
   modes.method = "dense, singular mass";
   modes.vectors = (scale.asDiagonal() * modes.vectors).eval();
   applyConventions(modes, mass);

@@ -10,11 +10,12 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "linalg/blocks/BlockFactor.hpp"
+#include "model/NodalFrequency.hpp"
 
 namespace tooljoint::transient {
 namespace {
 
-/// tau^2 as a part of the smallest M_ii / K_ii: dofs with mass move by this part of their
+/// tau^2 as a part of 1/omega^2 of the fastest node: dofs with mass move by this part of their
 /// deflection.
 constexpr double still = 1e-13;
 /// The same if motions of several dofs are massless: there tau^2 K must exceed the rounding of M.
@@ -35,15 +36,10 @@ constexpr double creeping = 0.1;
 /// open and close during the iteration.
 constexpr int fewIterations = 3, mostIterations = 60;
 
-/// tau [s] with tau^2 = this part of the smallest M_ii / K_ii; 0 if no dof has mass and stiffness.
-double shortTime(const CompiledModel& model, double part) {
-  Vector mass(model.size()), stiffness(model.size());
-  model.diagonal(1.0, 0.0, 0.0, mass.data());
-  model.diagonal(0.0, 0.0, 1.0, stiffness.data());
-  double most = 0.0;
-  for (int i = 0; i < model.size(); ++i)
-    if (mass[i] > 0.0) most = std::max(most, std::abs(stiffness[i]) / mass[i]);
-  most = model.cut().largest(most);
+/// tau [s] with tau^2 = this part of 1/omega^2 of the fastest node; 0 if no dof has mass and
+/// stiffness.
+double shortTime(const CompiledModel& model, double t, double part) {
+  const double most = model.cut().largest(model::fastestNode(model.source(), t));
   return most > 0.0 ? std::sqrt(part / most) : 0.0;
 }
 
@@ -62,7 +58,7 @@ class Balance {
         state_(state),
         factor_(model.pattern()),
         reference_(referenceSize(model)),
-        tau_(shortTime(model, part)) {}
+        tau_(shortTime(model, state.t, part)) {}
 
   bool possible() const { return tau_ > 0.0; }
 
