@@ -51,7 +51,8 @@ class PrintedUnit {
   double factor_;
 };
 
-/// "12.3 klbf": an SI value with that many significant digits, and its unit.
+/// "12.3 klbf": an SI value with that many significant digits, and its unit; "10012 m" with all
+/// digits before the point, however few are wanted.
 std::string printed(double si, const std::string& usual, int digits);
 /// A value of the deck: the shortest text that reads back in the usual unit, six digits in one of
 /// the field.
