@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "common/Error.hpp"
@@ -11,6 +12,9 @@
 
 namespace tooljoint::deck {
 namespace {
+
+/// From here on a number with fewer digits is printed with an exponent; below it is whole.
+constexpr double longestWhole = 1e6;
 
 PrintedSystem& chosen() {
   static PrintedSystem system = PrintedSystem::Usual;
@@ -90,7 +94,12 @@ PrintedUnit::PrintedUnit(const std::string& usual) : name_(usual) {
 
 std::string printed(double si, const std::string& usual, int digits) {
   const PrintedUnit unit(usual);
-  return fmt::format("{:.{}g} {}", unit(si), digits, unit.name());
+  const double value = unit(si);
+  // 9999.5 rounds to five digits
+  const bool whole = std::abs(value) + 0.5 >= std::pow(10.0, digits);
+  return (whole && std::abs(value) < longestWhole ? fmt::format("{:.0f} ", value)
+                                                  : fmt::format("{:.{}g} ", value, digits)) +
+         unit.name();
 }
 
 std::string printed(double si, const std::string& usual) {

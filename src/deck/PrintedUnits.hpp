@@ -51,7 +51,8 @@ class PrintedUnit {
   double factor_;
 };
 
-/// "12.3 klbf": an SI value with this number of significant digits, and its unit.
+/// "12.3 klbf": an SI value with this number of significant digits, and its unit. All digits before
+/// the point are printed: "10012 m".
 std::string printed(double si, const std::string& usual, int digits);
 /// A value of the deck: the shortest text that reads back in the usual unit, six digits in a field
 /// unit.

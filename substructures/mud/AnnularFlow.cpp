@@ -88,6 +88,7 @@ SectionFlow AnnularFlow::flow(double innerRadius, double outerRadius, double bor
   const double friction = p.frictionCoefficient * p.density * outerRadius;
   f.axialFlowDamping = friction * std::abs(f.annulusSpeed);
   f.axialDrag = -friction * f.annulusSpeed * std::abs(f.annulusSpeed);
+  if (p.annularThrust) f.axialDrag /= 1.0 - gamma;
   f.rotationDamping = 2.0 * std::sqrt(2.0) * pi * p.density * outerRadius *
                       std::sqrt(p.kinematicViscosity) * (1.0 + gamma * gamma * gamma) /
                       square(1.0 - square(gamma));

@@ -16,9 +16,12 @@
 ///     stiffness  -(m_i U_i^2 + m_a U_o^2) int N_z'N_z
 ///
 /// and the right-hand side the load (rho_f A_i - rho_f A_o) g (buoyancy in effective-tension form,
-/// without a pressure term) and the axial drag of the returning flow. Sources: Ritto, Soize and
-/// Sampaio (2009) for the axial flow, Chen (1981) and Fritz (1970) for the confined added mass and
-/// viscous damping, as cited in section 2.3 of Nguyen et al. 2020.
+/// without a pressure term) and the axial drag of the returning flow. The drag is the shear tau =
+/// C_f rho_f U_o^2/(2 pi) on the string. The same tau on both walls causes the pressure loss dp/ds =
+/// 2 tau/(R_w - R_e), which pushes a body of area A_o up by A_o dp/ds = R_e/(R_w - R_e) times the
+/// drag (with `annularThrust`). Sources: Ritto, Soize and Sampaio (2009) for the axial flow, Chen
+/// (1981) and Fritz (1970) for the confined added mass and viscous damping, as cited in section 2.3
+/// of Nguyen et al. 2020.
 #pragma once
 
 #include "substructures/mud/MudModel.hpp"
@@ -35,7 +38,8 @@ struct SectionFlow {
   double axialFlowDamping = 0.0;  ///< c_ax = C_f rho_f D_o |U_o| / 2 [N s/m2]
   double rotationDamping = 0.0;   ///< c_rot = 2 sqrt(2) pi rho_f R_e sqrt(nu_f)
                                   ///< (1+gamma^3)/(1-gamma^2)^2 [N s/m2 per sqrt(rad/s)]
-  double axialDrag = 0.0;         ///< -C_f rho_f D_o U_o |U_o| / 2, positive down the hole [N/m]
+  double axialDrag = 0.0;         ///< -C_f rho_f D_o U_o |U_o| / 2, positive down the hole [N/m];
+                                  ///< with the annular thrust over 1 - gamma
   double buoyantMass = 0.0;       ///< rho_f (A_i - A_o), to be added to rho S in the weight [kg/m]
 };
 

@@ -34,6 +34,11 @@ deck::ListSpec parameters() {
           "Axial Drag", true,
           "Keep the axial drag of the returning flow on the string; needs a flow rate to matter.")
       .expert()
+      .boolean("Annular Thrust", false,
+               "Add to the Axial Drag what the pressure that the returning flow loses in the "
+               "annulus pushes the string up, R_e/(R_w - R_e) times the drag; false as in the "
+               "published model.")
+      .expert()
       .boolean("Rotating Annulus", false,
                "Let the annular mud swirl at half the rotary speed: cross-coupled damping, "
                "negative and circulatory stiffness. It "
@@ -51,6 +56,7 @@ MudProperties readProperties(const Teuchos::ParameterList& list) {
   p.coriolis = list.get<bool>("Coriolis");
   p.centrifugal = list.get<bool>("Centrifugal");
   p.axialDrag = list.get<bool>("Axial Drag");
+  p.annularThrust = list.get<bool>("Annular Thrust");
   p.rotatingAnnulus = list.get<bool>("Rotating Annulus");
   return p;
 }

@@ -112,7 +112,8 @@ double mudDrag(const beam::Section& section, double holeRadius, const Circulatio
   const double outer = section.outerRadius(), area = holeRadius * holeRadius - outer * outer;
   if (!mud.axialDrag || !(area > 0.0)) return 0.0;
   const double speed = mud.flowRate / (constants::pi * area);
-  return mud.frictionCoefficient * mud.density * outer * speed * std::abs(speed);
+  const double drag = mud.frictionCoefficient * mud.density * outer * speed * std::abs(speed);
+  return mud.thrust ? drag * holeRadius / (holeRadius - outer) : drag;
 }
 
 Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,

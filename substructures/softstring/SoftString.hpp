@@ -10,7 +10,8 @@
 ///
 /// s downwards along the hole, T effective tension, M torque, t tangent, kappa = dt/ds, g unit
 /// gravity, w buoyed weight per length, v_a axial speed (down positive), v_c = Omega r_f, d =
-/// C_f rho R_e U_o |U_o| drag of the mud that goes up the annulus with U_o.
+/// C_f rho R_e U_o |U_o| drag of the mud that goes up the annulus with U_o; with the thrust of the
+/// pressure it loses there, R_w/(R_w - R_e) times that (mud/AnnularFlow.hpp).
 #pragma once
 
 #include <functional>
@@ -37,6 +38,7 @@ struct Circulation {
   double frictionCoefficient = 0.0;  ///< C_f, with the wall shear C_f rho U^2/(2 pi)
   double flowRate = 0.0;             ///< Q [m3/s]
   bool axialDrag = false;            ///< the flow exerts axial drag on the string
+  bool thrust = false;               ///< the pressure loss in the annulus pushes the string up
 };
 
 /// The hole, by measured depth [m].

@@ -226,6 +226,19 @@ def curved():
          abs(expected["reactions"][0]))
 
 
+def slid():
+    """A string that lies on the low side of a hole that builds is on the longer way: more of it
+    above the bit slides along the hole, which turns, but forces, tilt and sag are those against the
+    hole where bit and tool are."""
+    file = deck("slid", {6.0: gauge(0.1075)}, length=160.0)
+    short, long = (run(file, "Bottom-Hole Assembly/Inclination={75 deg}",
+                       "Bottom-Hole Assembly/Build Rate=6 deg/30m",
+                       "Bottom-Hole Assembly/Survey Tool=12 m",
+                       f"Bottom-Hole Assembly/Length={length} m")[0] for length in (50, 150))
+    for key, scale in (("side_force_high", 6e3), ("tilt_high", 6e-3), ("sag_high", 2e-3)):
+        near(f"{key} of 50 and 150 m of string", short[key], long[key], 5e-4, scale)
+
+
 def turned():
     """The same hole in another azimuth, and a vertical hole whose tool face is turned: the same
     numbers."""
@@ -446,7 +459,7 @@ def documented():
 
 
 def main():
-    for check in (slick, inclined, stabiliser, bent, eccentric, pads, curved, turned, example,
+    for check in (slick, inclined, stabiliser, bent, eccentric, pads, curved, slid, turned, example,
                   lying, missing, refused, documented):
         check()
     return finish()

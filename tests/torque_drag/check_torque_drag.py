@@ -13,7 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support
 import closed_forms  # noqa: E402
 from checks import expect, finish, tooljoint  # noqa: E402
 from runs import DECK, SOURCES, near, numbers, rows, run, static_state  # noqa: E402
-from margins import grades, pressure  # noqa: E402
+from margins import bends, grades, neutral_point, pressure  # noqa: E402
 from against_statics import beside, buckled, in_motion, level, stiff, weight_on_bit  # noqa: E402
 from tables import announced, files, resumed, tables_and_refusals  # noqa: E402
 
@@ -280,6 +280,8 @@ level()
 buckled()
 pulled()
 pressure()
+bends()
+neutral_point()
 grades()
 stiff("build_hold_1400m", 0.01, 0.03)
 stiff("extended_reach_5000m", 0.01, 0.05)

@@ -4,7 +4,7 @@ import math
 import pathlib
 
 from checks import expect
-from runs import SOURCES, near, rows, run
+from runs import DECK, SOURCES, near, rows, run
 
 
 def pressure():
@@ -28,14 +28,21 @@ def pressure():
 
     body, joint = (0.0635, 0.0543), (0.084, 0.0413)
     section = {pipe: math.pi * (pipe[0]**2 - pipe[1]**2) for pipe in (body, joint)}
+
+    def thrust(outer):  # of the pressure lost in the annulus on the area of the string
+        speed = flow / (math.pi * (hole * hole - outer * outer))
+        return math.pi * outer**2 * friction * density / math.pi * speed**2 / (hole - outer)
+
     # down the string, or down the annulus
-    for folder, pump, down in (("pressure_flow", None, 1), ("pressure_pump", 3.5e7, 1),
-                               ("pressure_reverse", 3.5e7, -1)):
-        hanging = 150 * sum(part *
-                            ((7850 - density) * 9.81 * math.cos(math.radians(50)) * section[pipe] -
-                             down * drag(*pipe)) for part, pipe in ((9.0, body), (0.5, joint)))
+    for folder, pump, down, pushed in (("pressure_flow", None, 1, 0),
+                                       ("pressure_pump", 3.5e7, 1, 1), ("pressure_reverse", 3.5e7,
+                                                                        -1, 1)):
+        hanging = 150 * sum(part * (
+            (7850 - density) * 9.81 * math.cos(math.radians(50)) * section[pipe] - down *
+            (drag(*pipe) + pushed * thrust(pipe[0]))) for part, pipe in ((9.0, body), (0.5, joint)))
         through = down * 150 * (9.0 * loss(*body) + 0.5 * loss(*joint))
         table = run(folder, *mud, f"Mud/Flow Rate={down * flow}",
+                    f"Mud/Annular Thrust={'true' if pushed else 'false'}",
                     *([f"Torque and Drag/Pump Pressure={pump} Pa"] if pump is not None else []))
         profile = [
             row for row in rows(folder, "torque_drag_profile.csv")
@@ -83,6 +90,55 @@ def pressure():
                      for folder in ("pressure_flow", "pressure_pump"))
     expect("a pump pressure takes of the margin in every operation",
            all(pumped[name] < still[name] for name in still), (still, pumped))
+
+
+def bends():
+    """Where a bend begins or ends the profile has a point of both sides, each with the stress and
+    the limits of its own side: bending in the bend alone, the clearance of its own bore."""
+    radius = '<Parameter name="Bore Radius" type="double" value="0.108"/>'
+    casing = "".join(f'<Parameter name="{name}" type="double" value="{value}"/>'
+                     for name, value in (("From", 0), ("To", 1200), ("Radius", 0.2)))
+    text = pathlib.Path(DECK).read_text(encoding="utf-8").replace(
+        radius, f'{radius}<ParameterList name="Bore"><ParameterList name="casing">{casing}'
+        "</ParameterList></ParameterList>")
+    pathlib.Path("bends.xml").write_text(text, encoding="utf-8")
+    run("bends", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None",
+        "Torque and Drag/Operations={Trip out, Drill sliding}", deck="bends.xml")
+    profile = rows("bends", "torque_drag_profile.csv")
+
+    def sides(operation, depth):  # of the piece below and of that above
+        found = [
+            row for row in profile
+            if row["operation"] == operation and abs(float(row["depth"]) - depth) < 1e-6
+        ]
+        expect(f"two points of {operation} at {depth} m", len(found) == 2, found)
+        return found
+
+    bending = 210e9 * math.radians(3) / 30
+    for depth, sign in ((400, 1), (1000, -1)):
+        below, above = (float(one["von_mises"]) for one in sides("Trip out", depth))
+        expect(
+            f"bending stress ends with the bend at {depth} m",
+            any(
+                abs(sign * (below - above) - bending * outer) < 1e-6 * bending * outer
+                for outer in (0.0635, 0.084)), (below, above))
+    below, above = (float(one["sinusoidal_limit"]) for one in sides("Drill sliding", 1200))
+    expect(
+        "the limit of buckling takes the clearance of its own side at 1200 m",
+        any(
+            abs(below / above - math.sqrt((0.2 - outer) / (0.108 - outer))) < 1e-6
+            for outer in (0.0635, 0.084)), (below, above))
+
+
+def neutral_point():
+    """Of a string that hangs free: the weight below it is the weight on bit."""
+    table = run("neutral", "Well/Trajectory=Vertical", "Well/Vertical/Length=1500",
+                "Supports/Bit=none", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None",
+                "Torque and Drag/Operations={Trip out, Drill sliding}", "Loads/Weight On Bit=20 kN")
+    mass = 7850 * math.pi * (9.0 * (0.0635**2 - 0.0543**2) + 0.5 * (0.084**2 - 0.0413**2)) / 9.5
+    near("above the neutral point nothing is compressed", float(table[1]["neutral_depth"]),
+         1425 - 20e3 / (9.81 * mass), 1e-9)
+    near("without weight on bit that is the bit", float(table[0]["neutral_depth"]), 1425, 1e-12)
 
 
 def grades():

@@ -240,7 +240,8 @@ class Builder {
   ///     [M . ; . .] (a, lambda) + J (a, lambda) = (F + R'f - C v - K q, 0)
   ///
   /// Coordinates without mass get that of the frequency of the fastest node. Massless motions of
-  /// several coordinates, as of turned dofs, get a small part of it. This hardly affects the forces.
+  /// several coordinates, as of turned dofs, get a small part of it. This hardly affects the
+  /// forces.
   void startConsistently() {
     SecondOrderModel& m = out_.model;
     const Eigen::Index n = m.mass.rows();

@@ -16,6 +16,7 @@
 #include "substructures/beam/VonMises.hpp"
 #include "substructures/mud/MudModel.hpp"
 #include "substructures/softstring/Buckling.hpp"
+#include "substructures/softstring/Pieces.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -57,6 +58,20 @@ Margin largestJoint(const softstring::Loads& loads, double length) {
     if (force > largest.factor) largest = {force, 0.5 * (loads.depth[i] + end)};
   }
   return largest;
+}
+
+/// A depth just within the piece of the way whose loads point i has: curvature and radius of the
+/// hole jump where two pieces meet, and both have a point there.
+double within(const softstring::Loads& loads, std::size_t i) {
+  const bool below = i + 1 < loads.depth.size() && loads.depth[i + 1] < loads.depth[i];
+  return loads.depth[i] + (below ? -softstring::inside : softstring::inside);
+}
+
+/// Where the compression of point i ends on the way up, linear to the next point.
+double neutralAbove(const softstring::Loads& loads, std::size_t i) {
+  if (i + 1 == loads.depth.size() || loads.tension[i + 1] < 0.0) return loads.depth[i];
+  const double part = loads.tension[i] / (loads.tension[i] - loads.tension[i + 1]);
+  return loads.depth[i] + part * (loads.depth[i + 1] - loads.depth[i]);
 }
 
 void keepLeast(Margin& margin, double factor, double depth) {
@@ -159,7 +174,8 @@ softstring::Hole holeOf(const Scene& scene) {
   hole.friction = [contact](double s) { return contact->pointAt(s, 1, 0.0, 0.0).muDynamic; };
   if (scene.list().isSublist("Mud")) {
     const auto mud = mud::readProperties(scene.list().sublist("Mud"));
-    hole.mud = {mud.density, mud.frictionCoefficient, mud.flowRate, mud.axialDrag};
+    hole.mud = {mud.density, mud.frictionCoefficient, mud.flowRate, mud.axialDrag,
+                mud.annularThrust};
   }
   hole.breaks = scene.well.trajectory().breaks();
   for (const auto& interval : scene.well.intervals()) {
@@ -307,12 +323,13 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
   for (std::size_t i = 0; i < loads.depth.size(); ++i) {
     const double s = loads.depth[i];
     const auto& stretch = model.string[at(loads.stretch[i])];
-    const auto point = hole.at(s);
+    const double own = within(loads, i);
+    const auto point = hole.at(own);
     const double bending = stretch.section.youngModulus() * stretch.section.inertiaX();
     softstring::BucklingLimits limits{none, none};
     if (allLimits || loads.tension[i] < 0.0)
       limits = softstring::bucklingLimits(point, stretch.weight, bending,
-                                          hole.radius(s) - stretch.section.outerRadius());
+                                          hole.radius(own) - stretch.section.outerRadius());
     profile.sinusoidal.push_back(limits.sinusoidal);
     profile.helical.push_back(limits.helical);
     profile.vonMises.push_back(beam::vonMises(stretch.section, loads.tension[i], loads.torque[i],
@@ -321,7 +338,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
     if (loads.tension[i] < 0.0) {
       keepLeast(row.sinusoidal, limits.sinusoidal / -loads.tension[i], s);
       keepLeast(row.helical, limits.helical / -loads.tension[i], s);
-      row.neutralDepth = s;
+      row.neutralDepth = neutralAbove(loads, i);
     }
     if (loads.sideForce[i] > row.largestSideForce) {
       row.largestSideForce = loads.sideForce[i];

@@ -22,6 +22,10 @@ TEST(PrintedUnits, UsualOnesAreThoseNamed) {
   EXPECT_EQ(printed(12345.678, "kN", 4), "12.35 kN");
   EXPECT_EQ(printed(0.0123, "mm", 3), "12.3 mm");
   EXPECT_EQ(printed(0.1, "N m"), "0.1 N m");
+  EXPECT_EQ(printed(10012.4, "m", 4), "10012 m") << "no 1.001e+04 m";
+  EXPECT_EQ(printed(-10012.6, "m", 4), "-10013 m");
+  EXPECT_EQ(printed(9999.7, "m", 4), "10000 m");
+  EXPECT_EQ(printed(1.0e9, "m", 4), "1e+09 m");
   EXPECT_EQ(PrintedUnit("deg/30 m").name(), "deg/30 m");
   EXPECT_NEAR(PrintedUnit("deg/30 m")(std::acos(-1.0) / 180.0 / 10.0), 3.0, 1e-13);
 }

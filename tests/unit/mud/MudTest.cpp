@@ -351,6 +351,19 @@ TEST(MudLoad, DragPullsUpTheHoleAndCanBeSwitchedOff) {
   EXPECT_EQ(contribution(p, boreRadius, Vector3::Zero()).load.norm(), 0.0);
 }
 
+// The mud between two radii is at rest on the whole: the pressure difference on its ends holds the
+// shear on both walls, and the string has the shear on its own wall and that pressure on its area.
+TEST(MudLoad, ThrustIsThePressureLostInTheAnnulusOnTheAreaOfTheString) {
+  MudProperties p = referenceMud();
+  const double drag = -AnnularFlow(p).flow(innerRadius, outerRadius, boreRadius).axialDrag;
+  const double shear = drag / (2.0 * pi * outerRadius);
+  const double annulus = pi * (boreRadius * boreRadius - outerRadius * outerRadius);
+  const double gradient = shear * 2.0 * pi * (outerRadius + boreRadius) / annulus;
+  p.annularThrust = true;
+  EXPECT_NEAR(-AnnularFlow(p).flow(innerRadius, outerRadius, boreRadius).axialDrag,
+              drag + pi * outerRadius * outerRadius * gradient, 1e-12 * drag);
+}
+
 // -------------------------------------------------------------------------------------------------
 // deck
 
@@ -366,7 +379,7 @@ TEST(MudDeck, DefaultsAreTheReferenceFluid) {
   EXPECT_EQ(p.frictionCoefficient, 0.013);
   EXPECT_EQ(p.kinematicViscosity, 1e-6);
   EXPECT_TRUE(p.coriolis && p.centrifugal && p.axialDrag);
-  EXPECT_FALSE(p.rotatingAnnulus);
+  EXPECT_FALSE(p.rotatingAnnulus || p.annularThrust);
 }
 
 /// Each parameter of the list changes the result in the expected direction.
@@ -396,6 +409,7 @@ TEST(MudDeck, EachParameterCounts) {
       find(element([](auto& l) { l.set("Centrifugal", false); }).stiffness, "mud centrifugal"),
       nullptr);
   EXPECT_GT(element([](auto& l) { l.set("Axial Drag", false); }).load[2], base.load[2]);
+  EXPECT_LT(element([](auto& l) { l.set("Annular Thrust", true); }).load[2], base.load[2]);
   EXPECT_NE(
       find(element([](auto& l) { l.set("Rotating Annulus", true); }).damping, "mud swirl Coriolis"),
       nullptr);

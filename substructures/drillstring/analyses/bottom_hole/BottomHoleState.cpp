@@ -19,6 +19,9 @@ namespace {
 
 namespace nodal = beam::nodal;
 
+/// The curvature at a node is that of the hole above it, which ends at the bit [m].
+constexpr double justAbove = 1e-6;
+
 class Findings {
  public:
   Findings(const Scene& part, const StaticStage& stage)
@@ -67,11 +70,16 @@ class Findings {
   Eigen::Vector2d lateral(int n) const { return d_.segment<2>(nodal::perNode * n); }
   /// Axis of a section in the path state, in the nodal frame.
   Vector3 sectionAxis(int n) const { return stage_.path.axisInFrame(at(n)); }
-  /// Slope of a section relative to the hole: that of the path state plus theta x axis.
+  /// Slope of a section relative to the hole at its displaced position: that of the path state plus
+  /// theta x axis, minus the turn kappa w of the hole. A string off the axis of a curved hole has a
+  /// shorter or longer way than the axis, and slides along the hole.
   Eigen::Vector2d slope(int n) const {
     const Vector3 axis = sectionAxis(n);
     const Vector3 theta = d_.segment<3>(nodal::perNode * n + nodal::thetaX);
-    return (axis + theta.cross(axis)).head<2>();
+    const double depth = std::min(stage_.path.arcLength[at(n)], part_.well.length());
+    const Vector3 curvature = part_.well.at(depth - justAbove).curvature;
+    const Vector3 turn = stage_.path.frame[at(n)].transpose() * curvature;
+    return (axis + theta.cross(axis) - d_(nodal::perNode * n + nodal::w) * turn).head<2>();
   }
   Sides wallForce(int n) const { return toSides(n, stage_.state.contactForce.col(n)); }
   Sides lateralReaction(int n) const {
