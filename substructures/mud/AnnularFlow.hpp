@@ -17,8 +17,8 @@
 ///
 /// and the right-hand side the load (rho_f A_i - rho_f A_o) g (buoyancy in effective-tension form,
 /// without a pressure term) and the axial drag of the returning flow. The drag is the shear tau =
-/// C_f rho_f U_o^2/(2 pi) on the string. The same tau on both walls causes the pressure loss dp/ds =
-/// 2 tau/(R_w - R_e), which pushes a body of area A_o up by A_o dp/ds = R_e/(R_w - R_e) times the
+/// C_f rho_f U_o^2/(2 pi) on the string. The same tau on both walls causes the pressure loss dp/ds
+/// = 2 tau/(R_w - R_e), which pushes a body of area A_o up by A_o dp/ds = R_e/(R_w - R_e) times the
 /// drag (with `annularThrust`). Sources: Ritto, Soize and Sampaio (2009) for the axial flow, Chen
 /// (1981) and Fritz (1970) for the confined added mass and viscous damping, as cited in section 2.3
 /// of Nguyen et al. 2020.
