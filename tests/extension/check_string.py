@@ -220,7 +220,7 @@ def a_load():
     soft = written("dragged_soft", rods=(), supports=WALL, loads=DRAG.format(drag=50.0))
     said = " ".join(call("torque-drag", soft, "--output", "dragged_soft").split())
     expect("torque and drag says that it leaves the load out",
-           'The load "wall drag" has no part in torque and drag' in said)
+           'The load "wall drag" is not part of torque and drag' in said)
     wrong = written("wrong", loads=DRAG.format(drag=50.0).replace('value="154"', 'value="3"'))
     expect("a senseless load is refused", "ends (To) before it starts"
            in call("check", wrong, code=2))

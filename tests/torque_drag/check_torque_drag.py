@@ -181,7 +181,7 @@ def pulled():
                      "Torque and Drag/Stiff String=None")
     expect(
         "forces of the deck are warned of", done.returncode == 0
-        and "Loads/Forces has no part in torque and drag" in " ".join(done.stderr.split()),
+        and "Loads/Forces is not part of torque and drag" in " ".join(done.stderr.split()),
         done.stderr)
 
 
