@@ -13,9 +13,6 @@
 namespace tooljoint::model {
 namespace {
 
-/// A part of the largest mass of a node below this is rounding of turned axes.
-constexpr double roundingOfMass = 1e-12;
-
 /// Dofs with mass and stiffness, those of a node together.
 std::vector<std::vector<int>> nodesOf(const SecondOrderModel& model, const Vector& mass,
                                       const Vector& stiffness) {
@@ -36,7 +33,7 @@ std::vector<std::vector<int>> nodesOf(const SecondOrderModel& model, const Vecto
   return groups;
 }
 
-/// Largest 1 / lambda of K_D^-1/2 M K_D^-1/2 of these dofs, lambda = 0 left out.
+/// Largest 1 / lambda of K_D^-1/2 M K_D^-1/2 of these dofs, without lambda = 0.
 double fastest(const std::vector<int>& dofs, const Sparse& mass, const Vector& stiffness) {
   const auto n = static_cast<Eigen::Index>(dofs.size());
   Matrix A(n, n);

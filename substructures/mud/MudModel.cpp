@@ -35,9 +35,8 @@ deck::ListSpec parameters() {
           "Keep the axial drag of the returning flow on the string; needs a flow rate to matter.")
       .expert()
       .boolean("Annular Thrust", false,
-               "Add to the Axial Drag what the pressure that the returning flow loses in the "
-               "annulus pushes the string up, R_e/(R_w - R_e) times the drag; false as in the "
-               "published model.")
+               "Add to the Axial Drag the thrust of the pressure loss of the returning flow in "
+               "the annulus, R_e/(R_w - R_e) times the drag; false as in the published model.")
       .expert()
       .boolean("Rotating Annulus", false,
                "Let the annular mud swirl at half the rotary speed: cross-coupled damping, "

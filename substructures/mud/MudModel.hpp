@@ -29,7 +29,7 @@ struct MudProperties {
   bool coriolis = true;              ///< Coriolis pair of both flows
   bool centrifugal = true;           ///< centrifugal stiffness of both flows
   bool axialDrag = true;             ///< axial drag load of the annular flow
-  bool annularThrust = false;        ///< with it the thrust of the pressure that flow loses
+  bool annularThrust = false;        ///< thrust of its pressure loss on the string
   bool rotatingAnnulus = false;      ///< annular mud swirls at Omega/2 on average
 };
 

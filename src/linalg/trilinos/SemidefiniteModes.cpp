@@ -26,7 +26,8 @@ constexpr double massless = 1e-13;
 /// An eigenvalue of the shift-inverted operator below this fraction of the largest one belongs to
 /// an infinite eigenvalue of the pencil.
 constexpr double infinite = 1e-13;
-/// A mode from a shift that is so many times its value, or this part of it, has lost six digits.
+/// Largest ratio of a shift and a value, either way: beyond it the value loses more than six
+/// digits.
 constexpr double reach = 1e6;
 /// A value below this part of the first shift may be that of a rigid-body motion.
 constexpr double rigid = 1e-9;

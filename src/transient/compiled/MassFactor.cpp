@@ -5,15 +5,9 @@
 #include <cmath>
 
 #include "common/Index.hpp"
+#include "model/NodalFrequency.hpp"
 
 namespace tooljoint::transient {
-namespace {
-
-/// A mass below this part of its row is rounding of a mass matrix that was turned, projected on a
-/// basis or summed.
-constexpr double roundingOfMass = 1e-12;
-
-}  // namespace
 
 MassFactor::MassFactor(const CompiledModel& model)
     : pattern_(model.pattern()), factor_(pattern_), missing_(at(model.size()), 0) {
@@ -28,7 +22,7 @@ MassFactor::MassFactor(const CompiledModel& model)
     } else {
       perUnit_[i] = 1.0 / diagonal[i];
     }
-  singularAt_ = factor_.factor(roundingOfMass);
+  singularAt_ = factor_.factor(model::roundingOfMass);
 }
 
 void MassFactor::invert(const CompiledModel& model) {

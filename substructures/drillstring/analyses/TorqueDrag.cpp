@@ -60,14 +60,15 @@ Margin largestJoint(const softstring::Loads& loads, double length) {
   return largest;
 }
 
-/// A depth just within the piece of the way whose loads point i has: curvature and radius of the
-/// hole jump where two pieces meet, and both have a point there.
+/// A depth [m] just inside the piece of the hole to which point i belongs. Curvature and radius of
+/// the hole jump where two pieces meet, and both pieces have a point there.
 double within(const softstring::Loads& loads, std::size_t i) {
   const bool below = i + 1 < loads.depth.size() && loads.depth[i + 1] < loads.depth[i];
   return loads.depth[i] + (below ? -softstring::inside : softstring::inside);
 }
 
-/// Where the compression of point i ends on the way up, linear to the next point.
+/// Depth [m] at which the compression of point i ends going up, with the tension linear to the next
+/// point.
 double neutralAbove(const softstring::Loads& loads, std::size_t i) {
   if (i + 1 == loads.depth.size() || loads.tension[i + 1] < 0.0) return loads.depth[i];
   const double part = loads.tension[i] / (loads.tension[i] - loads.tension[i + 1]);
