@@ -201,8 +201,8 @@ class Deck:
 
     def response(self, output: str | os.PathLike = "", fresh: bool | None = None,
                  quiet: bool = True) -> list[dict[str, Any]]:
-        """Harmonic responses (list Response), like `tooljoint response`: the rows of response.csv.
-        fresh: as in study()."""
+        """Harmonic responses (list Response), like `tooljoint response`: the rows of response.csv;
+        fresh as in study()."""
         return self._analyse("response", output, fresh, False, quiet)
 
     def _analyse(self, what, output, fresh, shared_timing, quiet):

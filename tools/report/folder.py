@@ -53,9 +53,9 @@ def draw_folder(description, kind, files):
     """Main function of a tool: draws the first of `files` (name.h5 -> pictures) in the folder as
     name.png there, or as the file of --output. `kind`: description of the folder.
 
-    `pictures` is a function of the open file that makes a figure, or several with their titles,
-    {"": (title, function), "shapes": (title, function)}: the second is name_shapes.png. A function
-    returns None if there is nothing to draw."""
+    Pictures are given as a function of the open file that makes a figure, or several with their
+    titles, {"": (title, function), "shapes": (title, function)}: the second is name_shapes.png. A
+    function returns None if there is nothing to draw."""
     options = parser(description, kind, files).parse_args()
     plots.use_style()
     found, results = opened(options.folder, kind, files)

@@ -16,7 +16,7 @@ SMALLEST = 1e-6  # smallest share printed as a number
 
 
 def fixed(value, decimals):
-    """A number with so many decimals; zero has no sign.
+    """A number with so many decimals; numbers that round to zero have no sign.
 
     >>> fixed(-0.04, 1), fixed(-1.26, 1)
     ('0.0', '-1.3')

@@ -156,8 +156,8 @@ class Run(Folder):
 
 
 def beside_releases(run, values):
-    """`values` (... x elements), below released joints replaced by those of the next element: the
-    recorded motion at a released joint is that of the part above it."""
+    """`values` (... x elements), with those of the next element for elements directly below
+    released joints: the recorded motion of a released node is that of the part above the joint."""
     below = run.get("/model/elements_below_releases")
     if below is not None:
         values = values.copy()
