@@ -96,11 +96,10 @@ def main():
                         help="repeat cases that are in the work folder")
     parser.add_argument(
         "--no-run", action="store_true", help=
-        "run nothing: take what is in the work folder, short rows where the whole case is not there"
-    )
+        "run nothing: take the results of the work folder, short rows if the whole case is missing")
     parser.add_argument(
-        "--write", help="file of the table, renewed for the cases that are chosen; figures go into "
-        "figures/ beside it")
+        "--write", help="file of the table, renewed for the chosen cases; figures go into figures/ "
+        "in its folder")
     options = parser.parse_args()
     missing = sorted(set(NUMBERS) - set(table.CASES))
     if missing:
