@@ -30,7 +30,7 @@ myst_dmath_allow_space = False
 myst_dmath_allow_digits = False
 highlight_language = "none"
 
-# KaTeX of the distribution (libjs-katex) draws the formulas, so that the site needs no network;
+# KaTeX of the distribution (libjs-katex) draws the formulas, so the site needs no network;
 # sphinx.ext.mathjax only writes their markup.
 KATEX = "/usr/share/javascript/katex"
 html_static_path = [KATEX, "site.css"]
@@ -59,7 +59,7 @@ linkcheck_retries = 2
 
 
 def write_entry(app, exception):
-    """The root page lies in docs/; index.html at the top of the site leads there."""
+    """The root page is in docs/; index.html at the top of the site redirects to it."""
     if exception is None and app.builder.name == "html":
         entry = ('<!doctype html>\n<meta charset="utf-8">\n<title>Tooljoint</title>\n'
                  '<meta http-equiv="refresh" content="0; url=docs/index.html">\n'
@@ -68,23 +68,22 @@ def write_entry(app, exception):
 
 
 def join_scripts(app, exception):
-    """Debian's furo ships the source of its script, an ES module that imports another file; pages
-    load it as a plain script, in which `import` is a syntax error: no theme switch, no scroll spy.
-    Both files become one plain script. (Modules would not help: browsers refuse them from
-    file://.)"""
+    """Joins the two files of furo's script. Debian ships it as an ES module that imports another
+    file, but pages load it as a plain script, in which `import` is a syntax error: no theme switch,
+    no scroll spy. Modules would not help: browsers refuse them from file://."""
     script = pathlib.Path(app.outdir) / "_static/scripts/furo.js"
     if exception is not None or app.builder.name != "html" or not script.is_file():
         return
     text = script.read_text(encoding="utf-8")
     imported = re.match(r'import Gumshoe from "\./(.+?)";\n', text)
-    if imported:  # other packages of furo bring a joined one
+    if imported:  # other packages of furo ship a joined file
         gumshoe = script.with_name(imported.group(1)).read_text(encoding="utf-8")
         script.write_text(gumshoe + "\n" + text[imported.end():], encoding="utf-8")
 
 
 def inline_normalize(app, exception):
-    """Debian's furo imports normalize.css by a path of a web server; its text takes the place of
-    the import."""
+    """Puts the text of normalize.css in the place of its import, which Debian's furo gives as a
+    path on a web server."""
     style = pathlib.Path(app.outdir) / "_static/styles/furo.css"
     if exception is not None or app.builder.name != "html" or not style.is_file():
         return

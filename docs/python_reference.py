@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Directive of the documentation site for the Python package, whose sources are read and not
-imported.
+"""Directive of the documentation site for the Python package. It reads the sources without
+importing them.
 
     ```{python-reference} tooljoint
     part
     Deck
     ```
 
-shows the signatures and docstrings of these names of the module, of classes with all public
-members. A name that the module does not have is an error; so is a public name of a module that no
-page shows.
+shows the signatures and docstrings of these names of the module, for classes with all public
+members. An unknown name is an error, and so is a public name of a module that is on no page.
 """
 import ast
 import inspect
@@ -42,7 +41,7 @@ def definitions(file):
 
 
 def public(folder):
-    """What the __init__.py of a module gives to its users: {name: definition}."""
+    """Names that the __init__.py of a module offers to users: {name: definition}."""
     first = folder / "__init__.py"
     found = {name: node for name, node in definitions(first).items() if not name.startswith("_")}
     for node in ast.parse(first.read_text(encoding="utf-8")).body:
@@ -56,13 +55,14 @@ def public(folder):
 
 
 def known_to(module):
-    """What a page may name of a module: also what calls return, of tooljoint._core."""
+    """Names of a module that a page may use; for tooljoint._core these include the results of
+    calls."""
     return definitions(MODULES["tooljoint"] /
                        "_core.pyi") if module == "tooljoint._core" else public(MODULES[module])
 
 
 def signature(node, method=False):
-    """The arguments and the result of a function, the object of a method left out."""
+    """Arguments and result of a function, without the object of a method."""
     arguments = ast.unparse(node.args)
     if method:
         arguments = re.sub(r"^self(, )?", "", arguments)
@@ -71,8 +71,7 @@ def signature(node, method=False):
 
 
 def prose(node):
-    """A docstring as Markdown: its examples become blocks of code, what it says of arguments a
-    list."""
+    """A docstring as Markdown: examples become blocks of code, descriptions of arguments a list."""
     functions = [
         one for one in [node, *getattr(node, "body", [])] if isinstance(one, ast.FunctionDef)
     ]
@@ -104,7 +103,7 @@ def directive(kind, head, module, body, ticks, options=()):
 
 
 def member(node, module, cls):
-    """A method or property of a class as Markdown; operators show how they are written."""
+    """A method or property of a class as Markdown; operators are shown as they are used."""
     decorators = [ast.unparse(one) for one in node.decorator_list]
     if "property" in decorators:
         options = [f":type: {ast.unparse(node.returns)}".replace("_core.", "")

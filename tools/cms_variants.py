@@ -1,16 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares all bases on the reference scene and on a frame, and rewrites tables and figures of
-docs/cms-variants.md, docs/tables/cms_variants_*.csv.
+docs/cms-variants.md and docs/tables/cms_variants_*.csv.
 
     tools/cms_variants.py --program build/release/tooljoint [--work results/cms_variants] [--only
         helical,frame,estimates,tolerance] [--fresh] [--short]
 
-The bases, what they are given and their mode counts are the Study lists of xml/cms_variants.xml and
-xml/cms_variants_frame.xml; their numbers are those of study.csv and study.h5. Runs that are already
-in the work folder are not repeated unless --fresh is given. --set changes the studies, for a quick
-look (--set Study/Repeats=1). --short (a test) takes few runs, writes nothing and ends with 1 when
-an estimate or a tolerance fails. Needs h5py, matplotlib and numpy.
+The Study lists of xml/cms_variants.xml and xml/cms_variants_frame.xml define the bases, their
+parameters and mode counts; the numbers come from study.csv and study.h5. Runs that are already in
+the work folder are not repeated unless --fresh is given. --set changes the studies, for a quick
+look (--set Study/Repeats=1). --short is a test: few runs, no files, exit code 1 if an estimate or a
+tolerance fails. Needs h5py, matplotlib and numpy.
 """
 import argparse
 import csv
@@ -33,12 +33,12 @@ os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are no
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 FREQUENCIES = 20
-FACTOR = 3.0  # an estimate is to lie within this factor of the true error
-ROUNDING = 1e-9  # true errors of frequencies below this are rounding
-# a vibration error below this is due to the tolerance of the steps, even with all modes kept
+FACTOR = 3.0  # required: estimate within this factor of the true error
+ROUNDING = 1e-9  # smaller true errors of frequencies are rounding
+# smaller vibration errors are due to the step tolerance; they remain with all modes kept
 STEPS = 5e-5
 STUDIES = {"helical": ("reference scene", "cms_variants"), "frame": ("frame", "cms_variants_frame")}
-# scene, window [s], what the motion is run with
+# scene, window [s], overrides of the motion
 SCENES = [("helical_170m", 3, []), ("helical_170m_source", 3, []), ("stress_170m", 3, []),
           ("vertical_1000m", 2, []), ("inclined_1000m", 2, []),
           ("frame", 2, ["Transient/Step=2e-4"])]
@@ -67,7 +67,7 @@ class Bench:
         self.work.mkdir(parents=True, exist_ok=True)
 
     def call(self, command, name, deck, arguments):
-        """(folder, what was printed, reason of a failure or "")."""
+        """(folder, output, reason of a failure or "")."""
         folder = self.work / re.sub(r"[^A-Za-z0-9.]+", "_", name)
         kept = folder / "done.json"
         if kept.exists():
@@ -85,7 +85,7 @@ class Bench:
         except subprocess.TimeoutExpired:
             print(f"{time.time() - begin:6.1f} s  {command} {name}: given up", flush=True)
             return folder, "", f"given up after {self.limit:g} s"
-        said = re.sub(r"\n {2,}", " ", run.stderr.strip()).splitlines()  # without breaks of lines
+        said = re.sub(r"\n {2,}", " ", run.stderr.strip()).splitlines()  # joins wrapped lines
         reason = "" if run.returncode == 0 else (
             said or [f"ended with {run.returncode}"])[-1].removeprefix("tooljoint: ")
         print(
@@ -159,7 +159,7 @@ def table(study):
 
 
 def overview(rows):
-    """Of rows of TABLE: the run of each basis with the smallest vibration error."""
+    """Table with the run of smallest vibration error of each basis; `rows` are those of TABLE."""
     best = {}
     for row in rows[1:]:
         line = redraw_studies.line_of(row[0])
@@ -177,7 +177,7 @@ def overview(rows):
 
 
 def tabulated(rows, name):
-    """The overview of the rows of a study, which go into a table of their own."""
+    """Writes all rows of a study to a CSV file and returns the overview with a link to it."""
     write_csv(name, [TABLE, *rows])
     return f"All {len(rows)} runs: [{name}.csv](tables/{name}.csv).\n\n" + overview(rows)
 
@@ -199,8 +199,8 @@ def figure(study, name):
 
 
 def frequency_ratios(run):
-    """(number of the mode, MAC, true error, estimate, complete, estimate / true error) where both
-    errors mean something."""
+    """(number of the mode, MAC, true error, estimate, complete, estimate / true error) of the modes
+    whose true error is more than rounding."""
     curves = [run.curve(f"mode_{name}") for name in ("mac", "error", "estimate", "definite")]
     for i, (mac, error, estimate, definite) in enumerate(zip(*curves)):
         if abs(error) > ROUNDING:
@@ -208,7 +208,8 @@ def frequency_ratios(run):
 
 
 def motion_ratio(run):
-    """estimate / vibration error; None where either means nothing."""
+    """estimate / vibration error; None without an estimate, or if the vibration error is below
+    STEPS."""
     return run.number("estimated_vibration_error") / run.number("vibration_error") if run.row[
         "estimated_vibration_error"] and run.number("vibration_error") > STEPS else None
 
@@ -377,7 +378,7 @@ def short_test(bench):
             continue
         if not run.number("reduced_dofs") <= full + (60 if run.line.startswith("Dual") else 0):
             faults.append(f"{run.label}: {run.row['reduced_dofs']} dofs")
-        if run.line not in ("MacNeal", "Dual Craig-Bampton"):  # which have no estimates
+        if run.line not in ("MacNeal", "Dual Craig-Bampton"):  # these have no estimates
             wrong = [ratio for *_, ratio in frequency_ratios(run) if outside(ratio)]
             if wrong:
                 faults.append(f"{run.label}: estimates of frequencies off by the factors "
@@ -409,10 +410,10 @@ def main():
     parser.add_argument("--work", default="results/cms_variants", help="folder for the runs")
     parser.add_argument("--only", default=",".join(SECTIONS), help="sections to write")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
-                        help="a change of both studies, \"!PATH\" takes something out")
-    parser.add_argument("--fresh", action="store_true", help="forget the runs in that folder")
+                        help="an override of both studies; \"!PATH\" removes an entry")
+    parser.add_argument("--fresh", action="store_true", help="repeat the runs in that folder")
     parser.add_argument("--limit", type=float, default=90.0,
-                        help="seconds after which a run of the tolerances is given up")
+                        help="time limit [s] of a run of the tolerances")
     parser.add_argument("--short", action="store_true", help="a quick check instead")
     options = parser.parse_args()
     bench = Bench(options)

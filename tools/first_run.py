@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs xml/first_run.xml reduced and full and says in a few lines what came out.
+"""Runs xml/first_run.xml reduced and full and prints a summary of the results.
 
     tools/first_run.py [--program build/release/tooljoint] [--output results/first_run]
 
-The output folder gets the runs `reduced` and `full`, a picture, and comparison.json: what is
-printed, in SI units. Needs h5py and numpy, and matplotlib for the picture.
+The output folder receives the runs `reduced` and `full`, a picture, and comparison.json with the
+printed numbers in SI units. Needs h5py and numpy, and matplotlib for the picture.
 """
 import argparse
 import json
@@ -29,13 +29,13 @@ except ImportError as missing:
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DECK = ROOT / "xml" / "first_run.xml"
 FULL = ["--without", "Reduction", "--without", "Substructures"]
-COLUMNS = 100  # of a printed line
+COLUMNS = 100  # width of a printed line
 UNITS = {"": 1.0, "in": 0.0254, "m": 1.0, "kN": 1e3, "kN m": 1e3, "g/cm3": 1e3}
 
 
 def value(list_element, path):
-    """Parameter PATH ("Loads/Gravity") below an element of a deck, in SI units; its text where it
-    has no number."""
+    """Parameter PATH ("Loads/Gravity") below an element of a deck, in SI units, or its text if it
+    is not a number."""
     *lists, name = path.split("/")
     for one in lists:
         list_element = list_element.find(f"ParameterList[@name='{one}']")
@@ -83,13 +83,13 @@ def loads(deck):
 
 
 def short(path):
-    """As a shell in the working folder reads it."""
+    """The path for a shell in the working folder."""
     relative = os.path.relpath(path)
     return relative if os.sep in relative else os.path.join(".", relative)
 
 
 def lines(label, command):
-    """LABEL and a command, broken as a shell reads it where that is wide."""
+    """LABEL and a command, wrapped with the line continuation of a shell if it is wide."""
     text, width = label, len(label)
     for word in map(shlex.quote, command):
         if width + len(word) > COLUMNS - 2:
@@ -99,8 +99,8 @@ def lines(label, command):
 
 
 def run(program, folder, more):
-    """Runs the scene into `folder`, with warnings printed only, and returns its summary; ends with
-    the exit code of the program where that fails."""
+    """Runs the scene into `folder` and returns its summary. Only warnings are printed; if the
+    program fails, this script ends with the same exit code."""
     command = [short(program), "run", short(DECK), "--output", short(folder), "--quiet", *more]
     print(lines("== ", command), flush=True)
     code = subprocess.run(command, check=False).returncode
@@ -110,7 +110,7 @@ def run(program, folder, more):
 
 
 def figures(program, output):
-    """Everything that is printed, as numbers."""
+    """All printed numbers."""
     reduced, full = run(program, output / "reduced", []), run(program, output / "full", FULL)
     compared = subprocess.run(
         [str(program), "compare",

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Computes the maps of docs/guide/maps.md by the commands of the page and writes
+"""Computes the maps of docs/guide/maps.md with the commands of that page and writes
 docs/figures/map_*.svg.
 
     tools/maps.py --program build/release/tooljoint [--work results/maps] [--only
         map_helical_170m,map_inclined_1000m] [--figures DIR] [--set PATH=VALUE ...]
 
-A map goes on from the points that are in the work folder. --set changes the maps, for a quick look
-(a test).
+Points that are already in the work folder are not computed again. --set changes the maps, for a
+quick look (a test).
 """
 import argparse
 import pathlib
@@ -17,12 +17,12 @@ import shutil
 import subprocess
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
-# Deck of the map: the value that the page shows.
+# deck of the map: value shown on the page
 SHOWN = {"map_helical_170m": "lateral_acceleration", "map_inclined_1000m": "stick_slip_index"}
 
 
 def settings(deck):
-    """Options of the command of the page that computes the most points of a deck."""
+    """Options of the command on the page that computes the most points of a deck."""
     page = (PROJECT / "docs/guide/maps.md").read_text(encoding="utf-8").replace("\\\n", " ")
     commands = [
         shlex.split(line) for line in re.findall(rf"^tooljoint map xml/{deck}\.xml .*", page, re.M)
@@ -44,7 +44,7 @@ def main():
     parser.add_argument("--figures", default=PROJECT / "docs/figures", type=pathlib.Path,
                         help="folder of the pictures")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
-                        help="a change of the maps")
+                        help="an override of the maps")
     options = parser.parse_args()
     for deck in options.only.split(","):
         folder = options.work / deck

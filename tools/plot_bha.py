@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what `tooljoint bha` left in its folder: tools/plot_bha.py DIR [--output FILE.png]
+"""Draws the results of `tooljoint bha`: tools/plot_bha.py DIR [--output FILE.png]
 
-DIR/bha.h5: the string in its hole towards the high side and towards the right side, with the room
-it has to the wall (narrow at stabilisers); its bending moment; and the side force of the bit
-against the weight on bit, or against inclination or tool face where the deck varies those instead.
+DIR/bha.h5: the string in its hole towards the high side and towards the right side, with its
+clearance to the wall (narrow at stabilisers); its bending moment; and the side force of the bit
+against the weight on bit, or against inclination or tool face if the deck varies those instead.
 """
 import sys
 
@@ -36,14 +36,14 @@ def named(rows, i):
 
 
 def shown(rows):
-    """The states along the string: those of the largest weight in the first hole."""
+    """Indices of the states drawn along the string: the largest weight in the first hole."""
     first = rows["inclination"] == rows["inclination"][0]
     return np.flatnonzero(first
                           & (rows["weight_on_bit"] == rows["weight_on_bit"].max()))[:MOST_LINES]
 
 
 def draw_string(axes, rows, profile, side):
-    """Deflection to a side, between the walls offset to the axis of the string."""
+    """Deflection towards one side, with the walls at the clearance of the string."""
     x = profile["from_bit"][0]
     for sign in (-1, 1):
         axes.fill_between(x, sign * 1e3 * profile["clearance"][0],
@@ -63,8 +63,8 @@ def draw_moment(axes, rows, profile):
 
 
 def draw_forces(axes, rows):
-    """Side force against the parameter with most values; a line for each combination of the
-    others."""
+    """Side force against the parameter with most values; one line for each combination of the other
+    parameters."""
     along = max(AXES, key=lambda name: len(np.unique(rows[name])))
     others = [name for name in AXES if name != along]
     keys = sorted({

@@ -1,18 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Maps of `tooljoint map` as pictures: plot_map.py DIR
+"""Draws the maps of `tooljoint map`: plot_map.py DIR
 
-DIR holds map.csv and summary.json. Every value of the list `Map/Values` becomes map_NAME.png and
-.svg: cells coloured by the value over the first two axes, contour lines where the grid has three
-points or more each way, unsafe cells hatched with the limit as a line, failed points crossed out.
-With more than two axes each point of the others has a picture of its own.
+DIR contains map.csv and summary.json. Every value of the list `Map/Values` becomes map_NAME.png and
+.svg: cells over the first two axes coloured by the value, contour lines if the grid has at least
+three points in each direction, unsafe cells hatched, a line at the limit, failed points crossed
+out. With more than two axes there is one picture for each point of the other axes.
 """
 import argparse
 import itertools
 import pathlib
 import re
 
-import plots  # before matplotlib
+import plots  # must precede matplotlib
 from plots import np, plt
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
@@ -20,17 +20,17 @@ from matplotlib.path import Path
 from report import deck, files, results
 
 UNSAFE = "#D55E00"
-LEAST_FOR_CONTOURS = 3  # points along an axis
+LEAST_FOR_CONTOURS = 3  # fewest points along an axis
 CONTOURS = 6  # intervals between contour lines, at most
-MOST_CELLS = 400  # drawn as lines and areas; more are an image
-MOST_TICKS = 9, 14  # across and up
-LONGEST_TICKS = 48  # letters of all ticks of an axis that stand side by side
+MOST_CELLS = 400  # up to this many are vector graphics, more an image
+MOST_TICKS = 9, 14  # horizontal, vertical
+LONGEST_TICKS = 48  # letters of all ticks of a horizontal axis
 
 
 class Map:
-    """The table of a map as grids: `failed` and, of each value, `grid`, with nan where it is not
+    """The table of a map as grids: `failed`, and `grid` for each value, nan where the value is not
     known. `rows` are those of map.csv, by names without units, in the order of the grids.
-    Unreadable: no table, or not that of the summary."""
+    Unreadable: the table is missing or does not match the summary."""
     def __init__(self, folder):
         summary, lines = results.read_summary(folder).get("map"), files.read_rows(
             folder / "map.csv")
@@ -61,20 +61,20 @@ class Map:
         for k, axis in enumerate(self.axes):
             texts = list(dict.fromkeys(row[axis["name"]] for row in rows))
             axis["texts"] = texts
-            # points that are not numbers keep their order
+            # values that are not numbers keep their order
             axis["places"] = np.array([float(text) for text in texts
                                        ]) if axis["numeric"] else np.arange(shape[k], dtype=float)
             axis["label"] = axis["name"] + (f" [{axis['unit']}]" if axis["unit"] else "")
 
     def pictures(self):
-        """(value, point of the axes beyond the second, name of the picture) of all pictures."""
+        """(value, point of the third and further axes, name of the picture) of all pictures."""
         for value in self.values:
             for rest in itertools.product(*(range(axis["points"]) for axis in self.axes[2:])):
                 yield value, rest, "map_" + re.sub(r"\W+", "_", value["name"]) + "".join(
                     f"_{i + 1}" for i in rest)
 
     def conditions(self):
-        """Scene, what the axes do not vary, and overrides, for the second line of a title."""
+        """Scene, fixed parameters and overrides, for the second line of a title."""
         with results.open_results(self.folder / "map.h5") as file:
             said = {
                 name: file.attrs.get(name, "") for name in ("deck_file", "deck_text", "overrides")
@@ -87,7 +87,7 @@ class Map:
 
 
 def edges(places):
-    """Borders of the cells around increasing places."""
+    """Borders of the cells around increasing positions."""
     middle = (places[1:] + places[:-1]) / 2
     return np.concatenate([[2 * places[0] - middle[0]], middle, [2 * places[-1] - middle[-1]]])
 
@@ -107,7 +107,7 @@ def unsafe(value, grid):
 
 
 def lines(axes, x, y, grid, value):
-    """Contours through the points; the limit between safe and unsafe is drawn heavier."""
+    """Contour lines; the limit between safe and unsafe is drawn thicker."""
     if min(len(x), len(y)) < LEAST_FOR_CONTOURS or np.count_nonzero(
             np.isfinite(grid)) < LEAST_FOR_CONTOURS**2 or np.nanmin(grid) == np.nanmax(grid):
         return
@@ -118,7 +118,7 @@ def lines(axes, x, y, grid, value):
         if low < level < high
     ]
     if even:
-        # dark on the light half of the colours
+        # dark lines on the light half of the colours
         drawn = axes.contour(
             x, y, masked, levels=even,
             colors=["white" if level < (low + high) / 2 else "black" for level in even],
@@ -130,7 +130,7 @@ def lines(axes, x, y, grid, value):
 
 
 def hatch(axes, x, y, beyond):
-    """Hatches the unsafe cells; neighbours across are one rectangle."""
+    """Hatches the unsafe cells; adjacent cells of a row become one rectangle."""
     left, low = edges(x), edges(y)
     areas = []
     for j, row in enumerate(beyond.T):
@@ -147,7 +147,7 @@ def hatch(axes, x, y, beyond):
 
 
 def tick_texts(axes, along, axis, places, order, most):
-    """Ticks at the points, or at as many of them as have room."""
+    """Ticks at the points, or at as many of them as fit."""
     texts = [
         f"{place:.5g}" if axis["numeric"] else pathlib.PurePath(axis["texts"][i]).name
         for place, i in zip(places, order)
@@ -164,10 +164,10 @@ def tick_texts(axes, along, axis, places, order, most):
 
 
 def draw(made, value, rest, conditions=""):
-    """The map of one value over the first two axes, at the point `rest` of the others; `conditions`
-    stand below the title, where no page has them."""
+    """The map of one value over the first two axes, at the point `rest` of the others. `conditions`
+    are written below the title of pictures that are not part of a page."""
     first, second = made.axes[:2]
-    # cells need increasing places
+    # cells need increasing positions
     order = np.argsort(first["places"]), np.argsort(second["places"])
     pick = lambda grid: grid[(slice(None), slice(None), *rest)][np.ix_(*order)]  # noqa: E731
     grid, failed = pick(made.grid[value["name"]]), pick(made.failed)
@@ -204,8 +204,7 @@ def draw(made, value, rest, conditions=""):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path, metavar="DIR",
-                        help="folder of a map that ended")
+    parser.add_argument("folder", type=pathlib.Path, metavar="DIR", help="folder of a finished map")
     folder = parser.parse_args().folder
     plots.use_style()
     with files.failing():

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what `tooljoint campbell` or `tooljoint response` left in its folder:
-tools/plot_response.py DIR [--output FILE.png]
+"""Draws the results of `tooljoint campbell` or `tooljoint response`: tools/plot_response.py DIR
+[--output FILE.png]
 
 Campbell diagram: frequencies and damping ratios against the rotary speed, forward whirl blue,
-backward whirl orange, lines of the excitations, critical speeds marked; of a string also
+backward whirl orange, lines of the excitations, critical speeds marked; for a string also
 campbell_shapes.png, its modes against depth. Response: amplitude and phase of every output, largest
-amplitudes marked; of a string also response_profile.png, bending moment and distance to the wall
-against depth. Needs h5py, numpy and matplotlib; reads campbell.h5 or response.h5 alone.
+amplitudes marked; for a string also response_profile.png, bending moment and distance to the wall
+against depth. Needs h5py, numpy and matplotlib; reads only campbell.h5 or response.h5.
 """
 import sys
 

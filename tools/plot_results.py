@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what a run left in its folder.
+"""Draws the results of a run.
 
     tools/plot_results.py DIR [--output FILE.png] [--animate FILE.gif|FILE.mp4]
 
-Of a string: its well coloured by contact force, profiles of lateral displacement, contact force,
-axial force and torque along the measured depth, and the bit speed over time. Of a scene of parts,
+For a string: the well coloured by contact force, profiles of lateral displacement, contact force,
+axial force and torque along the measured depth, and the bit speed over time. For a scene of parts,
 for each component: displacement at the start and largest displacement of all nodes, and the motion
-of the node that moves most; recorded forces between parts. --animate draws the motion besides: the
-lateral displacement of the string in its clearance, or the parts in space with magnified
-displacements. Needs h5py, numpy and matplotlib; reads results.h5 alone.
+of the node with the largest motion; recorded forces between parts. --animate also draws the motion:
+the lateral displacement of the string in its clearance, or the parts in space with magnified
+displacements. Needs h5py, numpy and matplotlib; reads only results.h5.
 """
 import pathlib
 import sys
@@ -28,10 +28,10 @@ except ImportError as missing:
 BLUE, ORANGE, GREEN = COLOURS[:3]
 WALL = "#e2e2e2"
 KIND = "folder of a run that ended"
-MOST_PICTURES = 200  # of an animation
-FIELDS = ("velocity", "acceleration", "normal_force")  # of Output/Fields besides the displacement
-ALONG = 0.999  # cosine of an angle that is none
-LARGEST_SHARE = 0.1  # of the size of a scene that the largest displacement is magnified to
+MOST_PICTURES = 200  # of an animation at most
+FIELDS = ("velocity", "acceleration", "normal_force")  # of Output/Fields, without the displacement
+ALONG = 0.999  # cosine; directions above it count as parallel
+LARGEST_SHARE = 0.1  # largest displacement shown, as a share of the size of the scene
 
 
 def draw_well(made, results):
@@ -97,7 +97,7 @@ def texts(dataset):
 
 
 def recorded(results):
-    """Rows (from 0) of the nodes whose motion is recorded."""
+    """Rows (from 0) of the nodes with recorded motion."""
     return results["/transient/node"][:] - 1 if "/transient/node" in results else np.arange(
         len(results["/static/displacement"]))
 
@@ -119,7 +119,7 @@ def draw_nodes(axes, results, start, motion):
 
 
 def draw_mover(axes, results, start, motion):
-    """The motion over time of the node that moves most."""
+    """Time history of the node with the largest motion."""
     column = int(np.abs(motion - start).max(axis=0).argmax())
     node = recorded(results)[column]
     name = texts(results["/model/part_names"])[results["/model/part"][node] - 1]
@@ -130,7 +130,7 @@ def draw_mover(axes, results, start, motion):
 
 
 def draw_forces(axes, results, name):
-    """A recorded channel of a point law: the largest size over its points."""
+    """A recorded channel of a point law: the largest magnitude over its points."""
     channel = results[name]
     axes.plot(
         *plots.envelope(results["/transient/time"][:],
@@ -181,8 +181,8 @@ def draw(results):
 
 
 def lateral_names(results):
-    """Names of u and v: the frames of the nodes are carried along the well without spin, from north
-    and east if it starts downwards."""
+    """Names of u and v: the nodal frames are carried along the well without spin, from north and
+    east if it starts downwards."""
     frame = results.get("/model/frame")
     known = frame is not None and frame[0, 0, 0] > ALONG
     if known:
@@ -214,7 +214,8 @@ def moving_string(results, samples):
 
 
 def moving_parts(results, samples):
-    """(figure, function of a sample): the located nodes in space, displacements magnified."""
+    """(figure, function of a sample): the nodes with known positions in space, displacements
+    magnified."""
     position, rows = results["/model/position"][:], results["/model/located"][:] - 1
     links = [pair for pair in results["/model/links"][:] - 1 if np.isin(pair, rows).all()]
     components, motion = texts(results["/model/components"]), results["/transient/displacement"]

@@ -3,8 +3,8 @@
 """Draws the plots of a study: plot_study.py DIR [--output DIR] [--formats png,svg]
 
 Reads study.csv and study.h5 in DIR and writes study_speed, study_bases, study_modes,
-study_error_over_time, study_bit_speed, study_statistics, study_static and study_reference there,
-each where the study has what it shows. Needs h5py, numpy and matplotlib.
+study_error_over_time, study_bit_speed, study_statistics, study_static and study_reference into the
+output folder, each only if the study has data for it. Needs h5py, numpy and matplotlib.
 """
 import argparse
 import math
@@ -40,7 +40,7 @@ class Run:
         return float(text) if text else math.nan
 
     def spread(self):
-        """How much longer the longest of its repeats took, as a share; 0 of a single one."""
+        """Relative excess of the longest over the shortest repeat; 0 for a single one."""
         return float(self.row.get("cpu_spread") or 0.0)
 
     def curve(self, name):
@@ -74,7 +74,7 @@ class Study:
         return self.attribute("machine", "")
 
     def conditions(self):
-        """Of the scene, as the deck has them."""
+        """Conditions of the scene from the deck."""
         return deck.conditions(
             deck.read(self.attribute("deck_text", ""), self.attribute("overrides", "")))
 
@@ -179,8 +179,7 @@ def draw_speed(study):
 
 
 def relaid(labels, lines):
-    """The texts there are, after a legend has narrowed the axes: those that now lie on others are
-    taken out."""
+    """Labels after a legend has narrowed the axes: texts that now overlap others are removed."""
     axes, texts = labels.axes, list(labels.axes.texts)
     moved = Labels(axes)
     for line in lines.values():
@@ -252,13 +251,13 @@ def draw_modes(study):
 
 
 def known(runs, x, y):
-    """Points of a line with two known positive numbers, for logarithmic axes."""
+    """Points of a line for logarithmic axes: both numbers known and positive."""
     return [(x(run), y(run)) for run in runs if x(run) > 0 and y(run) > 0]
 
 
 def draw_bases(study):
-    """Cost and error of a reduced model: one line per basis, or per variant of one. Failed motions
-    show the frequencies they had."""
+    """Cost and error of a reduced model: one line for each basis or variant of a basis. Runs whose
+    motion failed are included with their frequencies."""
     lines = {}
     for run in study.all:
         if run.kind == "method" and run.reduced and run.row["reduced_dofs"]:
@@ -326,7 +325,7 @@ PLOTS = {
 
 
 def draw_all(study, output, kinds):
-    """Names of the plots that the study has something to show in."""
+    """Draws the plots for which the study has data, and returns their names."""
     made = []
     for name, draw in PLOTS.items():
         figure = draw(study)
@@ -345,7 +344,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, help="folder of a study")
-    parser.add_argument("--output", type=pathlib.Path, help="where the pictures go (default: DIR)")
+    parser.add_argument("--output", type=pathlib.Path, help="folder of the pictures (default: DIR)")
     parser.add_argument("--formats", default="png,svg", help="file types, separated by commas")
     options = parser.parse_args()
     for name in ("study.csv", "study.h5"):

@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws figures of record of studies again, in the style of today, from the tables that the
-documents hold.
+"""Redraws the figures of the studies in the current style, from the tables in the documents.
 
     tools/redraw_studies.py [--output docs/figures] [--only speed_helical,...]
 
 speed_*.svg come from docs/tables/speed_*.csv, cms_variants_*.png from
-docs/tables/cms_variants_*.csv; nothing is measured again. Needs h5py, numpy and matplotlib.
+docs/tables/cms_variants_*.csv; no run is repeated. Needs h5py, numpy and matplotlib.
 """
 import argparse
 import csv
@@ -40,7 +39,7 @@ BASELINE = "RK4 adaptive, Tolerance 1e-2"
 
 
 def line_of(label):
-    """A label without its last sweep: "RK4, Safety 0.95" -> "RK4"."""
+    """A label without its last part, the value of the sweep: "RK4, Safety 0.95" -> "RK4"."""
     return label.rpartition(", ")[0] or label
 
 
@@ -51,7 +50,7 @@ def scene(name):
 
 
 def save_small(made, path):
-    """A PNG with a palette, which halves it and keeps the colours of lines apart."""
+    """Saves a PNG with a palette: half the size, and line colours remain distinct."""
     made.savefig(path, dpi=110, bbox_inches="tight")
     plots.plt.close(made)
     with Image.open(path) as shot:
@@ -71,7 +70,7 @@ def published(lists, file):
 
 
 def study(name, rows, attributes):
-    """The study of a deck, of rows and attributes that a document gives."""
+    """The study of a deck, made from rows and attributes of a document."""
     text, lists = scene(name)
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
@@ -89,7 +88,7 @@ def study(name, rows, attributes):
 
 
 def speed(name):
-    """Figure of docs/tables/speed_NAME.csv, with the text of the page on its reference."""
+    """Figure of docs/tables/speed_NAME.csv; the page gives the reference."""
     page = (PROJECT / "docs/speed-against-error.md").read_text(encoding="utf-8")
     said = re.search(
         rf"xml/{SPEED[name]}\.xml`\. .*?vibration error of (\S+) over (\S+) to (\S+) s",
@@ -115,8 +114,7 @@ def speed(name):
 
 
 def variants(name):
-    """Figure of docs/tables/cms_variants_NAME.csv, with the text of the page on machine and
-    steps."""
+    """Figure of docs/tables/cms_variants_NAME.csv; the page gives machine and steps."""
     page = (PROJECT / "docs/cms-variants.md").read_text(encoding="utf-8")
     section = page[page.index(f"<!-- {name} -->"):]
     section = section[:section.index("<!-- end -->")]
@@ -161,7 +159,7 @@ def main():
                         help="folder of the figures")
     parser.add_argument("--only", type=lambda text: text.split(","),
                         default=[name.partition(".")[0] for name in FIGURES],
-                        help="figures, without their endings, separated by commas")
+                        help="figures without their extensions, separated by commas")
     options = parser.parse_args()
     plots.use_style()
     for file, (draw, name) in FIGURES.items():

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the time of a reduction goes, part by part size.
+"""Measures the time of each stage of a reduction for several sizes of a part.
 
 reduction_cost.py [--program build/release/tooljoint] [--dofs 3000 9000 27900] [--basis
 Craig-Bampton] [--modes 20] [--limit 900] [--work reduction_cost]
 
-A bar of eight-node hexahedra with a square section is written as a part (scipy, h5py), one end
-held, the other end an interface with a second, short bar, and `tooljoint modes` is run on it. Its
-last line lists the time of every stage; this tool prints them as a table. A run that is not done
-within the limit is stopped and said to be.
+A bar of eight-node hexahedra with a square section is written as a part (scipy, h5py). One end is
+fixed; the other end is an interface with a second, short bar. `tooljoint modes` prints the time of
+every stage on its last line; this tool collects them in a table. A run that exceeds the time limit
+is stopped and marked.
 """
 import argparse
 import pathlib

@@ -1,23 +1,23 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the shipped decks with two versions of the program and compares everything they write.
+"""Runs the shipped decks with two versions of the program and compares all their results.
 
     same_results.py OLD NEW [--end 0.2] [--only PATTERN] [--names names.json] [--json table.json]
     same_results.py --write PAGE table.json ...   writes the tables of such files into the page,
                                                   between its marks
 
-OLD and NEW are programs (tooljoint), each run in its own source tree (--old-tree, --new-tree;
+OLD and NEW are programs (tooljoint). Each runs in its own source tree (--old-tree, --new-tree;
 default: this one) because decks and their parameters may have been renamed between them. Every deck
-of xml/ and examples/ and every gold of tests/regression/ is run up to --end seconds of motion at
-its own fixed settings. All datasets of results.h5 and all numbers of summary.json are compared but
-for times and memory. A line per scene names the largest difference: relative to the largest entry
-of its dataset.
+of xml/ and examples/ and every gold of tests/regression/ is run up to --end seconds of motion with
+its own fixed settings. All datasets of results.h5 and all numbers of summary.json are compared,
+except times and memory. One line per scene gives the largest difference, relative to the largest
+entry of its dataset.
 
-Allowed are 1e-10 for the static state, 1e-9 for the motion, 1 % of the counts of steps (--static,
---motion, --steps). A deck both programs refuse as bad input (exit code 2: it needs a method of its
-own example, say) is not compared; any other failure counts as a difference, equal or not. --names
-gives a JSON object {old dotted key or dataset: new one}. Exit code 0: every scene agrees; 1: one
-does not or fails.
+Bounds: 1e-10 for the static state, 1e-9 for the motion, 1 % of the counts of steps (--static,
+--motion, --steps). A deck that both programs refuse as bad input (exit code 2, for example because
+it needs a method of its own example) is not compared; any other failure counts as a difference,
+even if both fail alike. --names gives a JSON object {old dotted key or dataset: new one}. Exit code
+0: every scene agrees; 1: a scene differs or fails.
 """
 import argparse
 import json
@@ -36,7 +36,7 @@ import numpy as np
 os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are not needed
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# What two runs of one program do not share, and texts, which may be reworded.
+# Not compared: values that differ between two runs of one program, and texts.
 VOLATILE = ("wall_s", "cpu_s", "real_time_factor", "memory", "program.", "deck.", "date",
             "status_at", "host", "cost_ratio", "warnings")
 BAD_INPUT = 2
@@ -61,8 +61,8 @@ def run(program, tree, deck, overrides, end, folder):
     moves = any(child.get("name") == "Transient" for child in ET.parse(tree / deck).getroot())
     for override in overrides + ([f"Transient/End Time={end}"] if moves else []):
         command += ["--set", override]
-    # a program of another tree would load the libraries of this one where both were built at the
-    # same path
+    # Without this a program of another tree built at the same path would load the libraries of
+    # this one.
     own = {**os.environ, "LD_LIBRARY_PATH": str(pathlib.Path(program).resolve().parent)}
     done = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           text=True, check=False, env=own)
@@ -81,7 +81,7 @@ def flatten(value, path=""):
 
 
 def difference(a, b):
-    """Largest difference relative to the largest entry; infinite where shape or meaning differ."""
+    """Largest difference relative to the largest entry; infinite if shape or type differ."""
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
         if a.shape != b.shape:
             return math.inf
@@ -118,7 +118,7 @@ def bound(name, options):
 
 
 def compare(old, new, options, names):
-    """(largest difference of a kind to its bound, name, difference), and how many values were
+    """(largest ratio of a difference to its bound, name, difference), and the number of values
     compared."""
     worst, count = (0.0, "", 0.0), 0
     values = []
@@ -142,7 +142,7 @@ def compare(old, new, options, names):
 
 
 def version(program):
-    """The commit of a program, as it prints it."""
+    """The commit that a program prints."""
     own = {**os.environ, "LD_LIBRARY_PATH": str(pathlib.Path(program).resolve().parent)}
     printed = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True,
                              env=own).stdout
@@ -150,7 +150,7 @@ def version(program):
 
 
 def cell(row):
-    """What a table says of a scene."""
+    """Cell of a table for a scene."""
     if row is None:
         return ""
     if "exit" in row:
@@ -196,7 +196,7 @@ def main():
     parser.add_argument("--old-tree", type=pathlib.Path, default=ROOT)
     parser.add_argument("--new-tree", type=pathlib.Path, default=ROOT)
     parser.add_argument("--end", type=float, default=0.2, help="end of the motion [s]")
-    parser.add_argument("--only", default="", help="scenes whose name holds this")
+    parser.add_argument("--only", default="", help="only scenes whose name contains this")
     parser.add_argument("--names", type=pathlib.Path, help="JSON object of old and new names")
     parser.add_argument("--json", type=pathlib.Path, help="file for the table")
     parser.add_argument("--static", type=float, default=1e-10)

@@ -1,15 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures long strings, large parts and many rows, and writes docs/scale.md with its figures.
+"""Measures long strings, large parts and studies of many rows, and writes docs/scale.md with its
+figures.
 
     tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec]
         [--most DOFS] [--only CHAPTER ...] [--short]
 
-Every row is a run of its own, with its wall and CPU time and the peak memory of its largest
-process. Rows that are in the work folder already are not run again. Without --only all chapters are
-measured, on a machine of two cores without other work; with it these are renewed. The figures show
-the tables of the document (tools/scale_figures.py). --short takes the smallest of each and prints
-the chapters, with their figures in the work folder.
+Every row is a separate run with its wall and CPU time and the peak memory of its largest process.
+Rows that are already in the work folder are not run again. Without --only all chapters are
+measured; this needs a machine with two cores and no other load. With --only the named chapters are
+renewed. The figures show the tables of the document (tools/scale_figures.py). --short takes the
+smallest case of each and prints the chapters, with their figures in the work folder.
 """
 import argparse
 import csv
@@ -37,18 +38,18 @@ MOTIONS = [("vertical_5000m", FULL, 0.5), ("vertical_5000m", [], 1),
            ("vertical_10000m", FULL, 0.3), ("inclined_1000m", FULL, 1), ("stress_170m", FULL, 2)]
 COUNTED = 0.02
 COUNTED_RANKS = 1, 2, 3, 4, 8, 16
-MESSAGE = 2e-6  # of a few numbers between two ranks of one machine [s]
+MESSAGE = 2e-6  # time to send a few numbers between two ranks of one machine [s]
 REDUCED_DECK = PROJECT / "xml/vertical_5000m.xml"
-REDUCED_ERROR = 0.02  # vibration error that is required
-# lists of the study, whose real time factor is measured on two ranks too
+REDUCED_ERROR = 0.02  # largest vibration error allowed
+# lists of the study; their real time factor is also measured on two ranks
 REDUCED_METHODS = "cut-off", "long parts"
 STATICS = ("stress_170m", "inclined_1000m", "vertical_5000m", "extended_reach_5000m",
            "vertical_10000m")
-# Stages of --verbose: the equilibrium, and what a static state takes beside it.
+# stages of --verbose: the equilibrium, and the other stages of a static state
 EQUILIBRIUM = "static equilibrium"
 BESIDE = ("path of the string", "equations of the string", "stability of the static state",
           "Krylov-Schur iteration", "inertia counts", "factorisation for modes")
-PLANNED = 100, 300, 1000  # rows
+PLANNED = 100, 300, 1000  # numbers of rows
 STUDY = PROJECT / "tests/study/study.xml"
 HEAD = """# Scale
 
@@ -62,7 +63,7 @@ is the peak of the largest process.
 
 
 def study_table(name, options):
-    """(run, vibration error, steps) of the rows of a study, by their names."""
+    """(run, status, vibration error, steps) of the rows of a study, sorted by name."""
     path = pathlib.Path(options.work) / name / "out/study.csv"
     with open(path, encoding="utf-8", newline="") as file:
         found = [{key.split(" [")[0]: value for key, value in row.items()}
@@ -72,8 +73,8 @@ def study_table(name, options):
 
 
 def rows(options):
-    """The study of the tests with many steps, on one rank and, rows over ranks, on two.
-    The tables have to be the same but for times."""
+    """The study of the tests with many steps, on one rank and on two with the rows divided among
+    the ranks. The tables must be equal except for times."""
     end, repeats = (0.4, 1) if options.short else (15, 2)
     steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms"
                       for i in range(1 if options.short else 58)) + ", 1 ms"
@@ -103,8 +104,8 @@ def rows(options):
 
 
 def plans(options):
-    """Plans of many rows and their tables; the rows come from one run of the study, since a plan
-    goes on from what is in its folder."""
+    """Plans of many rows and their tables. The rows come from one run of the study, because a plan
+    skips rows that are already in its folder."""
     lines = []
     for count in (20,) if options.short else PLANNED:
         steps = ", ".join(f"{0.5 + 0.0004 * i:.4f} ms" for i in range(count - 9))
@@ -134,8 +135,8 @@ def plans(options):
 
 
 def static(options, deck, ranks, repeat):
-    """(seconds of the equilibrium, of path, equations, equilibrium and check of stability, static
-    datasets, dofs, iterations, memory) of a run."""
+    """(time of the equilibrium [s], time of path, equations, equilibrium and stability check [s],
+    static datasets, dofs, iterations, memory) of a run."""
     name = f"divided_{deck}_{ranks}_{repeat}"
     row = measured(options, name, [
         "run",
@@ -161,7 +162,7 @@ def static(options, deck, ranks, repeat):
 
 
 def statics(options):
-    """One rank and two, in turns, the best of some."""
+    """One rank and two in alternation, the best of several runs."""
     lines = []
     for deck in STATICS[:1] if options.short else STATICS:
         runs = [[static(options, deck, ranks, repeat) for ranks in (1, 2)]
@@ -185,8 +186,8 @@ def statics(options):
 
 
 def motion(options, deck, words, end, ranks, repeat):
-    """(transient of summary.json, datasets of the motion, peak memory [MB]) of a run; ranks divide
-    the motion."""
+    """(transient of summary.json, datasets of the motion, peak memory [MB]) of a run whose motion
+    is divided among the ranks."""
     name = f"motion_{deck}_{'full' if words else 'reduced'}_{ranks}_{repeat}"
     division = ["--set", f"Transient/Ranks={'Divide' if ranks > 1 else 'Alike'}"]
     row = measured(options, name, [
@@ -206,7 +207,7 @@ def motion(options, deck, words, end, ranks, repeat):
 
 
 def walls(options):
-    """One rank and two, in turns, the best of some."""
+    """One rank and two in alternation, the best of several runs."""
     lines = []
     for deck, words, end in [(*MOTIONS[-1][:2], COUNTED)] if options.short else MOTIONS:
         repeats = range(1 if options.short else 3)
@@ -224,8 +225,8 @@ def walls(options):
 
 
 def counts(options):
-    """What a rank has to do, of ranks that may share cores; the messages of a step are those of two
-    ranks, whose steps are the same."""
+    """Work and messages of each rank; ranks may share cores. The messages of a step are those of
+    two ranks, for which the steps are the same."""
     deck, words, end = (*MOTIONS[-1][:2], COUNTED) if options.short else MOTIONS[0]
     alone, two = (motion(options, deck, words, end, ranks, 0)[0] for ranks in (1, 2))
     step, messages, dofs = alone["wall_s"] / alone["steps"], two["messages"] / two[
@@ -253,7 +254,7 @@ def motions(options):
 
 
 def study_of(options, name, words, ranks):
-    """The rows of methods of a study of the deck that are done."""
+    """The completed rows of methods of a study of the deck."""
     row = measured(
         options, name,
         ["study", str(STUDY if options.short else REDUCED_DECK), "--output", "out", *words], ranks)
@@ -267,7 +268,7 @@ def study_of(options, name, words, ranks):
 
 
 def reduced(options):
-    """The study of the deck, and its row of REDUCED_METHOD on one rank and two."""
+    """The study of the deck, and its rows of REDUCED_METHODS on one rank and two."""
     runs = study_of(options, "study_reduced", [], 1)
     right = [each for each in runs if float(each["vibration_error"]) <= REDUCED_ERROR]
     best = {
@@ -309,7 +310,7 @@ CHAPTERS = {
 
 
 def renewed(text, own):
-    """The document with this chapter at its place, or at the end."""
+    """The document with this chapter in place of the old one, or at the end."""
     head = own.splitlines()[0]
     chapters = [each.rstrip() for each in re.split(r"\n(?=## )", text.rstrip())]
     place = next((i for i, each in enumerate(chapters) if each.splitlines()[0] == head),
@@ -329,11 +330,11 @@ def main():
                         metavar="CHAPTER", help=f"chapters to renew: {', '.join(CHAPTERS)}")
     parser.add_argument(
         "--short", action="store_true",
-        help="the smallest of each; prints the chapters and leaves the document as it is")
+        help="take the smallest of each; print the chapters, do not change the document")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
     options.machine = machine_line(options)
-    if options.short:  # measures anew
+    if options.short:  # measure again
         options.work = str(pathlib.Path(options.work) / "short")
         shutil.rmtree(options.work, ignore_errors=True)
     everything = options.only == list(CHAPTERS)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Blocks of hexahedra for docs/scale.md: reduced as one part, and cut into substructures beside the
-modes of the whole."""
+"""Blocks of hexahedra for docs/scale.md: reduced as one part, or cut into substructures and
+compared with the modes of the whole block."""
 import csv
 import json
 import math
@@ -15,15 +15,15 @@ import time
 from scale_runs import PROJECT, chapter, measured, seconds, table, times
 
 BLOCK = PROJECT / "examples/12_solid_block"
-# Elements along a block of 8:2:1 of equal hexahedra.
+# Numbers of cubic elements along the edges of a block of 8:2:1.
 BLOCKS = (8, 4, 2), (24, 6, 3), (40, 10, 5), (56, 14, 7), (80, 20, 10), (116, 29, 15)
 MODES, JOINED = 50, 100
 CUT_PARTS, CUT_BLOCKS = 16, ((24, 6, 3), (56, 14, 7), (100, 25, 12), (170, 43, 21))
-CUT_RANKS = 1, 2  # the largest block on two alone
+CUT_RANKS = 1, 2  # the largest block only on two ranks
 
 
 def solid(options, counts):
-    """A block with JOINED retained nodes at its tip, reduced with MODES modes; (dofs, entries,
+    """Reduces a block with JOINED retained nodes at its tip and MODES modes; (dofs, entries,
     row)."""
     name = "block_" + "x".join(map(str, counts))
     folder = pathlib.Path(options.work).resolve() / name
@@ -45,7 +45,7 @@ def solid(options, counts):
 
 
 def block_of(options, counts, joined):
-    """(folder with block.h5, dofs, entries) of a block with so many nodes kept at its tip; -1:
+    """(folder with block.h5, dofs, entries) of a block with `joined` retained nodes at its tip; -1:
     none."""
     folder = pathlib.Path(options.work).resolve() / ("block_" if joined >= 0 else
                                                      "whole_") / "x".join(map(str, counts))
@@ -61,8 +61,8 @@ def block_of(options, counts, joined):
 
 
 def rival(options, folder, count):
-    """{hertz, wall_s, memory_mb} of the lowest modes of the whole by one shift-invert run: until
-    they are printed."""
+    """{hertz, wall_s, memory_mb} of the lowest modes of the whole block by one shift-invert run,
+    which is stopped when they are printed."""
     record = folder / f"rival_{count}.json"
     if record.exists():
         return json.loads(record.read_text(encoding="utf-8"))
@@ -78,7 +78,7 @@ def rival(options, folder, count):
         if len(hertz) == count:
             break
     wall = time.monotonic() - begin
-    child.terminate()  # damped modes would follow
+    child.terminate()  # the damped modes are not needed
     _, _, usage = os.wait4(child.pid, 0)
     row = {"hertz": hertz, "wall_s": wall, "memory_mb": usage.ru_maxrss / 1024}
     record.write_text(json.dumps(row), encoding="utf-8")
@@ -86,7 +86,7 @@ def rival(options, folder, count):
 
 
 def cut_row(options, counts, ranks):
-    """A line of the table of cut blocks."""
+    """A row of the table of cut blocks."""
     folder, dofs, _ = block_of(options, counts, -1)
     text = re.sub(r".*\"Retained\".*\n", "", (BLOCK / "deck.xml").read_text(encoding="utf-8"))
     (folder / "deck.xml").write_text(text, encoding="utf-8")
@@ -114,8 +114,8 @@ def cut_row(options, counts, ranks):
 
 
 def faster_from(lines):
-    """A sentence on the sizes from which on the parts take less time than the whole, of lines of
-    the table of cut blocks."""
+    """Sentence with the sizes from which the parts take less time than the whole; `lines` are rows
+    of the table of cut blocks."""
     found = []
     for ranks in CUT_RANKS:
         pairs = sorted((line[0], float(line[2]) < float(line[6])) for line in lines

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of docs/scale.md, drawn from its tables: time and memory against dofs, ranks and rows.
-Without a measurement; tools/scale.py does the same."""
+"""Draws the figures of docs/scale.md from its tables: time and memory against dofs, ranks and rows.
+Nothing is measured; tools/scale.py draws them too."""
 import pathlib
 import re
 import sys
@@ -18,8 +18,8 @@ NAMES = {
 
 
 def tables(text):
-    """Tables of a document, each as a list of rows {column: text}; columns of one name are numbered
-    from the second on."""
+    """Tables of a document, each as a list of rows {column: text}; columns of equal name are
+    numbered from the second one on."""
     found = []
     for block in re.findall(r"(?:^\|.*\n)+", text + "\n", re.M):
         head, _, *lines = [[cell.strip() for cell in line.strip().strip("|").split("|")]
@@ -38,13 +38,13 @@ def table_with(found, *columns):
 
 
 def number(cell):
-    """The number in a cell; None in one without."""
+    """The number in a cell, or None."""
     read = re.match(r"-?[0-9.]+(e[-+]?[0-9]+)?", cell)
     return float(read.group()) if read else None
 
 
 def line(axes, rows, x, y, style, text, place):
-    """One column over another, where both are known."""
+    """One column against another, where both are known."""
     pairs = [(number(row[x]), number(row[y])) for row in rows]
     known = sorted({pair for pair in pairs if None not in pair})
     if known:
@@ -130,7 +130,7 @@ def rows(found):
 
 
 def draw(text, folder):
-    """All figures of the document `text` into a folder."""
+    """Draws all figures of the document `text` into a folder."""
     plots.use_style()
     found = tables(text)
     for name, make in (("scale_solids", solids), ("scale_strings", strings), ("scale_ranks", ranks),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs whose time and memory docs/scale.md has, and its chapters."""
+"""Runs whose time and memory are in docs/scale.md, and chapters of that page."""
 import json
 import os
 import pathlib
@@ -14,15 +14,15 @@ FULL = ["--without", "Reduction", "--without", "Substructures"]
 
 
 def chapter(options, title, text, figure="", note=""):
-    """A chapter that names its machine; `text` ends with a table."""
+    """A chapter with a line on its machine; `text` ends with a table."""
     shown = f"![{scale_figures.NAMES[figure]}](figures/{figure}.svg)\n\n" if figure else ""
     own = f"{options.machine}{' ' if note else ''}{note}"
     return f"## {title}\n\n{own}\n\n{shown}{text}"
 
 
 def measured(options, name, words, ranks=1):
-    """{code, wall_s, cpu_s, memory_mb, output} of a run of the program, from the work folder or by
-    running it."""
+    """{code, wall_s, cpu_s, memory_mb, output} of a run of the program, from the work folder if it
+    is there."""
     folder = pathlib.Path(options.work) / name
     record = folder / "row.json"
     if record.exists():

@@ -7,9 +7,10 @@ docs/speed-against-error.md with its figures.
         build/release/benchmarks [--work results/speed]
                                  [--only helical,stress,vertical,inclined] [--no-run]
 
-Studies go on where they stopped: rows that are already in the work folder are not run again (remove
-it to start afresh). Run it alone on the machine. The document is written from what is in the work
-folder; a study that is not there is said to be missing. Text between the markers for notes stays.
+Studies continue where they stopped: rows that are already in the work folder are not run again
+(delete it to start again). The machine must have no other load. The document is written from the
+work folder; studies missing there are listed as missing. Text between the markers for notes is
+kept.
 """
 import argparse
 import csv
@@ -88,8 +89,8 @@ def against(study, rows, others, error, what):
 
 
 def time_at(rows, error):
-    """CPU time at an error, log-log between the runs on either side of it; None without such
-    runs."""
+    """CPU time at an error, interpolated log-log between the runs on either side of it; None
+    without such runs."""
     points = sorted((float(row["vibration_error"]), cpu(row)) for row in rows)
     for (low, slow), (high, fast) in zip(points, points[1:]):
         if low <= error <= high:
@@ -99,7 +100,7 @@ def time_at(rows, error):
 
 
 def against_at(curves, others, error):
-    """Times of two methods at the same error; the faster of our curves."""
+    """Times of two methods at the same error; `curves` are ours, and the fastest counts."""
     times = [time for time in (time_at(rows, error) for rows in curves) if time is not None]
     mine, other = min(times, default=None), time_at(others, error)
     if mine is None or other is None:
@@ -110,8 +111,8 @@ def against_at(curves, others, error):
 
 
 def implicit_lines(study):
-    """Our implicit runs of the full model, line by line: one for each way of choosing steps and of
-    stopping iterations."""
+    """Our implicit runs of the full model by line: one line for each choice of steps and of the
+    stopping criterion."""
     lines = {}
     for row in study.done(model="full"):
         if row["integrator"] == "Generalized-alpha":
@@ -180,8 +181,8 @@ def basis_target(study):
 
 
 def reduced_target(study):
-    """Time of the full-model curve, interpolated at the vibration error of the reduced run, over
-    that of the reduced run: the best within 2 %, and within 5 % if better."""
+    """Ratio of the time of the full-model curve, interpolated at the vibration error of the reduced
+    run, to that of the reduced run: the best within 2 %, and within 5 % if better."""
     rows = [
         row for row in study.done(model="reduced") if row["integrator"] == "Generalized-alpha"
         and row["speedup_best_full"] and "Nguyen" not in row["line"]
@@ -244,7 +245,7 @@ def benchmark_targets(results):
 
 
 def study_section(name, study, folder):
-    """Pictures first, then what was run, and a file with all runs."""
+    """Pictures, then the runs, and a file with all runs."""
     deck, title = STUDIES[name]
     reference = study.reference
     text = [f"## {title}\n"]
@@ -271,7 +272,7 @@ def study_section(name, study, folder):
 
 
 def table_row(row):
-    """A run as a row of its table; of one that failed the reason stands in the last column."""
+    """A run as a row of its table; for a failed run the reason is in the last column."""
     if row["status"] != "done":
         return [row["label"], row["reduced_dofs"], *[""] * 7, f"{row['status']}: {row['reason']}"]
     troubles = [
@@ -326,7 +327,7 @@ def document(studies, work, results):
 
 
 def notes():
-    """What a person wrote between the two markers stays."""
+    """Handwritten text between the two markers, which is kept."""
     old = DOCUMENT.read_text() if DOCUMENT.exists() else ""
     if "<!-- notes -->" not in old:
         return "<!-- notes -->\n<!-- end of notes -->\n"

@@ -1,20 +1,20 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sets the step error that decides on a run beside its true error, and writes docs/step-error.md
-with its figure.
+"""Compares the step error, which decides whether a run is accepted, with the true error, and writes
+docs/step-error.md with its figure.
 
     tools/step_accuracy.py --program build/release/tooljoint [--work results/step_error] [--short]
         [--walls] [--seconds S]
 
-Each run of 3 s stands beside one of the same model with steps of 0.125 ms and a tolerance of 1e-8.
-The error is the vibration error that `tooljoint compare` prints, less the sensitivity of the
-reference: the vibration error of the reference itself when the weight on bit changes by 1e-4. Where
-that is above 5 %, the motion is chaotic, and the error is that of two means from 1 s on, the rms
-lateral speed and the impulse per second, of 16 runs with weights on bit 1e-4 apart, less the
-half-width of the 95 % interval of the difference. Runs that are already in the work folder are not
-repeated. --short takes one scene and few steps, and prints the table only; --walls takes walls that
-are too stiff for the steps alone, and renews their chapter; --seconds ends with what there is after
-so many seconds.
+Each run of 3 s has a reference: the same model with steps of 0.125 ms and a tolerance of 1e-8. The
+error is the vibration error that `tooljoint compare` prints, less the sensitivity of the reference:
+the vibration error of the reference itself when the weight on bit changes by 1e-4. If the
+sensitivity is above 5 %, the motion is chaotic. The error is then the difference of two means from
+1 s on, the rms lateral speed and the impulse per second, over 16 runs with weights on bit 1e-4
+apart, less the half-width of the 95 % interval of the difference. Runs that are already in the work
+folder are not repeated. --short takes one scene and few steps, and only prints the table; --walls
+takes only walls that are too stiff for the steps, and renews their chapter; --seconds stops after
+that many seconds and writes the results so far.
 """
 import argparse
 import json
@@ -47,10 +47,10 @@ WAYS = {
 ORDINARY = tuple(WAYS)
 WAYS["r 0.5"] = {"Spectral Radius": "0.5"}
 REFERENCE = ("1.25e-4", {"Tolerance": "1e-8"})
-SECONDS, MEANS_FROM = 3.0, 1.0  # of a run, and from where means are taken [s]
-# runs of an ensemble, and how far their weights on bit are apart
+SECONDS, MEANS_FROM = 3.0, 1.0  # length of a run, start of the means [s]
+# runs of an ensemble, relative difference of their weights on bit
 NEIGHBOURS, DISTURBANCE = 16, 1e-4
-CHAOTIC = 0.05  # sensitivity of a reference above which only means count
+CHAOTIC = 0.05  # sensitivity of a reference above which means are compared
 BANDS = ((0.0, 0.02), (0.02, 0.2), (0.2, 0.5), (0.5, float("inf")))
 REFUSED = re.compile(r"is too large: step error (?:at least )?(\S+) %")
 SAID = re.compile(r"The time step \(\S+ s\) is (coarse|too large)|The scheme damps vibration")
@@ -61,7 +61,7 @@ DISTURBED = re.compile(r"changes\s+that\s+by\s+(\S+)\s+%")
 
 
 class Case:
-    """A deck, what is set in it, and the steps and ways it is run with."""
+    """A deck, its overrides, and the steps and ways it is run with."""
     def __init__(self, name, deck, settings, steps=STEPS, ways=ORDINARY):
         self.name, self.deck, self.settings = name, deck, settings
         self.steps, self.ways = steps, ways
@@ -163,7 +163,7 @@ class Run:
         return "refused" if self.refused else "warned" if self.warned else "silent"
 
     def kept(self, what, compute):
-        """A number of the run, computed once and kept beside it."""
+        """A number of the run, computed once and stored with it."""
         file = self.folder.parent / f"{self.name}.{what}"
         if not file.exists():
             file.write_text(json.dumps(compute()))
@@ -200,8 +200,7 @@ class Run:
 
 
 class Truth:
-    """The reference of a case, how far a neighbour of it goes, and its ensemble where that is
-    far."""
+    """The reference of a case, its sensitivity, and an ensemble if the motion is chaotic."""
     def __init__(self, options, case, model):
         self.runs = [Run(options, case, model, *REFERENCE, neighbour) for neighbour in (0, 1)]
         self.finished = all(run.finished for run in self.runs)
@@ -234,9 +233,9 @@ class Truth:
 
 
 def measured(options, cases, models):
-    """All runs that finished, with their errors, and the number of those that did not."""
+    """All finished runs with their errors, and the number of runs that did not finish."""
     runs, ended = [], 0
-    for way in WAYS:  # the usual one first, of all cases
+    for way in WAYS:  # the usual way of all cases first
         for case in cases:
             for model in models if way in case.ways else ():
                 if time.monotonic() > options.end:
@@ -266,7 +265,7 @@ def percent(x):
 
 
 def cases(runs):
-    """The decks of the runs, a line each, with their models and what was changed in them."""
+    """The decks of the runs, one line each, with their models and overrides."""
     lines = ""
     for deck in sorted({run.case.deck for run in runs}):
         own = [run for run in runs if run.case.deck == deck]
@@ -277,8 +276,7 @@ def cases(runs):
 
 
 def table(runs):
-    """Runs by their error: ranges of the step error that decides, of S and D, and what was said of
-    them."""
+    """Runs by their error: ranges of the step error, of S and D, and the verdicts."""
     lines = [
         "| error | runs | step error | estimate S | compared | difference D | silent | warned | "
         "refused |", "|---|---|---|---|---|---|---|---|---|"
@@ -304,8 +302,8 @@ def table(runs):
 
 
 def outliers(runs):
-    """Runs with errors above 20 % that are not warned of, above 50 % that pass, below 2 % that are
-    refused."""
+    """Runs with errors above 20 % without a warning, above 50 % that are not refused, or below 2 %
+    that are refused."""
     wrong = [
         run for run in runs if (run.error > 0.2 and run.verdict() == "silent") or (
             run.error > 0.5 and not run.refused) or (run.error < 0.02 and run.refused)
@@ -320,7 +318,7 @@ def outliers(runs):
 
 
 def wall_chapter(runs):
-    """A row for each run: error, what was said, and what was found."""
+    """One row for each run: error, verdict and measurements."""
     rows = "".join(f"| {run.case.name} | {1e3 * float(run.step):g} | "
                    f"{run.own.get('Spectral Radius', '0.8')} | {percent(run.error)} "
                    f"%{' of means' * run.chaotic} | {percent(run.step_error)} % | "
@@ -337,7 +335,7 @@ def wall_chapter(runs):
 
 
 def renewed(text, chapter):
-    """The document with a chapter at its end."""
+    """The document with the chapter at its end."""
     added = "\n" + chapter.rstrip() + "\n" if chapter else ""
     return text.split("\n" + CHAPTER)[0].rstrip() + "\n" + added
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure of docs/strategies.md, drawn from its table: CPU time without a strategy over that with
-all. Without a measurement; target `strategies` draws it, too."""
+"""Draws the figure of docs/strategies.md from its table: CPU time without a strategy divided by
+that with all. Nothing is measured; the target `strategies` draws it too."""
 import pathlib
 import re
 import sys
@@ -15,7 +15,7 @@ KINDS = {"same motion": "o", "motion differs": "s", "refused": "x"}
 
 
 def kind(cell):
-    """What a run without the strategy is; None where the case does not use it."""
+    """Outcome of a run without the strategy; None if the case does not use it."""
     if cell in ("-", ""):
         return None
     return ("refused"

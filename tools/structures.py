@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Test structures as part files: beams, frames, solids and rotors assembled with scipy, knowing
-nothing of the program.
+"""Test structures as part files: beams, frames, solids and rotors assembled with scipy,
+independently of the program.
 
 Every structure is a `Structure`: sparse M, C, K, labels (node from 1, component) and positions. SI
 units.
@@ -26,7 +26,7 @@ class Structure:
         self.components = COMPONENTS[:components]
 
     def held(self, dofs):
-        """Without the dofs (node, component), both from 1."""
+        """Removes the dofs (node, component), both from 1."""
         gone = {tuple(d) for d in dofs}
         keep = np.array([i for i, label in enumerate(self.labels) if tuple(label) not in gone])
         part = lambda A: A[keep][:, keep]
@@ -35,7 +35,7 @@ class Structure:
         return out
 
     def write(self, path, interfaces=None):
-        """HDF5 part; `interfaces`: name -> nodes."""
+        """Writes an HDF5 part; `interfaces`: name -> nodes."""
         with h5py.File(path, "w") as f:
             f.attrs["format"] = "tooljoint part 1"
             f["components"] = self.components
@@ -64,8 +64,8 @@ def _plane_bending(E, I, rho, A, l):
 
 
 def beam_element(l, radius, E, nu, rho):
-    """Euler-Bernoulli element of a round bar along its local z: K, M (consistent) and G of unit
-    speed about z (skew, rotary inertia of the disc kind)."""
+    """Euler-Bernoulli element of a round bar along its local z: K, M (consistent) and G for unit
+    speed about z (skew-symmetric, rotary inertia of a disc)."""
     A, I = np.pi * radius**2, np.pi * radius**4 / 4
     K, M, G = np.zeros((12, 12)), np.zeros((12, 12)), np.zeros((12, 12))
     k, m = _plane_bending(E, I, rho, A, l)
@@ -89,8 +89,8 @@ def beam_element(l, radius, E, nu, rho):
 
 
 def members(lines, radius, material=None, speed=0.0):
-    """Round bars between points: `lines` is a list of (node, node) on `points`; rotation by the
-    smallest turn from z."""
+    """Round bars between points: `lines` is a list of (node, node) on `points`; the local frame is
+    the smallest rotation from z."""
     material = material or STEEL
     points, pairs = lines
     points = np.asarray(points, float)
@@ -128,7 +128,7 @@ def beam(elements, length=10.0, radius=0.05, direction=(0, 0, 1), speed=0.0):
 
 
 def pinned_beam(elements, **options):
-    """Simply supported along z: u, v, w and theta_z of the ends held, w of the first end alone."""
+    """Simply supported along z: u, v and theta_z held at both ends, w at the first end."""
     ends = [(1, 1), (1, 2), (1, 3), (1, 6), (elements + 1, 1), (elements + 1, 2)]
     return beam(elements, **options).held(ends)
 
@@ -169,7 +169,8 @@ def frame(storeys, per_member, bays=1, side=3.0, radius=0.05, fixed=True):
 
 
 def solid(nx, ny, nz, size=(1.0, 1.0, 4.0), material=None):
-    """Eight-node hexahedra with 2 x 2 x 2 Gauss points, three displacements a node, free."""
+    """Eight-node hexahedra with 2 x 2 x 2 Gauss points, three displacements per node,
+    unsupported."""
     material = material or STEEL
     E, nu, rho = material["E"], material["nu"], material["rho"]
     h = np.array(size) / (nx, ny, nz)
@@ -214,7 +215,7 @@ def solid(nx, ny, nz, size=(1.0, 1.0, 4.0), material=None):
 
 
 def deck(path, parts, joints=(), reduction=None):
-    """`parts`: name -> file; `reduction`: XML inside the list Reduction."""
+    """A deck of parts; `parts`: name -> file; `reduction`: XML inside the list Reduction."""
     imported = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" '
                        f'value="{file}"/></ParameterList>' for name, file in parts.items())
     joined = ('<Parameter name="Joints" type="Array(string)" '

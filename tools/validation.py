@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the reference scene in all its variants and rewrites the tables of docs/validation.md.
+"""Runs all variants of the reference scene and rewrites the tables of docs/validation.md.
 
     tools/validation.py --program build/release/tooljoint [--end 20] [--work results/validation]
         [--only static,motion,source]
 
-Every table stands between two markers in docs/validation.md and names the commands it came from.
+Every table is between two markers in docs/validation.md and names the commands that produced it.
 Runs that are already in the work folder are not repeated.
 """
 import argparse
@@ -43,7 +43,7 @@ class Bench:
         self.commands = []
 
     def run(self, name, deck, arguments):
-        """Results folder of `tooljoint run`, run now if it is not there yet, and its summary."""
+        """Results folder of `tooljoint run` and its summary; the run is made if it is missing."""
         folder = self.work / name
         quoted = [f'"{a}"' if " " in a else a for a in arguments]
         self.commands.append(" ".join(
@@ -64,8 +64,8 @@ class Bench:
         return json.loads((folder / "summary.json").read_text())
 
     def torque_drag(self, name, arguments, table="torque_drag.csv"):
-        """Rows of a table of `tooljoint torque-drag` of xml/build_hold_1400m.xml, as numbers, with
-        the operation."""
+        """Rows, as numbers, of one operation in a table of `tooljoint torque-drag` of
+        xml/build_hold_1400m.xml."""
         folder = self.work / f"torque_drag_{name}"
         quoted = " ".join(f'--set "{a}"' if " " in a else f"--set {a}" for a in arguments)
         command = (f"tooljoint torque-drag xml/build_hold_1400m.xml --output torque_drag_{name} "
@@ -143,7 +143,7 @@ def static_table(bench):
 
 
 class SoftString:
-    """Johancsik, Friesen and Dawson (1984) on the string of xml/build_hold_1400m.xml in a
+    """Soft string of Johancsik, Friesen and Dawson (1984) for xml/build_hold_1400m.xml in a
     build-and-hold well."""
     WOB, STAND, JOINT_RADIUS = 50e3, 9.5, 0.084
     WEIGHT = 9.81 * 7850.0 * math.pi * (9.0 * (0.0635**2 - 0.0543**2) + 0.5 *
@@ -155,9 +155,8 @@ class SoftString:
         self.length, self.friction = stands * self.STAND, friction
 
     def torque(self, bit_torque, climbs, step=0.05):
-        """Top torque [N m].
-        `climbs`: a string that turns climbs until N sqrt(1 + mu^2) carries the load q of the wall;
-        else N = q."""
+        """Top torque [N m]. `climbs`: a rotating string climbs the wall until N sqrt(1 + mu^2)
+        carries the load q; else N = q."""
         tension, torque, s = -self.WOB, bit_torque, self.length
         per_load = self.friction * self.JOINT_RADIUS / (math.sqrt(1.0 + self.friction**2)
                                                         if climbs else 1.0)
@@ -172,8 +171,8 @@ class SoftString:
 
 
 def torque_table(bench):
-    """Top torque of three wells on four meshes, beside the torque that bit and friction ask for and
-    the soft string."""
+    """Top torque of three wells on four meshes, compared with the torque required by bit and
+    friction and with the soft string."""
     rows = [
         "| well | elements per body | top torque by displacements [kN m] | by bit and friction [kN "
         "m] | apart [%] | soft string that climbs [kN m] | soft string [kN m] |",
@@ -247,7 +246,7 @@ def forms_table(bench):
 
 
 def limit_table(bench):
-    """The stiff string over the soft one, with and without tool joints, in the well of
+    """The stiff string compared with the soft one, with and without tool joints, in the well of
     xml/build_hold_1400m.xml."""
     both = "Torque and Drag/Operations={Trip out, Rotate off bottom}"
     pipes = [
@@ -324,8 +323,8 @@ def crossings_table(bench):
 
 
 def modes_table(bench):
-    """Undamped modes of beams and of a frame, bending in pairs, beside closed forms and scipy's
-    dense solver."""
+    """Undamped modes of beams and of a frame, bending modes in pairs, compared with closed forms
+    and scipy's dense solver."""
     import numpy
     import scipy.linalg
     import structures

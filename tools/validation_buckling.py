@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of docs/validation.md about pipes that buckle.
+"""Tables of docs/validation.md on buckling pipes.
 
     tools/validation.py --only buckling,vertical
 """
@@ -13,7 +13,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests/buckling"))
 import pipes  # noqa: E402
 
-HELIX = 0.75  # of the shortening of a helix: what takes up more is one
+HELIX = 0.75  # share of the shortening of a helix above which a pipe counts as helical
 CASES = ((60, 100, 0.005), (60, 100, 0.02), (60, 100, 0.1), (60, 60, 0.02), (90, 100, 0.005),
          (90, 100, 0.02), (90, 100, 0.1), (90, 60, 0.02))
 LOADS = (4, 5, 6)
@@ -21,7 +21,7 @@ LENGTHS = (50, 100, 300, 1000)
 
 
 def run(bench, name, deck, *settings):
-    """Rows and summary of a pipe, computed now if they are not there yet."""
+    """Rows and summary of a pipe, computed if they are missing."""
     folder = (bench.work / name).resolve()
     if not (folder / "buckling.csv").exists():
         folder.mkdir(parents=True, exist_ok=True)
@@ -42,8 +42,8 @@ def run(bench, name, deck, *settings):
 
 
 def buckling_table(bench):
-    """Transitions and contact of pipes with weight, by inclination, length and crookedness, over
-    the first buckling F_c."""
+    """Transitions and contact of pipes with weight, by inclination, length and crookedness, divided
+    by the first buckling load F_c."""
     heads = [f"contact over r F^2/(4 E I), at {load} F_c: found; by shape" for load in LOADS]
     rows = [
         "| inclination, length, crookedness | first jump, F/F_c | last state before a helix, "
@@ -79,8 +79,8 @@ def buckling_table(bench):
 
 
 def vertical_table(bench):
-    """First negative pivot of vertical pipes between hinges over (E I w^2)^(1/3), beside beams of
-    their own."""
+    """Load of the first negative pivot of vertical pipes between hinges, divided by (E I
+    w^2)^(1/3), compared with a separate beam model."""
     unit = (pipes.RIGIDITY * pipes.WEIGHT**2)**(1 / 3)
     rows = [
         "| length [m] | in units of (E I/w)^(1/3) | first negative pivot, over (E I w^2)^(1/3) | "

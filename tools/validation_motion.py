@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of docs/validation.md about the reference scene in motion.
+"""Tables of docs/validation.md on the motion of the reference scene.
 
     tools/validation.py --only motion,nodes,source
 """
@@ -15,7 +15,7 @@ def reference(bench):
 
 
 def motion_table(bench):
-    """Range of the bit speed in windows of time for the full model, and the errors of the implicit
+    """Range of the bit speed of the full model in windows of time, and the errors of the implicit
     runs against it."""
     ref = reference(bench)
     rows = [
@@ -69,7 +69,7 @@ def speed_windows(bench):
 
 
 def node_table(bench):
-    """Contact duty of the nodes the paper names and lateral vibration of pipes and bottom-hole
+    """Contact duty of the nodes named in the paper and lateral vibration of pipes and bottom-hole
     assembly, from results.h5 of the full RK4 run."""
     import h5py
     import numpy
@@ -96,7 +96,7 @@ def node_table(bench):
 
 
 def source_table(bench):
-    """The source's own choices over its mode counts."""
+    """The choices of the source over its mode counts."""
     published = {
         0: (147.99, 9.44), 60: (155.97, 8.95), 180: (461.83, 3.02), 220: (1553.48, 0.89),
         300: (4475.19, 0.31)

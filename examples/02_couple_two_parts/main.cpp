@@ -9,8 +9,8 @@
 ///
 /// Each half becomes a Substructure whose interface is the node in the middle. Craig-Bampton
 /// replaces its interior by constraint modes and a few fixed-interface modes; the assembler joins
-/// the halves because their interface dofs carry the same label. The frequencies of the coupled
-/// model lie above those of the mesh and close to the closed form.
+/// the halves because their interface dofs have equal labels. The frequencies of the coupled model
+/// are above those of the mesh and close to the closed form.
 #include <Teuchos_ParameterList.hpp>
 #include <Tpetra_Core.hpp>
 #include <cmath>
@@ -27,7 +27,7 @@ namespace {
 using namespace tooljoint;
 
 constexpr double kLength = 100.0, kModulus = 2.1e11, kDensity = 7850.0, kArea = 1e-3;
-constexpr int kElements = 200;  // of the whole rod
+constexpr int kElements = 200;  // in the whole rod
 
 /// Elements first .. last (0-based) of the rod; node 0 is clamped and has no dof.
 model::Substructure part(const std::string& name, int first, int last) {
@@ -93,7 +93,7 @@ int run() {
     if (parallel::rank() == 0)
       std::printf("mode %d: %10.5f Hz, closed form %10.5f Hz, error %+.1e\n", i + 1, found, exact,
                   error);
-    right = right && error > 0.0 && error < 1e-3;  // Rayleigh-Ritz: from above
+    right = right && error > 0.0 && error < 1e-3;  // Rayleigh-Ritz gives upper bounds
   }
   return right ? 0 : 1;
 }

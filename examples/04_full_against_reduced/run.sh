@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The reference scene for half a second, full and reduced, and the error of the reduced run.
+# Runs half a second of the reference scene with the full and the reduced model and compares them.
 set -euo pipefail
 deck="$(dirname "${BASH_SOURCE[0]}")/../../xml/helical_170m.xml"
 short=(--set "Transient/End Time=0.5" --set Output/XDMF=false)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Half a second of the reference scene with as many modes as two tolerances need, and whether both were met.
+# Runs half a second of the reference scene with the modes needed for two tolerances, and checks both.
 set -euo pipefail
 deck="$(dirname "${BASH_SOURCE[0]}")/../../xml/helical_170m.xml"
 short=(--set "Transient/End Time=0.5" --set Output/XDMF=false)

@@ -10,19 +10,21 @@
 ///       |           |        left column 1-4, right column 2-3
 ///       1           2        both feet clamped
 ///
-/// Every member is a Substructure of plane beam elements (u, v, theta) in axes of its own, u along
-/// the member. Four ways to join them:
+/// Every member is a Substructure of plane beam elements (u, v, theta) in its own axes, u along the
+/// member. Four ways to join them:
 ///
-///   primal     q_p = L_p z, equal labels become one coordinate, turned into the common frame;
-///   dual       every part keeps its coordinates, and [K -B'; -B 0] holds B q = 0: the multipliers
-///   are the forces between the parts; system     characteristic constraint modes K_GG psi =
-///   omega^2 M_GG psi of all 9 joined dofs, 5 kept; local      the same for each of the three
-///   interfaces by itself, the others held, 2 kept of each: too few here, see below.
+/// - primal: q_p = L_p z; equal labels become one coordinate in the common frame;
+/// - dual: every part keeps its coordinates, and [K -B'; -B 0] enforces B q = 0; the multipliers
+///   are the forces between the parts;
+/// - system: characteristic constraint modes K_GG psi = omega^2 M_GG psi of all 9 joined dofs, 5
+///   kept;
+/// - local: the same for each of the three interfaces with the others held, 2 of each kept, which
+///   is too few here (see below).
 ///
-/// Each is compared with the frame assembled in one piece. Craig-Bampton is a Ritz method, so
-/// frequencies lie above those of the one piece, and primal and dual assembly of the same reduced
-/// parts agree to the last digits. An interface reduction adds the static answer to the weight to
-/// its modes. Local modes are for interfaces of many nodes: these have three dofs each, and without
+/// Each is compared with the frame assembled in one piece. Craig-Bampton is a Ritz method, so the
+/// frequencies are above those of the one piece. Primal and dual assembly of the same reduced parts
+/// agree to the last digits. An interface reduction also keeps the static response to the weight.
+/// Local modes are meant for interfaces of many nodes: these have only three dofs each, and without
 /// one of them the frame cannot sway.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
@@ -44,8 +46,8 @@ namespace {
 using namespace tooljoint;
 
 constexpr double kEA = 4.0e8, kEI = 6.0e5, kMass = 30.0;  // N, N m2, kg/m
-constexpr int kElements = 10;                             // of each member
-constexpr int kModes = 6;                                 // kept of each part
+constexpr int kElements = 10;                             // in each member
+constexpr int kModes = 6;                                 // kept in each part
 constexpr double kWeight = 9.81;
 
 struct Member {
@@ -240,14 +242,14 @@ int run() {
     for (std::size_t w = 0; w < ways.size(); ++w) {
       const double error = std::sqrt(found[w][i] / exact[i]) - 1.0;
       if (prints) std::printf("  %+9.1e", error);
-      right = right && error > -1e-9;  // Rayleigh-Ritz: from above
+      right = right && error > -1e-9;  // Rayleigh-Ritz gives upper bounds
       if (w < 3) right = right && error < (w < 2 ? 1e-3 : 1e-2);
     }
     if (prints) std::printf("\n");
     right = right && std::abs(found[1][i] / found[0][i] - 1.0) < 1e-9;
   }
-  // By symmetry the apex carries no vertical force from one rafter to the other, and the horizontal
-  // ones are equal and opposite.
+  // By symmetry the rafters exert no vertical force on each other at the apex, and their horizontal
+  // forces are equal and opposite.
   const double push = forceAt(ways[1], "right rafter", 0),
                lift = forceAt(ways[1], "right rafter", 1);
   if (prints)

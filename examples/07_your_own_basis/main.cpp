@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// A basis of your own, named in scene.xml: constraint modes and a random subspace of the interior,
-/// drawn towards its low modes by inverse steps X <- K_II^-1 M_II X (Halko, Martinsson, Tropp, SIAM
-/// Rev. 53 (2011) 217-288).
+/// moved towards its low modes by inverse iteration X <- K_II^-1 M_II X (Halko, Martinsson, Tropp,
+/// SIAM Rev. 53 (2011) 217-288).
 #include <Tpetra_Core.hpp>
 #include <cstdio>
 #include <tooljoint/linalg/Deterministic.hpp>

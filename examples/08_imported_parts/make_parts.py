@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two halves of a clamped-free rod: one as a folder of Matrix Market files, one as an HDF5 file."""
+"""Writes two halves of a clamped-free rod: one as a folder of Matrix Market files, one as an HDF5
+file."""
 import json
 import pathlib
 
@@ -7,7 +8,7 @@ import h5py
 import numpy as np
 from scipy.io import mmwrite
 
-# stiffness E A [N], mass per length [kg/m], element [m], elements of each half
+# stiffness E A [N], mass per length [kg/m], length of an element [m], elements of each half
 EA, MASS, H, N = 2.1e8, 7.85, 0.5, 100
 K = EA / H * (np.diag([1.0] + [2.0] *
                       (N - 1) + [1.0]) - np.diag([1.0] * N, 1) - np.diag([1.0] * N, -1))

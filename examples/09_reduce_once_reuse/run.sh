@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Reduces three members once and uses the reduced ones in three scenes, without the files they came from.
+# Reduces three members once and uses the reduced ones in three scenes, without their original files.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 frame="$here/../../xml/frame.xml"
@@ -11,8 +11,8 @@ python=python3
 tooljoint export "$here/library.xml" --output parts
 tooljoint export "$here/library.xml" --output parts_mtx --format mtx
 
-# 1. the frame of xml/, reduced in place, and of the reduced members: the wind blows on a node that these no longer have as a dof, and a kick of one dof
-#    is another motion where the nodes beside it follow
+# 1. the frame of xml/, reduced in its own deck and made of the reduced members. Wind and initial velocity are left out: the wind acts on a node that is not
+#    a dof of the reduced members, and the initial velocity of one of their dofs also moves the nodes beside it.
 still=(--without Parts/Loads/wind --without Parts/Laws/gust --without Parts/Starts)
 members() {  # folder, ending
   local name
@@ -31,7 +31,7 @@ tooljoint modes "$frame" --count 20 --output reused_mtx "${still[@]}" --without 
 tooljoint run "$frame" --output motion_in_place "${still[@]}"
 tooljoint run "$frame" --output motion_reused "${still[@]}" --without Reduction "${reuse[@]}"
 
-# 3. another frame altogether, and the same one of the unreduced members
+# 3. another frame, of the reduced and of the unreduced members
 cp "$here/tower.xml" .
 tooljoint modes tower.xml --count 10 --output tower
 sed "s#parts/\(column\|beam\).h5#$here/../../xml/frame/\1#" tower.xml > tower_full.xml

@@ -4,7 +4,8 @@
 ///
 ///     q_{n+1} = q_n + h (v_n + h/2 a_n),   v_{n+1} = v_n + h/2 (a_n + a(q_{n+1}, v_n + h a_n)),
 ///
-/// explicit, of second order, one solution with the mass matrix per force. RK4 is the reference.
+/// explicit, of second order, one solution with the mass matrix per evaluation of the forces. RK4
+/// is the reference.
 #include <Tpetra_Core.hpp>
 #include <algorithm>
 #include <cmath>

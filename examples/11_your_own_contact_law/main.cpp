@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A contact law of your own, named in scene.xml: a Hertzian wall that loses energy (Hunt and
-/// Crossley 1975). With the penetration p = -d, d being the separation,
+/// A contact law of your own, named in scene.xml: a Hertzian wall with dissipation (Hunt and
+/// Crossley 1975). With the penetration p = -d of the separation d
 ///
 ///     f = k p^(3/2) (1 + c p'),   f >= 0
 #include <Tpetra_Core.hpp>
@@ -40,7 +40,7 @@ const bool registered = model::registerFormula<HertzWall>(
         .real("Stiffness", "N/m^1.5", deck::Required{}, deck::Range::positive(), "k.")
         .real("Damping", "s/m", 0.0, deck::Range::nonNegative(), "c."));
 
-/// The largest part by which a normal force at rest differs from k p^(3/2).
+/// Largest relative difference of a normal force at rest from k p^(3/2).
 double errorAtRest(const Results& results, double k) {
   const auto file = results.histories();
   const auto u = file.numbers("/static/displacement"), force = file.numbers("/static/normal_force"),

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A block of hexahedra as a part.
+"""Writes a block of hexahedra as a part.
 
     make_block.py NX NY NZ [--size LX LY LZ] [--joined N] [--out FILE]
 
-Trilinear elements with eight nodes, 2 x 2 x 2 points of Gauss, consistent mass, steel. The set
-`root` holds the nodes of the end x = 0, the set `tip` N nodes of the other end (all unless given),
-spread evenly over it; with N = -1 there is no such set.
+Trilinear elements with eight nodes, 2 x 2 x 2 Gauss points, consistent mass, steel. The set `root`
+has the nodes of the end x = 0, the set `tip` N nodes of the other end, evenly distributed (default:
+all). N = -1 omits the set `tip`.
 """
 import argparse
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Choose a basis: how many coordinates does each reduction method need for the lowest ten
-frequencies of a beam of three parts, and does the error estimate, which does not know the full
-model, tell the same? A method written here in a few lines takes part.
+"""Choose a basis: the number of coordinates that each reduction method needs for the lowest ten
+frequencies of a beam of three parts. The true errors are compared with the error estimate, which
+does not use the full model. A method written here in a few lines is included.
 """
 # %% Definitions
-import common  # beside this script
+import common  # in the folder of this script
 import numpy as np
 import tooljoint as tj
 
@@ -14,7 +14,7 @@ EA, EI, MASS = 4.0e8, 6.0e5, 30.0  # N, N m2, kg/m
 
 @tj.basis("Inverse Steps")
 def inverse_steps(part, count, steps=2):
-    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko,
+    """A random subspace of the interior, moved towards its low modes by inverse iteration (Halko,
     Martinsson, Tropp 2011)."""
     vectors = np.random.default_rng(1).standard_normal((len(part.interior), count + 4))
     for step in range(steps):
@@ -55,10 +55,10 @@ for method in methods:
         synthesis = tj.synthesise(parts, method, modes=count)
         rows = tj.compare_modes(synthesis, 10)
         sizes.append(len(synthesis.model))
-        # a mode of the full model that the reduced one has not
+        # 1 for a mode of the full model that is missing in the reduced one
         errors.append(max(1.0 if row["error"] is None else abs(row["error"]) for row in rows))
         known = [row["estimate"] for row in rows if row["estimate"] is not None
-                 ]  # not of every basis
+                 ]  # not available for every basis
         estimates.append(max(known, default=np.nan))
     line, = left.semilogy(sizes, errors, "o-", label=method)
     right.loglog(errors, estimates, "o", color=line.get_color(), label=method)

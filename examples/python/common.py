@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the examples share: their options, figures, and plane beam elements."""
+"""Common parts of the examples: options, figures, and plane beam elements."""
 import argparse
 import pathlib
 import sys
@@ -17,7 +17,7 @@ def options(text):
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("results/python"),
                         help="folder of figures and results (default: results/python)")
     given = parser.parse_args(
-        [] if "ipykernel" in sys.modules else None)  # the words of a notebook's kernel are not ours
+        [] if "ipykernel" in sys.modules else None)  # ignores the arguments of a notebook kernel
     given.output.mkdir(parents=True, exist_ok=True)
     return given
 
@@ -42,7 +42,7 @@ def line(begin, end):
 
 def beam(length, elements, EA, EI, mass, c=1.0, s=0.0):
     """K and M of plane Euler-Bernoulli elements (u, v, theta) in axes in which the beam has the
-    direction (c, s)."""
+    direction cosines (c, s)."""
     l = length / elements
     K, M = np.zeros((6, 6)), np.zeros((6, 6))
     axial, bending = np.ix_([0, 3], [0, 3]), np.ix_([1, 2, 4, 5], [1, 2, 4, 5])

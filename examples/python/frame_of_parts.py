@@ -9,12 +9,12 @@ examples/06_frame_with_a_loop.
       |       |
       1       2
 
-Every member is a part of its own, with scipy matrices in the common axes; nodes of one number are
-joined. The feet 1 and 2 are clamped. The frame is reduced, compared with the one piece, and shaken
-at its apex while a guy rope, a law written here, holds the corner 3.
+Every member is a separate part, with scipy matrices in the common axes; nodes with equal numbers
+are joined. The feet 1 and 2 are clamped. The frame is reduced, compared with the unreduced one, and
+shaken at its apex, without and with a guy rope at corner 3, a law written here.
 """
 # %% Definitions
-import common  # beside this script
+import common  # in the folder of this script
 import numpy as np
 import tooljoint as tj
 
@@ -28,7 +28,7 @@ MEMBERS = {
 
 @tj.point_law("Guy Rope", width=2)
 def guy_rope(t, d, v, stiffness=tj.Parameter(unit="N/m"), damping=tj.Parameter(0.0, "N s/m")):
-    """A rope down to the right at 45 degrees: it pulls when it gets longer, and is slack
+    """A rope down to the right at 45 degrees: it pulls when it is stretched, and is slack
     otherwise."""
     along = np.array([-1.0, 1.0]) / np.sqrt(2)  # from the anchor to the corner
     longer, rate = d @ along, v @ along

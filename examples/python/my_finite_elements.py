@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""My finite elements: a bracket of bilinear plane-stress elements, assembled here with numpy and
-scipy, is cut into two parts and reduced.
+"""Finite elements of your own: a bracket of bilinear plane-stress elements, assembled here with
+numpy and scipy, is cut into two parts and reduced.
 
-Its tip answers a harmonic force; the reduced model is compared with the full one over the
-frequency, and with scipy alone at some of them.
+A harmonic force acts on its tip; the reduced model is compared with the full one over the
+frequency.
 """
 # %% Definitions
-import common  # beside this script
+import common  # in the folder of this script
 import numpy as np
 import scipy.sparse.linalg
 import tooljoint as tj
 
 YOUNG, POISSON, DENSITY, THICKNESS = 2.1e11, 0.3, 7850.0, 0.01
-SIZE, ARM = 0.4, 0.1  # of the L-shaped bracket and of its arms [m]
-LOSS = 2e-6  # damping is this times the stiffness [s]
+SIZE, ARM = 0.4, 0.1  # length of the L-shaped bracket, width of its arms [m]
+LOSS = 2e-6  # ratio of damping to stiffness [s]
 
 
 def element(side):
@@ -80,7 +80,7 @@ nodes, elements, side = mesh(3 if options.short else 8)
 upright = nodes[elements].mean(axis=1)[:, 0] < ARM
 joined = np.intersect1d(elements[upright], elements[~upright])
 tip = int(np.argmax(nodes[:, 0] + nodes[:, 1] *
-                    (nodes[:, 0] > SIZE - 1e-9)))  # the upper corner of the foot's end
+                    (nodes[:, 0] > SIZE - 1e-9)))  # the upper corner at the end of the foot
 parts = [
     part("upright", elements[upright], nodes, side, joined),
     part("foot", elements[~upright], nodes, side, joined, tip)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A string from survey to map: the well of the template follows a survey made here; the string lies
-in it, turns, and two figures of merit are mapped over rotary speed and weight on bit.
+"""A string from survey to map: the well of the template gets a survey made here. The string is
+computed at rest and in motion, and two results are mapped over rotary speed and weight on bit.
 """
 import pathlib
 
 # %% Definitions
-import common  # beside this script
+import common  # in the folder of this script
 import numpy as np
 import tooljoint as tj
 from tooljoint import plots
@@ -41,7 +41,7 @@ for turn in (0, 60):
     del deck["Transient"]
     results = deck.run(options.output / f"well_{turn}")
     depth, force = results["model/s"], results["static/normal_force"]
-    touches = force > 0  # joints touch where pipes between them do not
+    touches = force > 0  # tool joints touch, the pipes between them do not
     wall.plot(force[touches] / 1e3, depth[touches], ".", label=f"azimuth turns by {turn} deg")
     print(f"turn of {turn} deg: {force.sum() / 1e3:.1f} kN on the wall")
 wall.set(title="At rest")
@@ -65,7 +65,7 @@ speeds, weights = (["80 rpm", "120 rpm"],
                     ]) if options.short else ([f"{speed} rpm" for speed in range(60, 181, 30)],
                                               [f"{weight} klbf" for weight in (5, 10, 15, 20)])
 del deck["Transient"]
-del deck["Rotary Speed"]  # a string that turns at once, with the friction of its speed at rest
+del deck["Rotary Speed"]  # constant speed: the static state has the friction of this speed
 deck.add("Rotary Speed", {"Law": "Constant", "Constant": {"Speed": "80 rpm"}})
 deck.add(
     "Map", {

@@ -130,7 +130,7 @@ void registerBasis(const std::string& name, const std::string& doc, const py::li
 
 void bindBases(py::module_& module) {
   py::class_<LentPart, std::shared_ptr<LentPart>>(
-      module, "PartView", "What a basis needs of a part; each is computed once, at its first use.")
+      module, "PartView", "Data of a part for a basis; each is computed once, at its first use.")
       .def_property_readonly(
           "name", [](const LentPart& p) { return p.get().part().name; }, "Name of the part.")
       .def_property_readonly(
@@ -169,7 +169,7 @@ void bindBases(py::module_& module) {
              "Register a basis written in Python.");
   module.def(
       "basis_names", [] { return reduction::MethodRegistry::instance().names(); },
-      "Names of the bases there are.");
+      "Names of the available bases.");
 }
 
 }  // namespace tooljoint::python

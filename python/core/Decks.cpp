@@ -134,39 +134,39 @@ py::tuple partsOf(const AtRest& one) {
 
 void bindDecks(py::module_& module) {
   py::class_<DeckSource>(module, "DeckSource",
-                         "A deck: a file, or a text in its place, and changes of it.")
+                         "A deck: a file, or a text that replaces it, and changes.")
       .def(py::init([](const std::string& file, const std::string& text,
                        const std::vector<std::string>& overrides) {
              return DeckSource{file, text, overrides};
            }),
            py::arg("file"), py::arg("text"), py::arg("overrides"));
   py::class_<ReadDeck, std::shared_ptr<ReadDeck>>(module, "ReadDeck",
-                                                  "A deck that has been read and checked.")
+                                                  "A deck after reading and checking.")
       .def_property_readonly(
-          "name", [](const ReadDeck& d) { return d.deck.name(); }, "Name of its root list.")
+          "name", [](const ReadDeck& d) { return d.deck.name(); }, "Name of the root list.")
       .def_property_readonly(
           "text", [](const ReadDeck& d) { return d.deck.text(); },
-          "The file as it was read, changes not applied.")
+          "The text of the file without the changes.")
       .def_property_readonly(
           "description", [](const ReadDeck& d) { return d.description; },
-          "The description of its lists as JSON.")
+          "The description of the lists as JSON.")
       .def(
           "to_dict", [](const ReadDeck& d) { return listToPython(d.deck.list()); },
           "All values in SI, defaults included; lists are dicts.")
       .def(
           "gives", [](const ReadDeck& d, const std::string& path) { return d.deck.gives(path); },
-          py::arg("path"), "Whether the deck or a change gives this, and not a default.")
+          py::arg("path"), "Whether the deck or a change gives this value; False for a default.")
       .def(
           "where", [](const ReadDeck& d, const std::string& path) { return d.deck.where(path); },
           py::arg("path"), "\"deck.xml:42: /Scene/Contact/Stiffness\".");
   module.def("read_deck", &readDeck, py::arg("deck"),
              "Read and check a deck. DeckError, FileError.");
   module.def("run", &run, py::arg("deck"), py::arg("output"), py::arg("restart"), py::arg("quiet"),
-             "Run a deck; the folder of its results.");
+             "Run a deck; returns the folder of its results.");
   module.def("analyse", &analyse, py::arg("what"), py::arg("deck"), py::arg("output"),
              py::arg("fresh"), py::arg("shared_timing"), py::arg("quiet"),
              "Compute \"study\", \"map\", \"campbell\" or \"response\" of a deck into a folder.");
-  module.def("check", &check, py::arg("deck"), py::arg("quiet"), "Refuse what a run would refuse.");
+  module.def("check", &check, py::arg("deck"), py::arg("quiet"), "Raise the errors of a run.");
   py::class_<AtRest, std::shared_ptr<AtRest>>(module, "RestingCase", "The case of a deck at rest.")
       .def(
           "full",
@@ -175,11 +175,12 @@ void bindDecks(py::module_& module) {
                 [&] { return std::make_shared<model::SecondOrderModel>(one.rest->full().model); });
           },
           "The full model.")
-      .def("parts", &partsOf, "Its parts, and what joins them.")
+      .def("parts", &partsOf, "The parts and their connections.")
       .def_property_readonly(
           "displacement", [](const AtRest& one) { return one.rest->rest(); },
           "Displacements at rest, rows of the recovery.");
-  module.def("solve_static", &solveStatic, py::arg("deck"), "The case of a deck, brought to rest.");
+  module.def("solve_static", &solveStatic, py::arg("deck"),
+             "Solve the static state of a deck; returns the case at rest.");
 }
 
 }  // namespace tooljoint::python

@@ -96,16 +96,15 @@ py::dict keywords(const Teuchos::ParameterList& list, const py::dict& names) {
 }
 
 void bindLists(py::module_& module) {
-  py::class_<List>(module, "DeckList",
-                   "A deck list that has been checked, defaults filled in, in SI.")
+  py::class_<List>(module, "DeckList", "A checked deck list with defaults, in SI.")
       .def(
           "to_dict", [](const List& list) { return toPython(*list); },
           "The values of the list; sublists are dicts.");
   module.def("parse_list", &parseList, py::arg("xml"), py::arg("name"),
-             "Check a list given as XML against the description of that name. DeckError.");
+             "Check a list in XML against the description of the list `name`. DeckError.");
   module.def(
       "list_description", [](const std::string& name) { return deck::manualJson(specOf(name)); },
-      py::arg("name"), "The description of a list as JSON, as `tooljoint doc --format json`.");
+      py::arg("name"), "The description of a list as JSON, like `tooljoint doc --format json`.");
 }
 
 }  // namespace tooljoint::python

@@ -227,11 +227,10 @@ void bindChanges(py::class_<SecondOrderModel, ModelPointer>& type) {
             });
           },
           py::arg("vector"), py::arg("name") = "load", py::arg("law") = py::none(),
-          "Add law(t) F [N]; without a law F is constant. Laws of one name are one law. "
-          "ModelError.")
+          "Add law(t) F [N]; without a law F is constant. Equal names mean one law. ModelError.")
       .def("add_points", &addPoints, py::arg("name"), py::arg("law"), py::arg("rows"),
            py::arg("offset") = Vector(), py::arg("nodes") = Nodes(),
-           "Add points with the forces rows' f(d, d', t), d = offset + rows q [m]. ModelError.")
+           "Add points with the forces rows^T f(d, d', t), d = offset + rows q [m]. ModelError.")
       .def(
           "set_start",
           [](SecondOrderModel& m, const Numbers& displacement, const Numbers& velocity) {
@@ -247,7 +246,7 @@ void bindChanges(py::class_<SecondOrderModel, ModelPointer>& type) {
 void bindParts(py::module_& module) {
   using model::Substructure;
   py::class_<Substructure, PartPointer>(
-      module, "Part", "A part before its reduction: a model, and which of its dofs may be joined.")
+      module, "Part", "A part before its reduction: a model with an interface and retained dofs.")
       .def(py::init([](const std::string& name, const ModelPointer& model,
                        std::vector<int> interface, std::vector<int> retained) {
              auto part = std::make_shared<Substructure>(
@@ -259,13 +258,13 @@ void bindParts(py::module_& module) {
       .def_readonly("name", &Substructure::name, "Name of the part.")
       .def_property_readonly(
           "model", [](const PartPointer& part) { return ModelPointer(part, &part->model); },
-          "Its model; changes of it are changes of the part.")
+          "The model; changes of it change the part.")
       .def_property_readonly(
           "interface", [](const Substructure& part) { return toNumpy(part.interface); },
           "Positions of the dofs that may be joined.")
       .def_property_readonly(
           "retained", [](const Substructure& part) { return toNumpy(part.retained); },
-          "Positions of further dofs that stay as they are.")
+          "Positions of further dofs that remain coordinates.")
       .def_property_readonly(
           "interior", [](const Substructure& part) { return toNumpy(part.interior()); },
           "Positions of all other dofs.")
@@ -309,7 +308,7 @@ void bindModels(py::module_& module) {
       .def("__len__", &SecondOrderModel::size)
       .def(
           "copy", [](const SecondOrderModel& m) { return std::make_shared<SecondOrderModel>(m); },
-          "A model of its own; matrices are shared until one of them is changed.")
+          "An independent model; matrices are shared until one of the models is changed.")
       .def_property_readonly("dof_names", &dofNames, "\"u of node 3\", one for each dof.")
       .def_property_readonly("dof_units", &dofUnits, "SI unit of each dof.")
       .def_property_readonly("component_units", &componentUnits,

@@ -106,7 +106,7 @@ void bindModes(py::module_& module) {
              "M-weighted modal assurance criterion, columns of a x columns of b.");
   module.def("compare_modes", &compare, py::arg("synthesis"), py::arg("count"),
              py::arg("t") = py::none(), py::arg("full") = py::none(),
-             "Modes of the full model, each with the coupled mode of its shape.");
+             "Modes of the full model, each with the coupled mode of the same shape.");
   module.def("estimate_frequencies", &estimates, py::arg("synthesis"), py::arg("count"),
              "Estimated errors of the lowest coupled frequencies, without the full model.");
 }

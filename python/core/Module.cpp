@@ -62,7 +62,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("rank", &tooljoint::parallel::rank, "Number of this rank, from 0.");
   module.def("ranks", &tooljoint::parallel::size, "Number of ranks.");
   module.def("abort", &own::abortAll, py::arg("code"), "End all ranks with this exit code.");
-  module.def("warnings", &tooljoint::log::warnings,
-             "Sentences the last long call has warned with, on this rank.");
+  module.def("warnings", &tooljoint::log::warnings, "Warnings of the last long call on this rank.");
   module.def("version", &tooljoint::programVersion, "Version of the library.");
 }

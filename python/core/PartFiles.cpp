@@ -110,7 +110,7 @@ void bindPartFiles(py::module_& module) {
   module.def("write_part", &write, py::arg("part"), py::arg("path"), py::arg("interfaces"),
              py::arg("positions"), "Write a part: a file .h5, or a folder.");
   module.def("read_part", &read, py::arg("path"), py::arg("name"), py::arg("laws") = py::dict(),
-             "Read a part; its interface are all its interface sets.");
+             "Read a part; its interface consists of all its interface sets.");
 }
 
 }  // namespace tooljoint::python

@@ -85,10 +85,11 @@ void bindReduced(py::module_& module) {
           },
           "The reduced model.")
       .def_readonly("interface", &ReducedSubstructure::interface,
-                    "The first so many coordinates may be joined.")
+                    "Number of interface coordinates, which come first and may be joined.")
       .def_readonly("retained", &ReducedSubstructure::retained,
-                    "The next so many are dofs of the part.")
-      .def_readonly("modes", &ReducedSubstructure::modes, "The last so many are modal.")
+                    "Number of retained dofs, which follow the interface.")
+      .def_readonly("modes", &ReducedSubstructure::modes,
+                    "Number of modal coordinates, which come last.")
       .def_property_readonly(
           "basis", [](const ReducedSubstructure& part) { return toScipy(part.basis->vectors); },
           "Phi, dofs of the part x coordinates.")
@@ -101,16 +102,17 @@ void bindReduced(py::module_& module) {
             const Vector& values = part.basis->eigenvalues;
             return Vector(values.array().sign() * values.array().abs().sqrt() / constants::twoPi);
           },
-          "Frequencies of the kept modes [Hz]; negative where omega^2 is.")
+          "Frequencies of the kept modes [Hz]; negative if omega^2 is negative.")
       .def_property_readonly(
           "method", [](const ReducedSubstructure& part) { return part.basis->method; },
           "How the modes were computed.")
       .def_property_readonly(
           "remarks", [](const ReducedSubstructure& part) { return part.report.remarks; },
-          "Sentences on the basis that a user should read.")
+          "Remarks on the basis for the user.")
       .def(
           "table", [](const ReducedSubstructure& part, bool all) { return part.report.table(all); },
-          py::arg("all") = false, "Every vector: kind, name, frequency, kept or dropped and why.")
+          py::arg("all") = false,
+          "Every vector: kind, name, frequency, whether it is kept, reason.")
       .def("__len__", &ReducedSubstructure::size)
       .def("__repr__", [](const ReducedSubstructure& part) {
         return "<ReducedPart \"" + part.name + "\": " + std::to_string(part.size()) +
@@ -119,8 +121,8 @@ void bindReduced(py::module_& module) {
 }
 
 void bindSynthesis(py::module_& module) {
-  py::class_<Synthesised, std::shared_ptr<Synthesised>>(
-      module, "Synthesis", "Reduced parts and the model they are coupled to.")
+  py::class_<Synthesised, std::shared_ptr<Synthesised>>(module, "Synthesis",
+                                                        "Reduced parts and their coupled model.")
       .def_readonly("model", &Synthesised::model, "The coupled reduced model.")
       .def_property_readonly(
           "parts", [](const Synthesised& s) { return s.outcome.synthesis.parts; },
@@ -133,7 +135,7 @@ void bindSynthesis(py::module_& module) {
               parts.push_back(std::make_shared<model::Substructure>(part));
             return parts;
           },
-          "The parts as they were reduced.")
+          "The parts before their reduction.")
       .def(
           "map",
           [](const Synthesised& s, int part) {
@@ -151,7 +153,7 @@ void bindSynthesis(py::module_& module) {
             for (const auto& round : s.outcome.rounds) rows.append(roundOf(round));
             return rows;
           },
-          "Rounds of the choice of modes by a tolerance: modes and frequency_error.")
+          "Rounds of the selection of modes by a tolerance: modes and frequency_error.")
       .def_property_readonly(
           "remarks", [](const Synthesised& s) { return s.outcome.synthesis.coupled.remarks; },
           "Remarks of the coupling: redundant constraints, for example.")
@@ -166,10 +168,10 @@ void bindSynthesis(py::module_& module) {
 void bindReduction(py::module_& module) {
   bindReduced(module);
   bindSynthesis(module);
-  py::class_<coupling::CouplingOptions>(module, "Connections",
-                                        "What joins the parts of a deck beside equal labels.");
+  py::class_<coupling::CouplingOptions>(
+      module, "Connections", "Connections of the parts of a deck in addition to equal labels.");
   module.def("reduce", &reduce, py::arg("parts"), py::arg("reduction"),
-             "Reduce parts, each by itself, as the list Reduction says.");
+             "Reduce parts separately with the settings of the list Reduction.");
   module.def("couple", &couple, py::arg("parts"), py::arg("coupling") = py::none(),
              "Couple unreduced parts: the full model.");
   module.def("couple_reduced", &coupleReduced, py::arg("parts"), "Couple reduced parts.");

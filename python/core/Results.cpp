@@ -42,16 +42,16 @@ void bindResults(py::module_& module) {
   py::class_<ResultsReader>(module, "ResultsFile", "A file results.h5.")
       .def(py::init<const std::string&>(), py::arg("path"))
       .def("datasets", &ResultsReader::datasets, "Paths of all datasets.")
-      .def("has", &ResultsReader::has, py::arg("path"), "Whether there is such a dataset or group.")
+      .def("has", &ResultsReader::has, py::arg("path"), "Whether a dataset or group exists.")
       .def("read", &values, py::arg("path"), "All values of a dataset. FileError.")
       .def(
           "unit",
           [](const ResultsReader& f, const std::string& p) { return attribute(f, p, "units"); },
-          py::arg("path"), "SI unit of a dataset; empty when it has none.")
+          py::arg("path"), "SI unit of a dataset; empty without a unit.")
       .def(
           "long_name",
           [](const ResultsReader& f, const std::string& p) { return attribute(f, p, "long_name"); },
-          py::arg("path"), "What a dataset holds, in words.");
+          py::arg("path"), "Description of a dataset in words.");
 }
 
 }  // namespace tooljoint::python

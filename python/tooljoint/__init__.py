@@ -3,11 +3,11 @@
 
 Parts come from scipy matrices (`part`), are reduced by any method of the deck (`reduce`), joined
 (`couple`, `synthesise`), compared (`modes`, `mac`, `compare_modes`, `estimate_frequencies`) and
-moved (`integrate`). Decks are read, changed and run in this process (`Deck`, `run`, `study`,
-`read`). Bases and point laws may be written in Python (`basis`, `point_law`).
+integrated in time (`integrate`). Decks are read, changed and run in this process (`Deck`, `run`,
+`study`, `read`). Bases and point laws may be written in Python (`basis`, `point_law`).
 
-MPI begins with the import and ends with the interpreter; under mpirun every rank makes the same
-calls. Errors are exceptions of the class `Error` with the message of the program.
+The import initialises MPI, the end of the interpreter finalises it; under mpirun every rank makes
+the same calls. Errors are exceptions of the class `Error` with the message of the program.
 """
 import sys as _sys
 
@@ -33,12 +33,12 @@ __all__ = [
 
 
 def bases():
-    """Names of the reduction bases there are."""
+    """Names of the available reduction bases."""
     return _core.basis_names()
 
 
 def point_laws():
-    """Names of the point laws there are."""
+    """Names of the available point laws."""
     return _core.point_law_names()
 
 

@@ -10,17 +10,17 @@ import scipy.sparse
 from numpy.typing import ArrayLike
 
 class Connections:
-    """What joins the parts of a deck beside equal labels."""
+    """Connections of the parts of a deck in addition to equal labels."""
 
 
 class DeckList:
-    """A deck list that has been checked, defaults filled in, in SI."""
+    """A checked deck list with defaults, in SI."""
     def to_dict(self) -> dict:
         """The values of the list; sublists are dicts."""
 
 
 class DeckSource:
-    """A deck: a file, or a text in its place, and changes of it."""
+    """A deck: a file, or a text that replaces it, and changes."""
     def __init__(self, file: str, text: str, overrides: Iterable[str]) -> None: ...
 
 
@@ -32,9 +32,9 @@ class Model:
     def add_damping(self, matrix: Any, name: str = 'damping', law: Any = None) -> None:
         """Add law(t) C; without a law C is constant. ModelError."""
     def add_load(self, vector: ArrayLike, name: str = 'load', law: Any = None) -> None:
-        """Add law(t) F [N]; without a law F is constant. Laws of one name are one law. ModelError."""
+        """Add law(t) F [N]; without a law F is constant. Equal names mean one law. ModelError."""
     def add_points(self, name: str, law: PointLaw, rows: Any, offset: ArrayLike = ..., nodes: Iterable[int] = []) -> None:
-        """Add points with the forces rows' f(d, d', t), d = offset + rows q [m]. ModelError."""
+        """Add points with the forces rows^T f(d, d', t), d = offset + rows q [m]. ModelError."""
     def add_stiffness(self, matrix: Any, name: str, law: Any = None) -> None:
         """Add law(t) K; without a law K is constant. ModelError."""
     @property
@@ -44,7 +44,7 @@ class Model:
     def component_units(self) -> list[str]:
         """SI unit of each component of a node."""
     def copy(self) -> Model:
-        """A model of its own; matrices are shared until one of them is changed."""
+        """An independent model; matrices are shared until one of the models is changed."""
     def damping(self, t: float = 0.0) -> scipy.sparse.csr_matrix:
         """C(t), dofs x dofs [N s/m]."""
     @property
@@ -90,7 +90,7 @@ class Model:
 
 
 class Part:
-    """A part before its reduction: a model, and which of its dofs may be joined."""
+    """A part before its reduction: a model with an interface and retained dofs."""
     def __init__(self, name: str, model: Model, interface: Iterable[int], retained: Iterable[int]) -> None: ...
     def __len__(self) -> int: ...
     def __repr__(self) -> str: ...
@@ -102,17 +102,17 @@ class Part:
         """Positions of all other dofs."""
     @property
     def model(self) -> Model:
-        """Its model; changes of it are changes of the part."""
+        """The model; changes of it change the part."""
     @property
     def name(self) -> str:
         """Name of the part."""
     @property
     def retained(self) -> numpy.ndarray:
-        """Positions of further dofs that stay as they are."""
+        """Positions of further dofs that remain coordinates."""
 
 
 class PartView:
-    """What a basis needs of a part; each is computed once, at its first use."""
+    """Data of a part for a basis; each is computed once, at its first use."""
     @property
     def boundary(self) -> numpy.ndarray:
         """Positions of interface and retained dofs."""
@@ -142,7 +142,7 @@ class PartView:
 
 
 class PointLaw:
-    """Forces of points f(t, d, v), all of one law."""
+    """Forces f(t, d, v) of points with a common law."""
     def force(self, t: float, d: ArrayLike, v: ArrayLike) -> numpy.ndarray:
         """Forces [N] at positions d [m] and velocities v [m/s], points x width in one row."""
     @property
@@ -154,18 +154,18 @@ class PointLaw:
 
 
 class ReadDeck:
-    """A deck that has been read and checked."""
+    """A deck after reading and checking."""
     @property
     def description(self) -> str:
-        """The description of its lists as JSON."""
+        """The description of the lists as JSON."""
     def gives(self, path: str) -> bool:
-        """Whether the deck or a change gives this, and not a default."""
+        """Whether the deck or a change gives this value; False for a default."""
     @property
     def name(self) -> str:
-        """Name of its root list."""
+        """Name of the root list."""
     @property
     def text(self) -> str:
-        """The file as it was read, changes not applied."""
+        """The text of the file without the changes."""
     def to_dict(self) -> Any:
         """All values in SI, defaults included; lists are dicts."""
     def where(self, path: str) -> str:
@@ -181,10 +181,10 @@ class ReducedPart:
         """Phi, dofs of the part x coordinates."""
     @property
     def frequencies_hz(self) -> numpy.ndarray:
-        """Frequencies of the kept modes [Hz]; negative where omega^2 is."""
+        """Frequencies of the kept modes [Hz]; negative if omega^2 is negative."""
     @property
     def interface(self) -> int:
-        """The first so many coordinates may be joined."""
+        """Number of interface coordinates, which come first and may be joined."""
     @property
     def method(self) -> str:
         """How the modes were computed."""
@@ -193,7 +193,7 @@ class ReducedPart:
         """The reduced model."""
     @property
     def modes(self) -> int:
-        """The last so many are modal."""
+        """Number of modal coordinates, which come last."""
     @property
     def name(self) -> str:
         """Name of the part."""
@@ -202,12 +202,12 @@ class ReducedPart:
         """D at q = 0, dofs of the part [m]."""
     @property
     def remarks(self) -> list[str]:
-        """Sentences on the basis that a user should read."""
+        """Remarks on the basis for the user."""
     @property
     def retained(self) -> int:
-        """The next so many are dofs of the part."""
+        """Number of retained dofs, which follow the interface."""
     def table(self, all: bool = False) -> str:
-        """Every vector: kind, name, frequency, kept or dropped and why."""
+        """Every vector: kind, name, frequency, whether it is kept, reason."""
 
 
 class RestingCase:
@@ -218,7 +218,7 @@ class RestingCase:
     def full(self) -> Model:
         """The full model."""
     def parts(self) -> tuple:
-        """Its parts, and what joins them."""
+        """The parts and their connections."""
 
 
 class ResultsFile:
@@ -227,17 +227,17 @@ class ResultsFile:
     def datasets(self) -> list[str]:
         """Paths of all datasets."""
     def has(self, path: str) -> bool:
-        """Whether there is such a dataset or group."""
+        """Whether a dataset or group exists."""
     def long_name(self, path: str) -> str:
-        """What a dataset holds, in words."""
+        """Description of a dataset in words."""
     def read(self, path: str) -> Any:
         """All values of a dataset. FileError."""
     def unit(self, path: str) -> str:
-        """SI unit of a dataset; empty when it has none."""
+        """SI unit of a dataset; empty without a unit."""
 
 
 class Synthesis:
-    """Reduced parts and the model they are coupled to."""
+    """Reduced parts and their coupled model."""
     def __repr__(self) -> str: ...
     def map(self, part: int) -> scipy.sparse.csr_matrix:
         """Coordinates of a part x coordinates of the coupled model."""
@@ -252,10 +252,10 @@ class Synthesis:
         """Remarks of the coupling: redundant constraints, for example."""
     @property
     def rounds(self) -> list:
-        """Rounds of the choice of modes by a tolerance: modes and frequency_error."""
+        """Rounds of the selection of modes by a tolerance: modes and frequency_error."""
     @property
     def unreduced(self) -> list[Part]:
-        """The parts as they were reduced."""
+        """The parts before their reduction."""
 
 
 def abort(code: int) -> None:
@@ -265,13 +265,13 @@ def analyse(what: str, deck: DeckSource, output: str, fresh: bool, shared_timing
     """Compute "study", "map", "campbell" or "response" of a deck into a folder."""
 
 def basis_names() -> list[str]:
-    """Names of the bases there are."""
+    """Names of the available bases."""
 
 def check(deck: DeckSource, quiet: bool) -> None:
-    """Refuse what a run would refuse."""
+    """Raise the errors of a run."""
 
 def compare_modes(synthesis: Synthesis, count: int, t: float | None = None, full: Model | None = None) -> list:
-    """Modes of the full model, each with the coupled mode of its shape."""
+    """Modes of the full model, each with the coupled mode of the same shape."""
 
 def couple(parts: Iterable[Part], coupling: DeckList | Connections | None = None) -> Model:
     """Couple unreduced parts: the full model."""
@@ -289,19 +289,19 @@ def integrate(model: Model, transient: DeckList) -> tuple:
     """Time, displacement, velocity and acceleration (samples x dofs), and a report."""
 
 def list_description(name: str) -> str:
-    """The description of a list as JSON, as `tooljoint doc --format json`."""
+    """The description of a list as JSON, like `tooljoint doc --format json`."""
 
 def modal_assurance(mass: Any, a: ArrayLike, b: ArrayLike) -> numpy.ndarray:
     """M-weighted modal assurance criterion, columns of a x columns of b."""
 
 def parse_list(xml: str, name: str) -> DeckList:
-    """Check a list given as XML against the description of that name. DeckError."""
+    """Check a list in XML against the description of the list `name`. DeckError."""
 
 def point_law(name: str, parameters: DeckList, points: int, coordinates: int) -> PointLaw:
-    """A law of the registry."""
+    """A point law from the registry."""
 
 def point_law_names() -> list[str]:
-    """Names of the laws there are."""
+    """Names of the available laws."""
 
 def rank() -> int:
     """Number of this rank, from 0."""
@@ -313,10 +313,10 @@ def read_deck(deck: DeckSource) -> ReadDeck:
     """Read and check a deck. DeckError, FileError."""
 
 def read_part(path: str, name: str, laws: dict = {}) -> Part:
-    """Read a part; its interface are all its interface sets."""
+    """Read a part; its interface consists of all its interface sets."""
 
 def reduce(parts: Iterable[Part], reduction: DeckList) -> list[ReducedPart]:
-    """Reduce parts, each by itself, as the list Reduction says."""
+    """Reduce parts separately with the settings of the list Reduction."""
 
 def register_basis(name: str, doc: str, parameters: list, keywords: dict, build: Any) -> None:
     """Register a basis written in Python."""
@@ -325,10 +325,10 @@ def register_point_law(name: str, doc: str, parameters: list, keywords: dict, wi
     """Register a law written in Python."""
 
 def run(deck: DeckSource, output: str, restart: str, quiet: bool) -> str:
-    """Run a deck; the folder of its results."""
+    """Run a deck; returns the folder of its results."""
 
 def solve_static(deck: DeckSource) -> RestingCase:
-    """The case of a deck, brought to rest."""
+    """Solve the static state of a deck; returns the case at rest."""
 
 def synthesise(parts: Iterable[Part], reduction: DeckList, coupling: DeckList | Connections | None = None) -> Synthesis:
     """Reduce, couple and estimate."""
@@ -340,7 +340,7 @@ def version() -> str:
     """Version of the library."""
 
 def warnings() -> list[str]:
-    """Sentences the last long call has warned with, on this rank."""
+    """Warnings of the last long call on this rank."""
 
 def write_part(part: Part, path: str, interfaces: dict[str, Iterable[int]], positions: dict[int, ArrayLike]) -> None:
     """Write a part: a file .h5, or a folder."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments of calls: an invalid one is a UsageError that names the call, the argument and the
+"""Checks of arguments: an invalid one raises a UsageError that names the call, the argument and the
 expected value."""
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ KINDS = {
 
 
 def whole(value: Any, call: str, name: str) -> int:
-    """A whole number, also one of numpy or without a fraction.
+    """A whole number, also of numpy or a float without a fraction.
 
     >>> whole(3.0, "modes", "count")
     3
@@ -33,7 +33,7 @@ def whole(value: Any, call: str, name: str) -> int:
 
 
 def real(value: Any, call: str, name: str) -> float:
-    """A real number that is finite."""
+    """A finite real number."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise UsageError(f"{call}(): {name} is {value!r}; expected is a number.")
     if not math.isfinite(value):

@@ -17,14 +17,14 @@ from .lists import text_of, write
 from .results import Results
 from .variants import any_written
 
-_NOTHING = object()  # stands for no value
+_NOTHING = object()  # marks a missing value
 
 
 class Deck:
     """A deck.
-    `deck["Transient/End Time"]` is the value in SI, default or given; setting it changes the deck
-    as `--set` does and refuses what the program would refuse; `del deck["Mud"]` takes a list out.
-    Relative names of files are relative to the folder of the deck.
+    `deck["Transient/End Time"]` is the value in SI, default or given. Setting it changes the deck
+    like `--set`; values that the program would refuse raise an error. `del deck["Mud"]` removes a
+    list. Relative names of files are relative to the folder of the deck.
 
     >>> import tooljoint as tj
     >>> deck = tj.Deck(example_deck)
@@ -52,7 +52,7 @@ class Deck:
         self._read = _core.read_deck(self._source())
 
     def _source(self, text=None, overrides=None):
-        """The deck for the toolkit, also after a change of the working folder."""
+        """The deck for the toolkit; valid also after a change of the working folder."""
         file = self.file if os.getcwd() == self._folder else os.path.join(self._folder, self.file)
         return _core.DeckSource(file, self._text if text is None else text,
                                 self.overrides if overrides is None else overrides)
@@ -77,7 +77,7 @@ class Deck:
         return value
 
     def _absence(self, path):
-        """The reason why a path has no value: for a wrong name the message of the program."""
+        """The reason why a path has no value; for a wrong name the message of the program."""
         try:
             _core.read_deck(self._source(overrides=[*self.overrides, f"{path}=0"]))
         except DeckError as error:
@@ -96,8 +96,8 @@ class Deck:
         return self._value(path) is not _NOTHING
 
     def add(self, path: str, values: Mapping[str, Any]) -> None:
-        """Add a list with a name of your own, such as "Coupling/Point Laws/guy", where `--set`
-        takes only names that are there. values: a dict, with dicts for lists in it."""
+        """Add a list with a name of your own, such as "Coupling/Point Laws/guy"; `--set` takes only
+        existing names. values: a dict, with dicts for its sublists."""
         *outer, name = _pieces(path)
         root, description = self._tree()
         element = root
@@ -137,12 +137,12 @@ class Deck:
         ])
 
     def gives(self, path: str) -> bool:
-        """Whether the deck or a change gives this, and not a default."""
+        """Whether the deck or a change gives this value; False for a default."""
         return self._read.gives(path)
 
     @property
     def name(self) -> str:
-        """Name of its root list."""
+        """Name of the root list."""
         return self._read.name
 
     def to_dict(self) -> dict[str, Any]:
@@ -150,9 +150,8 @@ class Deck:
         return self._read.to_dict()
 
     def write(self, file: str | os.PathLike) -> None:
-        """Write the deck with its changes; comments stay.
-        In another folder, relative names of files in it lead elsewhere: give absolute ones before.
-        FileError."""
+        """Write the deck with its changes and its comments. Relative names of files in it are
+        relative to the new folder: make them absolute before. FileError."""
         root, description = self._tree()
         for override in self.overrides:
             if override.startswith("!"):
@@ -166,45 +165,44 @@ class Deck:
             raise FileError(f"The deck {file} cannot be written: {error.strerror}.") from error
 
     def check(self, quiet: bool = True) -> None:
-        """Raise the errors of a run; with quiet=False print a summary of the model, as `tooljoint
+        """Raise the errors of a run; with quiet=False print a summary of the model, like `tooljoint
         check`."""
         _core.check(self._source(), quiet)
 
     def run(self, output: str | os.PathLike = "", restart: str | os.PathLike = "",
             quiet: bool = True) -> Results:
-        """Run the deck in this process, as `tooljoint run` does: its Results.
-        Collective under MPI."""
+        """Run the deck in this process, like `tooljoint run`; its Results. Collective under MPI."""
         return Results(_core.run(self._source(), str(output), str(restart), quiet))
 
     def at_rest(self) -> _core.RestingCase:
         """The case at rest: `full()` is its full model, `parts()` its parts and their connections
-        (for `synthesise`), `displacement` its state at rest. ConvergenceError, ModelError."""
+        (for `synthesise`), `displacement` its displacements at rest. ConvergenceError,
+        ModelError."""
         return _core.solve_static(self._source())
 
     def study(self, output: str | os.PathLike = "", fresh: bool | None = None,
               shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
-        """Run its list Study in this process, as `tooljoint study` does: the rows of study.csv, a
-        list of dicts. Rows known from an earlier study of the folder are taken from there, unless
-        `fresh`, or a variant written in Python takes part (it may have changed).
+        """Run the list Study in this process, like `tooljoint study`: the rows of study.csv, a list
+        of dicts. Rows known from an earlier study in the folder are reused, except with `fresh`, or
+        if a variant written in Python takes part (it may have changed).
         """
         return self._analyse("study", output, fresh, shared_timing, quiet)
 
     def map(self, output: str | os.PathLike = "", fresh: bool | None = None,
             quiet: bool = True) -> list[dict[str, Any]]:
-        """Compute its list Map, as `tooljoint map` does: the rows of map.csv. fresh: as of
-        study()."""
+        """Compute the list Map, like `tooljoint map`: the rows of map.csv. fresh: as in study()."""
         return self._analyse("map", output, fresh, False, quiet)
 
     def campbell(self, output: str | os.PathLike = "", fresh: bool | None = None,
                  quiet: bool = True) -> list[dict[str, Any]]:
-        """Damped modes against the rotary speed (list Campbell), as `tooljoint campbell` does: the
-        rows of campbell.csv. fresh: as of study()."""
+        """Damped modes against the rotary speed (list Campbell), like `tooljoint campbell`: the
+        rows of campbell.csv. fresh: as in study()."""
         return self._analyse("campbell", output, fresh, False, quiet)
 
     def response(self, output: str | os.PathLike = "", fresh: bool | None = None,
                  quiet: bool = True) -> list[dict[str, Any]]:
-        """Harmonic responses (list Response), as `tooljoint response` does: the rows of
-        response.csv. fresh: as of study()."""
+        """Harmonic responses (list Response), like `tooljoint response`: the rows of response.csv;
+        fresh as in study()."""
         return self._analyse("response", output, fresh, False, quiet)
 
     def _analyse(self, what, output, fresh, shared_timing, quiet):
@@ -221,9 +219,9 @@ class Deck:
 def run(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None,
         without: Iterable[str] = (), output: str | os.PathLike = "",
         restart: str | os.PathLike = "", quiet: bool = True) -> Results:
-    """Run a deck (a file or a Deck) in this process: its Results. set: {"Transient/End Time":
-    "2 s"}; without: lists to take out. The errors are those of the program, with the same message.
-    Collective under MPI."""
+    """Run a deck (a file or a Deck) in this process; its Results. set: {"Transient/End Time":
+    "2 s"}; without: lists to remove. The errors have the messages of the program. Collective under
+    MPI."""
     return _with(deck, set, without).run(output, restart, quiet)
 
 
@@ -251,8 +249,8 @@ def _pieces(path):
 
 
 def _described(description, name):
-    """The description of a list in a list; of none, when it passes through or has free names, an
-    empty one."""
+    """The description of a list inside another one: by its name, else that of lists with free
+    names, else an empty one."""
     lists = [one for one in description["lists"] if one["name"] == name]
     return lists[0] if lists else description["named_lists"] or {
         "lists": [], "parameters": [], "named_lists": None
@@ -275,8 +273,7 @@ def _remove(root, pieces):
 
 
 def _place(root, pieces, text, description):
-    """Puts a value into the tree, with lists that are not there yet, of the type the description
-    has."""
+    """Puts a value into the tree, with the type from the description; missing lists are added."""
     for name in pieces[:-1]:
         inner = _find(root, "ParameterList", name)
         root = ElementTree.SubElement(root, "ParameterList", name=name) if inner is None else inner
@@ -290,8 +287,8 @@ def _place(root, pieces, text, description):
 
 
 def _type(text, known, before):
-    """A quantity with a unit is a text; otherwise the type of the description, or the one that
-    stood there."""
+    """Text for a quantity with a unit; otherwise the type from the description, or the previous
+    type."""
     declared = known["type"] if known else before or "string"
     plain = re.fullmatch(r"\{?[-+0-9.eE, ]*\}?", text) is not None
     if "double" in declared and not plain:

@@ -1,22 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Errors a user can correct: the message states the value found, the expected value and the remedy.
 
-An interrupt (Ctrl-C, or SIGTERM, which mpirun sends in its place) ends a long call with
+An interrupt (Ctrl-C, or SIGTERM, which mpirun sends instead) ends a long call with
 KeyboardInterrupt.
 """
 
-not_finite: dict[str, str] = {
-}  # point laws in Python whose last forces were not finite, each with a message
+not_finite: dict[str, str] = {}  # point law in Python whose last forces were not finite -> message
 
 
 class Error(Exception):
-    """Any error of the toolkit. `code` is the exit code the program `tooljoint` ends with."""
+    """Any error of the toolkit. `code` is the exit code of the program `tooljoint` for it."""
 
     code = 70
 
 
 class UsageError(Error):
-    """A call that makes no sense (exit code 1)."""
+    """An invalid call (exit code 1)."""
 
     code = 1
 
@@ -37,7 +36,7 @@ class ModelError(Error):
 
 class ConvergenceError(Error):
     """A solver did not converge; the message states the attempts and the remedy (exit code 4).
-    Point laws without finite forces are named first."""
+    Point laws whose forces are not finite are named first."""
 
     code = 4
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keyword arguments as deck lists: the names are those of the deck in snake_case, and the deck's
-reader checks them."""
+"""Keyword arguments as deck lists: the names are those of the deck in snake_case, and the reader of
+decks checks them."""
 from __future__ import annotations
 
 import difflib
@@ -25,7 +25,7 @@ def keyword(name: str) -> str:
 
 
 def title(name: str) -> str:
-    """snake_case as a name of the deck, for keywords that no list has.
+    """snake_case as a name of the deck, for keywords that are in no list.
 
     >>> title("spectral_radius")
     'Spectral Radius'
@@ -63,9 +63,9 @@ def write(name: str, values: Mapping[str, Any], description: Mapping[str, Any]) 
 
 def placed(description: Mapping[str, Any], values: Mapping[str, Any],
            places: Sequence[str | None]) -> dict[str, Any]:
-    """Values by keyword in the lists they belong to: the list described, else the first of its
-    lists `places` that has the keyword. An unknown keyword goes to the list with the most similar
-    name, so that the reader can suggest that name.
+    """Sorts values by keyword into their lists: the described list, else the first of its lists
+    `places` that has the keyword. An unknown keyword goes to the list with the most similar name,
+    so that the reader can suggest that name.
 
     >>> values = {"modes": 6, "basis_checks": False, "mods": 6}
     >>> placed(describe("Reduction"), values, ["Mode Selection"])
@@ -97,12 +97,12 @@ def checked(name: str, values: Mapping[str, Any]) -> _core.DeckList:
     try:
         return _core.parse_list(write(name, values, describe(name)), name)
     except DeckError as error:
-        # The text is ours: its lines mean nothing to a person.
+        # The text is generated; its line numbers are of no use to a user.
         raise DeckError(re.sub(rf"(?m)^{re.escape(name)}(:\d+)?: ", "", str(error))) from None
 
 
 def text_of(value: Any) -> str:
-    """A value as a deck and `--set` write it.
+    """A value as written in a deck and in `--set`.
 
     >>> text_of(True), text_of(0.005), text_of(["a", "b"]), text_of("120 rpm")
     ('true', '0.005', '{a, b}', '120 rpm')
@@ -124,8 +124,8 @@ def text_of(value: Any) -> str:
 
 
 def type_of(value: Any, kind: str = "") -> str:
-    """The type attribute of a value: for whole numbers and texts the `kind` of the parameter
-    decides (empty if unknown)."""
+    """The type attribute of a value; for whole numbers and texts it depends on the `kind` of the
+    parameter (empty if unknown)."""
     if isinstance(value, bool):
         return "bool"
     if isinstance(value, str):

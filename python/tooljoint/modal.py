@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 
 class Modes:
-    """Modes of a model: `frequency` [Hz] (negative where omega^2 is), `shapes` (dofs x modes),
-    `residuals` (relative). Damped ones also have `values`, s [1/s], and `damping`, the damping
-    ratios; their shapes are complex.
+    """Modes of a model: `frequency` [Hz] (negative if omega^2 is negative), `shapes` (dofs x
+    modes), `residuals` (relative). Damped modes also have `values`, s [1/s], and `damping`, the
+    damping ratios; their shapes are complex.
     """
     def __init__(self, frequency: ArrayLike, shapes: np.ndarray, residuals: np.ndarray,
                  values: np.ndarray | None = None):
@@ -44,8 +44,8 @@ class Modes:
 
 
 def modes(of: HasModel, count: int) -> Modes:
-    """The `count` lowest undamped modes of a model, a part, a reduced part or a synthesis, closed
-    contacts linear. UsageError, ModelError.
+    """The `count` lowest undamped modes of a model, a part, a reduced part or a synthesis, with
+    closed contacts linearised. UsageError, ModelError.
 
     >>> import numpy as np, tooljoint as tj
     >>> mass = tj.part("mass", [[1.0]], [[(2 * np.pi) ** 2]])
@@ -58,7 +58,7 @@ def modes(of: HasModel, count: int) -> Modes:
 
 
 def damped_modes(of: HasModel, count: int, t: float = 0.0) -> Modes:
-    """The `count` damped modes of smallest |s|, one of each conjugate pair, with the matrices of
+    """The `count` damped modes of smallest |s|, one of each conjugate pair, with the matrices at
     the time t.
 
     >>> import numpy as np, tooljoint as tj
@@ -93,12 +93,11 @@ def mac(a: ArrayLike, b: ArrayLike, mass: MatrixLike) -> np.ndarray:
 
 def compare_modes(synthesis: _core.Synthesis, count: int, full: HasModel | None = None,
                   t: float | None = None) -> list[dict[str, Any]]:
-    """Modes of the full model, each with the coupled mode of its shape: a list of dicts with
+    """Modes of the full model, each with the coupled mode of the same shape: a list of dicts with
     full_hz, coupled_hz, mac, error (relative, of the frequency) and estimate (of the error, without
-    the full model; None if the basis has none); None if no coupled mode corresponds. full: the
-    model to compare with; by default the unreduced parts, coupled. t: compare damped modes at that
-    time instead.
-    """
+    the full model; None if the basis has no estimate); the values are None if no coupled mode
+    corresponds. full: the model to compare with; by default the unreduced parts, coupled. t:
+    compares damped modes at that time instead."""
     call = "compare_modes"
     time = None if t is None else real(t, call, "t")
     return _core.compare_modes(one_of(synthesis, ("Synthesis",), call, "synthesis"),

@@ -31,8 +31,8 @@ class Motion:
         self.acceleration = Quantity(acceleration, _rate(unit, 2), "Acceleration")
 
     def at(self, node: int, component: str, what: str = "displacement") -> Quantity:
-        """The history of a component of a node, recovered from the coordinates: of an interior node
-        of a reduced part too. what: "displacement", "velocity" or "acceleration". ModelError for a
+        """Time history of a component of a node, recovered from the coordinates; also for interior
+        nodes of reduced parts. what: "displacement", "velocity" or "acceleration". ModelError for a
         node that the model does not recover.
         """
         orders = ("displacement", "velocity", "acceleration")
@@ -68,8 +68,8 @@ def _rate(units: str, order: int) -> str:
 def integrate(of: HasModel, end_time: float | str, *, integrator: str = "Generalized-alpha",
               **parameters: Any) -> Motion:
     """Integrate the motion of a model, a part or a synthesis from its start.
-    Arguments are the deck list Transient: names in snake_case, of the list itself or of the list of
-    the integrator (sampling_interval, step, spectral_radius ...). Collective under MPI.
+    The arguments are those of the deck list Transient in snake_case, of the list itself or of the
+    list of the integrator (sampling_interval, step, spectral_radius ...). Collective under MPI.
 
     DeckError, ModelError, ConvergenceError (an unstable or too coarse integration is refused);
     KeyboardInterrupt.

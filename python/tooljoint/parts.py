@@ -28,15 +28,14 @@ def part(
     """A part from its matrices.
 
     mass, stiffness, damping: scipy.sparse matrices or arrays, dofs x dofs [kg, N/m, N s/m]; load: a
-    constant load, dofs [N]. nodes: number of the node of each dof, 1 or more; by default the dofs
-    go through the nodes 1, 2, ... one after the other. components: for each dof the position of its
+    constant load, dofs [N]. nodes: number of the node of each dof, 1 or more; by default the nodes
+    1, 2, ... in turn, each with all components. components: for each dof the position of its
     component in `component_names`; by default they repeat node by node. interface: positions of the
     dofs that may be joined with equal ones (node and component) of other parts. retained: positions
-    of further dofs that stay as they are when the part is reduced.
+    of further dofs that remain coordinates when the part is reduced.
 
-    ModelError for matrices that do not fit each other, a mass that is not symmetric, and positions
-    that are none. Undamped modes are those of the symmetric part of the stiffness; `damped_modes`
-    takes all of it.
+    ModelError for matrices of different sizes, a mass that is not symmetric, and invalid positions.
+    Undamped modes are those of the symmetric part of the stiffness; `damped_modes` uses all of it.
 
     >>> import numpy as np, tooljoint as tj
     >>> stiffness = [[2, -1, 0], [-1, 2, -1], [0, -1, 1]]
@@ -93,13 +92,13 @@ def _repeating(nodes, width):
 def write_part(part: _core.Part, path: str | os.PathLike,
                interfaces: Mapping[str, Iterable[int]] | None = None,
                positions: Mapping[int, ArrayLike] | None = None) -> None:
-    """Write a part for `Parts/Imported` of a deck: one file when the path ends with .h5, else a
+    """Write a part for `Parts/Imported` of a deck: one file if the path ends with .h5, else a
     folder of Matrix Market files.
 
-    interfaces: positions of dofs by the name of their set, for Parts/Joints; by default all of the
+    interfaces: positions of dofs by the name of their set, for Parts/Joints; by default the whole
     interface as "interface". positions: coordinates [m] of nodes by their number, for pictures and
-    for moved parts. Point laws are no part of the format. A reduced part is refused: make a part of
-    its `model` with `part()`.
+    for moved parts. The format has no point laws. A reduced part is refused: make a part of its
+    `model` with `part()`.
     """
     if not isinstance(part, _core.Part):
         raise UsageError(f"write_part() takes a Part, not {part!r}. Of a reduced part, write "
@@ -117,8 +116,8 @@ def read_part(path: str | os.PathLike, name: str = "part",
     """Read a part: a file .h5 or .json, or a folder with a part.json.
     DeckError for malformed data, ModelError.
 
-    laws: of every law of time that terms of the file name, its function of the time [s], or a
-    number: `laws={"Omega": 12.5}`. A file cannot contain point laws; a warning names omitted ones.
+    laws: for every law of time named in the file a function of the time [s], or a number:
+    `laws={"Omega": 12.5}`. A file cannot contain point laws; a warning names omitted ones.
     """
     functions = {
         law: value if callable(value) else (lambda t, value=real(value, "read_part", law): value)
@@ -128,9 +127,9 @@ def read_part(path: str | os.PathLike, name: str = "part",
 
 
 def reduction(method: str = "Craig-Bampton", **parameters: Any) -> _core.DeckList:
-    """The deck list Reduction from keyword arguments, checked as in a deck: names in snake_case, of
-    the list itself, of its list Mode Selection and of the list of the method. A dict where a list
-    is to be given as such.
+    """The deck list Reduction from keyword arguments, checked as in a deck: names in snake_case of
+    the list itself, of its list Mode Selection and of the list of the method. A dict is a whole
+    list.
 
     >>> reduction("Craig-Bampton", cut_off_frequency="30 Hz").to_dict()["Mode Selection"]
     {'Cut-off Frequency': 30.0}
@@ -147,9 +146,9 @@ def reduction(method: str = "Craig-Bampton", **parameters: Any) -> _core.DeckLis
 
 def reduce(parts: _core.Part | Sequence[_core.Part], method: str = "Craig-Bampton",
            **parameters: Any) -> _core.ReducedPart | list[_core.ReducedPart]:
-    """Reduce a part, or each of a list of parts by itself.
+    """Reduce a part, or each part of a list separately.
 
-    method and parameters: as `reduction()`; "modes=6" or "cut_off_frequency='30 Hz'", for example.
+    method and parameters: as in `reduction()`, for example modes=6 or cut_off_frequency="30 Hz".
     Collective under MPI. Returns a ReducedPart, or a list of them. DeckError, ModelError,
     ConvergenceError.
 
@@ -175,11 +174,10 @@ def _joining(coupling):
 
 
 def couple(parts: Iterable[Any], coupling: dict | _core.Connections | None = None) -> _core.Model:
-    """The model of parts joined by equal labels of their interface dofs: unreduced parts give the
-    full model, reduced parts the reduced one. coupling: the deck list Coupling as a dict (unreduced
-    parts), for springs, hinges, constraints, frames and point laws. ModelError names dofs that
-    cannot be joined.
-    """
+    """The model of parts joined by equal labels of their interface dofs: the full model for
+    unreduced parts, the reduced one for reduced parts. coupling: the deck list Coupling as a dict
+    (only for unreduced parts) with springs, hinges, constraints, frames and point laws. ModelError
+    names dofs that cannot be joined."""
     parts = list_of(parts, ("Part", "ReducedPart"), "couple", "parts")
     reduced = [isinstance(part, _core.ReducedPart) for part in parts]
     if any(reduced) and not all(reduced):
@@ -197,8 +195,8 @@ def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton",
                coupling: dict | _core.Connections | None = None,
                **parameters: Any) -> _core.Synthesis:
     """Component mode synthesis: reduce the parts, couple them, augment bases that need the coupled
-    model, reduce the interface if requested. parameters: as `reduction()`; with frequency_tolerance
-    the modes are chosen by the estimated error. Collective under MPI.
+    model, reduce the interface if requested. parameters: as in `reduction()`; frequency_tolerance
+    chooses the modes by the estimated error. Collective under MPI.
 
     >>> import numpy as np, tooljoint as tj
     >>> K = 2 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1)

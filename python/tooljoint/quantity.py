@@ -11,9 +11,10 @@ if TYPE_CHECKING:
 
 
 class Quantity(np.ndarray):
-    """A numpy array with `unit`, a text in SI, and `long_name`, a sentence; both may be empty.
+    """A numpy array with `unit`, an SI unit as text, and `long_name`, a sentence; both may be
+    empty.
 
-    Parts of it keep the unit; results of computations are plain arrays or numbers without a unit.
+    Slices keep the unit; results of computations are plain arrays or numbers without a unit.
 
     >>> length = Quantity([1.0, 2.0], "m", "Length")
     >>> length.unit, length[1:].unit
@@ -56,5 +57,5 @@ class Quantity(np.ndarray):
 
     @property
     def label(self) -> str:
-        """For the axis of a figure: "Length [m]"."""
+        """Label for the axis of a figure: "Length [m]"."""
         return f"{self.long_name} [{self.unit}]" if self.unit else self.long_name

@@ -14,16 +14,16 @@ from .errors import FileError
 from .quantity import Quantity
 
 FILES = ("study.h5", "results.h5", "map.h5", "campbell.h5", "response.h5", "torque_drag.h5",
-         "bha.h5", "buckling.h5", "modes.h5")  # a folder has one of them, or the first and others
+         "bha.h5", "buckling.h5", "modes.h5")  # one per folder, or the first and others
 
 
 class Results:
     """The folder of a run or of an analysis.
     `results["transient/displacement"]` is a dataset of its HDF5 file (results.h5, campbell.h5), an
-    array with unit and long_name; `summary` is summary.json as a dict; `table("motion.csv")` are
-    the rows of a table.
+    array with unit and long_name; `summary` is summary.json as a dict; `table("motion.csv")`
+    returns the rows of a table.
 
-    FileError for a folder that holds no results, or a dataset that is not there.
+    FileError for a folder without results, or for a missing dataset.
     """
     def __init__(self, folder: str | os.PathLike):
         self.folder = pathlib.Path(folder)
@@ -55,7 +55,7 @@ class Results:
         return Quantity(file.read(path), file.unit(path), file.long_name(path))
 
     def table(self, name: str) -> list[dict[str, Any]]:
-        """Rows of a table of the folder, dicts; numbers are numbers."""
+        """Rows of a table of the folder as dicts; numbers are converted."""
         try:
             with open(self.folder / name, newline="", encoding="utf-8") as file:
                 return [{key: _value(text) for key, text in row.items()} for row in csv.DictReader(
@@ -66,7 +66,7 @@ class Results:
 
     @property
     def warnings(self) -> list[str]:
-        """Sentences the run has warned with."""
+        """Warnings of the run."""
         return self.summary["warnings"]
 
     def __repr__(self):
@@ -74,7 +74,7 @@ class Results:
 
 
 def read(folder: str | os.PathLike) -> Results:
-    """The Results in the folder of a run, whoever made it. FileError."""
+    """The Results in the folder of a run. FileError."""
     return Results(folder)
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bases and point laws written in Python.
-They join the registries: calls, decks and studies of this process name them like any other."""
+They are added to the registries: calls, decks and studies of this process use them by name like
+any other."""
 from __future__ import annotations
 
 import functools
@@ -20,21 +21,22 @@ _written = set()  # names of the variants written in Python
 
 class Parameter:
     """A parameter of a variant: its default (None: it must be given), SI unit and a sentence.
-    The default decides the type; without one it is a real number.
+    The default determines the type; without one it is a real number.
     """
     def __init__(self, default: bool | int | float | str | None = None, unit: str = "",
                  doc: str = ""):
         self.default, self.unit, self.doc = default, unit, doc
 
     def row(self, name: str) -> tuple:
-        """In the form of a description of a deck list: name, kind, unit, default, sentence."""
+        """The parameter as in the description of a deck list: name, kind, unit, default,
+        sentence."""
         kinds = {bool: "boolean", int: "integer", str: "text"}
         return (name, kinds.get(type(self.default), "real"), self.unit, self.default, self.doc
                 or f"Parameter {name} of the function.")
 
 
 def _parameters(function, taken):
-    """Rows and names of the keyword parameters of a function behind the first `taken` arguments."""
+    """Rows and names of the keyword parameters of a function after its first `taken` arguments."""
     given = list(inspect.signature(function).parameters.values())[taken:]
     rows, names = [], {}
     for one in given:
@@ -80,8 +82,8 @@ def _checked_force(name, force, states):
 
 
 def _first_not_finite(arrays, points):
-    """(value, point) of the first number that is not finite in arrays of this many points; None if
-    all are finite, or without numbers."""
+    """(value, point) of the first number that is not finite in arrays for this many points; None if
+    all are finite, or if they are not numbers."""
     for each in arrays:
         try:
             rows = np.asarray(each, float).reshape(points, -1)
@@ -99,9 +101,9 @@ def _numbers(values):
 
 def basis(name: str) -> Callable[[Callable], Callable]:
     """Registers a function as a reduction basis: build(part, count, **parameters) returns vectors
-    of the interior, interior dofs x any number of columns. Constraint modes and the `count` lowest
-    Ritz vectors of what they span become the basis. part is a PartView. Further arguments of the
-    function are parameters of its deck list, described by their default or a Parameter.
+    of the interior, interior dofs x any number of columns. The basis consists of the constraint
+    modes and the `count` lowest Ritz vectors in their span. part is a PartView. Further arguments
+    of the function are parameters of its deck list, described by their default or a Parameter.
 
     >>> import numpy as np, tooljoint as tj
     >>> @tj.basis("Static Responses")
@@ -129,16 +131,16 @@ def point_law(name: str, *, width: int = 1, states: int = 0, tangent: Callable |
               power: Callable | None = None,
               start: Callable | None = None) -> Callable[[Callable], Callable]:
     """Registers a function as a point law: force(t, d, v, **parameters) for positions d [m] and
-    velocities v [m/s] of all points at once, arrays of (points,), or (points, width) where width >
+    velocities v [m/s] of all points at once, arrays of (points,), or of (points, width) if width >
     1; it returns the forces [N] in the same shape. The first coordinate is a separation: a positive
     force pushes apart.
 
-    tangent: like force, returns (df/dd, df/dv), each points x width x width; without it they are
-    differences (exact to 1e-10 for smooth laws, one more call). power: like force, returns (stored
-    energy [J], power lost in damping, in friction, fed in [W]) summed over the points, for the
-    energy balance; without it the force at rest is taken to have a potential (found by
-    integration), and what velocities add to it is damping. The functions run with the GIL held: for
-    trying, not for long motions.
+    tangent: arguments as for force, returns (df/dd, df/dv), each points x width x width; without it
+    they are differences (exact to 1e-10 for smooth laws, one more call). power: arguments as for
+    force, returns (stored energy [J], power lost in damping, in friction, supplied [W]) summed over
+    the points, for the energy balance; without it the force at rest is assumed to have a potential
+    (found by integration), and the part that depends on velocities is damping. The functions run
+    with the GIL held: for trials, not for long motions.
 
     >>> import tooljoint as tj
     >>> @tj.point_law("Hardening")
@@ -148,12 +150,12 @@ def point_law(name: str, *, width: int = 1, states: int = 0, tangent: Callable |
     >>> tj.law("Hardening", stiffness="2 kN/m").force(0.0, [0.1], [0.0]).tolist()
     [-200.0]
 
-    states: numbers x of each point that change with the motion, as the creep of a link: force(t, d,
-    v, x, **parameters) then returns (forces, rates dx/dt), x and the rates in arrays of (points,),
-    or (points, states). The integrator keeps them beside d and v, and checkpoints hold them.
-    start(t, d, v, **parameters) gives their first values; without it they are 0. power(t, d, v, x,
-    rates, **parameters) is as above; without it nothing is stored, and all work of the forces is
-    damping. Slopes are always differences.
+    states: numbers x of each point that change with the motion, such as the creep of a link:
+    force(t, d, v, x, **parameters) then returns (forces, rates dx/dt); x and the rates are arrays
+    of (points,), or of (points, states). They are part of the state of the integration and of
+    checkpoints. start(t, d, v, **parameters) returns their initial values; without it they are 0.
+    power(t, d, v, x, rates, **parameters) is as above; without it no energy is stored, and all work
+    of the forces is damping. Tangents are always differences.
 
     >>> def relaxed(t, d, v, stiffness, damping):
     ...     return d
@@ -186,8 +188,8 @@ def point_law(name: str, *, width: int = 1, states: int = 0, tangent: Callable |
 
 def law(name: str, *, points: int = 1, coordinates: int = 3, **parameters: Any) -> _core.PointLaw:
     """A point law by its name in the deck, with its parameters (snake_case), for
-    `model.add_points`: all points have these parameters. coordinates: at most so many for each
-    point. DeckError as in a deck.
+    `model.add_points`: all points have these parameters. coordinates: largest number of coordinates
+    of a point. DeckError as in a deck.
 
     >>> import tooljoint as tj
     >>> spring = tj.law("Spring", stiffness="3 kN/m", damping=10.0)
@@ -199,6 +201,6 @@ def law(name: str, *, points: int = 1, coordinates: int = 3, **parameters: Any) 
 
 
 def any_written() -> bool:
-    """Whether variants written in Python take part: a later process cannot know whether they are
-    still the same."""
+    """Whether variants written in Python take part: a later process cannot know whether they have
+    changed."""
     return bool(_written)

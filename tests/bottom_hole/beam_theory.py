@@ -2,13 +2,13 @@
 """Beam-column of constant section on supports, as in textbooks, for comparison with `tooljoint
 bha`.
 
-x runs from the bit up the hole, v across it, with the bit at x = 0 on the axis. With the
-compression P, the load q along v and the transverse force Q of a fixed direction
+x is measured from the bit up the hole, v across it; the bit is at x = 0 on the axis. With the
+compression P, the load q along v and the transverse force Q of fixed direction, the system
 
     v' = theta,  theta' = M/(E I),  M' = Q - P theta,  Q' = q,  v(0) = M(0) = 0
 
 is linear in theta(0), Q(0) and the reactions of the supports. A slick end lies on the wall from the
-tangency point x = L on: v = wall, theta = wall', M = E I wall'' there; the last one fixes L.
+tangency point x = L on: v = wall, theta = wall', M = E I wall'' there; the last condition gives L.
 """
 import numpy as np
 from scipy.optimize import brentq
@@ -21,9 +21,9 @@ class Beam:
         self.rigidity, self.load, self.compression, self.wall = rigidity, load, compression, wall
 
     def march(self, state, start, end):
-        """State (v, theta, M, Q) and its derivatives by the unknowns (columns), from start to end
-        by Runge-Kutta 4. Steps of 0.1 m are a hundredth of the length on which the beam bends:
-        their error is some 1e-8."""
+        """State (v, theta, M, Q) and its derivatives with respect to the unknowns (columns), from
+        start to end by Runge-Kutta 4. Steps of 0.1 m are a hundredth of the bending length of the
+        beam; their error is about 1e-8."""
         steps = max(1, int(np.ceil((end - start) / 0.1)))
         h = (end - start) / steps
 
@@ -83,7 +83,7 @@ class Beam:
         }
 
     def slick(self, events, wall, longest=60.0):
-        """The same with the lowest tangency point above all events."""
+        """The same, without contact above the events up to the lowest tangency point."""
         def excess(length):
             return self.solve(events, length, wall)["excess"]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks `tooljoint bha` through the program: beam theory, holes and tool faces that are turned,
-its balance, tables, refusals, ranks.
+"""Checks `tooljoint bha` through the program: beam theory, turned holes and tool faces, balance
+of forces, tables, refusals, ranks.
 
     check_bottom_hole.py PROGRAM MPIEXEC SOURCES
 
@@ -26,7 +26,7 @@ def slick():
     all along: without it L^4 = 24 E I c/w and F = w L/2."""
     found = run(deck("slick", {}), "Bottom-Hole Assembly/Weight On Bit={0 kN, 100 kN}")
     tangency = (24 * RIGIDITY * CLEARANCE / WEIGHT)**0.25
-    # the tangency point moves by less than the force, and stands between two nodes half a metre
+    # the tangency point changes less than the force, and lies between two nodes half a metre
     # apart
     near("side force without weight on bit", -found[0]["side_force_high"], WEIGHT * tangency / 2,
          2e-3)
@@ -45,8 +45,8 @@ def slick():
 
 
 def inclined():
-    """The same at 20 deg, where the weight along the hole makes P fall, and under a mesh that is
-    refined."""
+    """The same at 20 deg, where P decreases along the hole because of the weight, with a refined
+    mesh."""
     inclination = math.radians(20.0)
     along, across = WEIGHT * math.cos(inclination), WEIGHT * math.sin(inclination)
     beam = Beam(RIGIDITY, lambda x: across, lambda x: 5e4 - along * x)
@@ -91,7 +91,7 @@ def bent():
     file = deck("bent", features, inclination=0.0, gravity=0.01, length=length)
     found = run(file, "Bottom-Hole Assembly/Tool Face={0 deg, 90 deg, 205 deg}")
     for row, face in zip(found, (0.0, 90.0, 205.0)):
-        # the lower part points to the tool face, the bit is held back by the rock and pushes there
+        # the lower part points to the tool face; the rock holds the bit back, so it pushes there
         near(
             f"side force to the tool face {face}",
             row["side_force_high"] * math.cos(math.radians(face)) +
@@ -128,15 +128,14 @@ def bent():
 
 
 def eccentric():
-    """An eccentric gauge leans on the wall with the offset more or less; across, it turns the
-    results of a vertical hole."""
+    """The offset of an eccentric gauge increases or reduces its lean on the wall; with the offset
+    across, it turns the results of a vertical hole."""
     place, radius, offset = 6.0, 0.104, 0.003
     beam = Beam(RIGIDITY, lambda x: WEIGHT, lambda x: 5e4)
     for direction, side in ((0.0, 1.0), (180.0, -1.0)):
         found = run(deck("eccentric", {place: gauge(radius, offset=offset, direction=direction)}),
                     "Bottom-Hole Assembly/Weight On Bit={50 kN}")
-        # towards the high side the gauge lets the string down by the offset, towards the low side
-        # it lifts it
+        # an offset to the high side lowers the string, an offset to the low side lifts it
         expected = beam.slick([(place, "support", BORE - radius + side * offset)], CLEARANCE)
         near(f"side force, offset towards {direction} deg", found[0]["side_force_high"],
              expected["bit"], 5e-3)
@@ -157,7 +156,7 @@ def eccentric():
 
 
 def pads():
-    """A pad pushes the string away from the side it presses on."""
+    """A pad pushes the string away from its own side."""
     place, force = 3.0, 1e4
     for direction, side in ((180.0, -1.0), (0.0, 1.0)):
         found = run(deck("pad", {place: pad(force, direction)}),
@@ -184,7 +183,7 @@ def curved():
     ):
         for row in run(file, *settings, f"Bottom-Hole Assembly/{rate}"):
             size = kappa * (1.0 if side[0] else math.sin(row["inclination"]))
-            # the bent string is straighter than the hole, so the bit pushes to its outer side
+            # the bent string is straighter than the hole, so the bit pushes to the outer side
             near(f"{rate}: side force to the high side", row["side_force_high"],
                  -side[0] * 1.5 * RIGIDITY * size / a, 5e-3, RIGIDITY * kappa / a)
             near(f"{rate}: side force to the right", row["side_force_right"],
@@ -196,8 +195,8 @@ def curved():
                     1.5 * RIGIDITY * size * one["from_bit"] / a) for one in below)
             expect("below it the moment falls linearly to nothing at the bit",
                    worst < 5e-3 * RIGIDITY * kappa, worst)
-            # from the chord between bit and stabiliser the hole has turned by kappa a/2, the string
-            # by M a/(6 E I)
+            # relative to the chord between bit and stabiliser the hole turns by kappa a/2, the
+            # string by M a/(6 E I)
             near("tilt", row["tilt_high"] * side[0] + row["tilt_right"] * side[1],
                  1.5 * size * a / 6 - size * a / 2, 5e-3, size * a / 4)
     torque = 4000.0
@@ -227,9 +226,9 @@ def curved():
 
 
 def slid():
-    """A string that lies on the low side of a hole that builds is on the longer way: more of it
-    above the bit slides along the hole, which turns, but forces, tilt and sag are those against the
-    hole where bit and tool are."""
+    """A string on the low side of a building hole has the longer path, so it slides along the hole,
+    which turns; a longer string slides more. Forces, tilt and sag relative to the hole at bit and
+    tool do not change."""
     file = deck("slid", {6.0: gauge(0.1075)}, length=160.0)
     short, long = (run(file, "Bottom-Hole Assembly/Inclination={75 deg}",
                        "Bottom-Hole Assembly/Build Rate=6 deg/30m",
@@ -240,7 +239,7 @@ def slid():
 
 
 def turned():
-    """The same hole in another azimuth, and a vertical hole whose tool face is turned: the same
+    """The same hole in another azimuth, and a vertical hole with another tool face, give the same
     numbers."""
     features = {1.0: gauge(0.1075), 2.5: bend(0.7), 9.0: gauge(0.107)}
     settings = ("Bottom-Hole Assembly/Weight On Bit={60 kN}",
@@ -266,8 +265,8 @@ def turned():
 
 
 def example():
-    """The steerable motor of xml/: the length that is modelled does not matter, tables, summary and
-    report agree, ranks too."""
+    """The steerable motor of xml/: results do not depend on the modelled length or the number of
+    ranks; tables, summary and report agree."""
     motor = str(SOURCES / "xml/bha_motor_1500m.xml")
     setting = [
         f"Bottom-Hole Assembly/{what}"
@@ -326,8 +325,8 @@ def lying():
     walls = sum(one["wall_force_high"] for one in row["profile"])
     length = row["profile"][-1]["from_bit"]
     tangency = (24 * RIGIDITY * CLEARANCE / weight)**0.25
-    # the cut is held on the axis, which lifts the string over a length similar to that to the
-    # tangency point: it carries w L/2 less the weight lifted off the wall
+    # the cut is held on the axis, which lifts the string over about the length to the tangency
+    # point: the cut carries w L/2 less the weight lifted off the wall
     bearing = walls - row["side_force_high"]
     near("walls and bit bear the buoyed weight less that at the cut", bearing,
          weight * length - weight * tangency / 2, 1e-2)
@@ -336,7 +335,7 @@ def lying():
 
 
 def missing():
-    """A weight without an equilibrium gives a warning; the others keep their rows."""
+    """A weight without an equilibrium gives a warning; the rows of the other weights are kept."""
     scene = str(SOURCES / "tests/effects/bottom_hole.xml")
     settings = ("--set", "Bottom-Hole Assembly/Weight On Bit={10 kN, 20000 kN}", "--set",
                 "Static/Max Iterations=10")

@@ -61,8 +61,9 @@ def on_the_wall(what, folder, found, length, inclination=90.0):
 
 
 def euler():
-    """A weightless pipe of 20 m: Euler's load, one contact up to 4 of them (Timoshenko and Gere,
-    1.11), and then out of the plane, since beyond it would lie flat on the wall."""
+    """A weightless pipe of 20 m: Euler's load, one contact up to 4 times that load (Timoshenko and
+    Gere, 1.11), and then deflection out of the plane; in the plane the pipe would lie flat on the
+    wall."""
     length = 20.0
     load = RIGIDITY * (math.pi / length)**2
     found, said = run(deck("euler", length, 40, 6 * load, gravity=0.0), "Buckling/Crookedness=0.01",
@@ -93,14 +94,14 @@ def euler():
 
 
 def helix():
-    """A weightless pipe of 60 m winds: pitch, contact and shortening of Lubinski, Althouse and
-    Logan (1962). The ends reach less far into the middle half the shorter the pitch is, a fifth of
-    it at last."""
+    """A weightless pipe of 60 m winds into a helix: pitch, contact and shortening of Lubinski,
+    Althouse and Logan (1962). The influence of the ends reaches less far into the middle half as
+    the pitch decreases, at last over a fifth of it."""
     found, _ = run(deck("helix", 60.0, 120, 3e5, gravity=0.0))
     row = found[-1]
     force = row["compression"]
     near("compression", force, 3e5, 1e-6)
-    # a pipe that presses on its wall is 0.1 to 0.4 mm farther out: 0.8 % of r
+    # contact penetration puts the pipe 0.1 to 0.4 mm farther out: 0.8 % of r
     near("contact force r F^2/(4 E I)", row["contact_force"], CLEARANCE * force**2 / (4 * RIGIDITY),
          1e-2)
     near("pitch sqrt(8 pi^2 E I/F)", row["pitch"], math.sqrt(8 * math.pi**2 * RIGIDITY / force),
@@ -134,10 +135,10 @@ def horizontal():
     near("2 sqrt(E I w/r) in the summary", said["theory"]["sinusoidal"], critical, 1e-6)
     near("2 sqrt(2) sqrt(E I w/r) in the summary", said["theory"]["helical"],
          math.sqrt(2) * critical, 1e-6)
-    # the hinges hold the ends on the axis, a clearance above where the pipe lies: a tenth of the
-    # length is off the wall
+    # the hinges hold the ends on the axis, a clearance above the low side: a tenth of the length
+    # is off the wall
     near("first buckling", said["limit"], critical, 2.5e-2)
-    # a torque leads it onto the sinusoid without a negative pivot
+    # with a torque it buckles into the sinusoid without a negative pivot
     _, twisted = run(deck("twisted", length, 200, 1.2 * critical, inclination=90.0),
                      "Loads/Torque On Bit=10", "Buckling/Crookedness=0")
     near("first buckling under a torque of 10 N m", twisted["limit"], said["limit"], 1e-2)
@@ -206,8 +207,8 @@ def transition():
 
 def vertical():
     """100 m between hinges, vertical: the least root of the beam E I u_ssss + (F(s) u_s)_s = 0, F =
-    W - w (L - s), by 200 elements of its own; 1.98 (E I w^2)^(1/3) at the bit, and not the 2.55 of
-    a long string (Wu and Juvkam-Wold 1992), whose ends are held otherwise."""
+    W - w (L - s), from a separate model of 200 elements; 1.98 (E I w^2)^(1/3) at the bit, not the
+    2.55 of a long string (Wu and Juvkam-Wold 1992), whose ends are supported differently."""
     length, elements, unit = 100.0, 200, (RIGIDITY * WEIGHT**2)**(1 / 3)
     truth = hanging_beam(length, elements)
     _, said = run(deck("vertical", length, elements, 1.05 * truth))
@@ -217,9 +218,9 @@ def vertical():
 
 
 def unloaded():
-    """60 deg, 60 m: the helix into which the pipe jumps at more than 2.8 times the first buckling
-    stays under less weight, down to sqrt(2) times it (Chen, Lin and Cheatham 1990). The hinges,
-    each of which lifts half a turn off the wall, take it apart a tenth earlier at most."""
+    """60 deg, 60 m: the pipe jumps into a helix at more than 2.8 times the first buckling load, and
+    the helix remains as the weight decreases to sqrt(2) times that load (Chen, Lin and Cheatham
+    1990). Each hinge lifts half a turn off the wall, so the helix opens at most a tenth earlier."""
     critical = 2 * math.sqrt(RIGIDITY * WEIGHT * math.sin(math.radians(60)) / CLEARANCE)
     found, _ = run(deck("unloaded", 60.0, 120, 4 * critical, inclination=60.0),
                    f"Buckling/Unload To={1.1 * critical} N")
@@ -246,7 +247,7 @@ def unloaded():
 
 
 def followed():
-    """The path through unstable states, which turns; and two ranks."""
+    """The path through unstable states with its turning points; and two ranks."""
     file = deck("followed", 60.0, 120, 3.6e5, inclination=60.0)
     settings = ["--set", "Buckling/At A Limit=Follow", "--set", "Buckling/Max Steps=100"]
     for folder, ranks in (("out_followed", 1), ("out_ranks", 2)):
@@ -303,9 +304,9 @@ def documented():
 
 
 def slid(file, state):
-    """Almost without friction the stiff string of torque-drag slides to the state of the path, 2.6
-    times its first buckling load. The path has a crookedness of 2 % of the clearance, which the
-    stiff string has not."""
+    """Almost without friction the stiff string of torque-drag slides to the state of the path, at
+    2.6 times its first buckling load. The path has a crookedness of 2 % of the clearance; the stiff
+    string has none."""
     settings = ("Contact/Friction/Static=1e-4", "Contact/Friction/Dynamic=1e-4",
                 f"Loads/Weight On Bit={state['weight_on_bit']}", "Torque and Drag/Count=1",
                 "Torque and Drag/Operations={Drill sliding}")
@@ -360,9 +361,9 @@ def refusals():
 
 
 def buckled_runs():
-    """A horizontal pipe that turns, loaded beyond its buckling load: the stages of its static state
+    """A rotating horizontal pipe, loaded beyond its buckling load: the stages of its static state
     do not converge, and it slides to an equilibrium. At a higher load friction drives it round the
-    hole, and the message of the run says so and gives a remedy."""
+    hole; the message of the run says so and gives a remedy."""
     survey = pathlib.Path("horizontal.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 90, 0\n2000, 90, 0\n", encoding="utf-8")
     pipe = ('<ParameterList name="pipe"><Parameter name="Length" type="double" value="100"/>'

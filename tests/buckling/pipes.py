@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pipes between hinges for `tooljoint buckling`, and the theoretical wall forces, for
-check_buckling.py and docs/validation.md."""
+"""Pipes between hinges for `tooljoint buckling`, and theoretical wall forces, for check_buckling.py
+and docs/validation.md."""
 import csv
 import math
 import pathlib

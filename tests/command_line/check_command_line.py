@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line for a user.
+"""Checks the command line.
 
     check_command_line.py PROGRAM MPIEXEC DECK PARTS_DECK PLOTTER
 
-Help of every command, words that are no command, what `compare` says of two runs of DECK, and the
+Help of every command, unknown commands, the output of `compare` for two runs of DECK, and the
 pictures that PLOTTER draws of runs of a string and of PARTS_DECK.
 """
 import argparse
@@ -36,7 +36,7 @@ FULL = ["--without", "Reduction", "--without", "Substructures"]
 
 
 def narrow(what, done):
-    """Warnings and errors: tooljoint() of checks.py looks at those of all tests."""
+    """Checks the width of warnings and errors; tooljoint() of checks.py does so in all tests."""
     expect(f"{what}: no printed line has more than {COLUMNS} columns", done.stdout
            and not wide(done.stdout), "\n".join(wide(done.stdout)))
 
@@ -204,8 +204,8 @@ def reports():
 
 
 def versions():
-    """The comparison of two programs and its table, with one program beside itself: summaries of
-    the runs full and brief."""
+    """The comparison of two programs and its table, for a program with itself: summaries of the
+    runs full and brief."""
     options = argparse.Namespace(static=1e-10, motion=1e-9, steps=0.01)
     (_, _, none), _ = same_results.compare(pathlib.Path("full"), pathlib.Path("full"), options, {})
     (ratio, where, size), count = same_results.compare(pathlib.Path("full"), pathlib.Path("brief"),

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of the documents: check_commands.py PROGRAM PROJECT CTEST BUILD
 
-Blocks `sh` of the user's pages run line by line in a folder that looks like the project; motions
-and studies are made short on the way, so that all words are tried. Of the commands of
-docs/validation.md that differ in numbers alone one is run, static states as they stand, and the
-decks and overrides of the others are read. Of all other commands in the pages, in blocks and within
-lines, the command, its options, decks, tools and targets must exist, and the tests of this build
-that a page names. README.md, the tutorials, docs/first-report.md and docs/python.md have tests of
-their own, which run them word for word.
+Blocks `sh` of the user's pages run line by line in a folder that looks like the project. Motions
+and studies are shortened, so that every command runs in the test. Among the commands of
+docs/validation.md that differ only in numbers one is run, static states unchanged; the decks and
+overrides of the others are read. For all other commands in the pages, in blocks and within lines,
+the test checks that the command, its options, decks, tools and targets exist, and the tests of this
+build that a page names. Separate tests run README.md, the tutorials, docs/first-report.md and
+docs/python.md word for word.
 """
 import functools
 import json
@@ -52,14 +52,14 @@ SHORT = {
 }
 MAPPED = {}  # deck: folder
 COMPARED = ["Transient/End Time=1", "Measured Log/Begin=0 s",
-            "Measured Log/End=0.9 s"]  # of a motion with a log, which needs samples
+            "Measured Log/End=0.9 s"]  # a motion with a log needs samples
 OPTIONS_OF_DECKS = ("--set", "--without")
 PLACES = re.compile(r"\b(DECK|DIR|FILE|NAME|[A-Z]{2,})\b")
 
 
 def blocks(page, kinds=("sh",)):
-    """Commands in the blocks of a page, lines that go on joined, and the text of the block before
-    each."""
+    """Commands in the blocks of a page, with continued lines joined, and the text of the block
+    before each."""
     text, before, found = (PROJECT / page).read_text(encoding="utf-8"), "", []
     for kind, body in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S):
         if kind in kinds:
@@ -88,7 +88,7 @@ def words_of(line):
 
 
 def shortened(words):
-    """The words of a command with overrides that make it quick."""
+    """A command with overrides that shorten it."""
     if pathlib.Path(words[0]).name != "tooljoint" or words[1] not in SHORT or "Transient" in words:
         return words
     if words[1] == "map":  # a second map of a deck continues from the points of the first
@@ -158,7 +158,7 @@ def helped(*words):
 
 
 def spelled(text, page, targets):
-    """A command of a page: everything it names exists."""
+    """Checks that everything named in a command of a page exists."""
     text = text.split("#")[0].replace("\\|", "|")
     options = re.findall(r"(?<![\w-])--[a-z][\w-]*", text)
     if match := re.match(r"(?:mpirun -np \S+ |mpiexec -n \S+ )?(?:\S*/)?tooljoint(?: ([a-z-]+))?\b",
@@ -236,7 +236,7 @@ def check_words():
 
 
 def draw_map(folder):
-    """The tool that draws the maps of record takes the words of their page."""
+    """The tool that draws the maps of the documents uses the commands of their page."""
     changes = [word for text in SHORT["map"] if "Pictures" not in text for word in ("--set", text)]
     done = subprocess.run([
         PROJECT / "tools/maps.py", "--program", PROGRAM, "--work", folder / "maps", "--figures",

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The first scene a user sees: tools/first_run.py runs, its figures agree with a calculation by
-hand, and reduction pays.
+"""The first scene of a user: tools/first_run.py runs, its figures agree with a calculation by
+hand, and the reduced model is faster.
 
     check_first_run.py PROGRAM PROJECT
 
@@ -12,8 +12,8 @@ arm and mu(v) the friction curve (Nguyen et al. 2020, eq. 9) at the sliding spee
     (friction acts around the hole, so none of it along)
     torque    = torque on bit + sum mu(Omega R) N R
 
-The first neglects that the top element carries the mean of its ends and the bending of the string:
-0.1 %. The second is exact: 0.1 %.
+The hook load neglects the bending of the string and that the force of the top element is the mean
+of its ends: tolerance 0.1 %. The torque is exact: tolerance 0.1 %.
 """
 import json
 import math

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Manual pages and completions against the help of the program: check_pages.py PROGRAM PAGES
 
-PAGES is the folder the build has written them to. What the help of a command names stands in its
-page, in the page of the program and in both completions, and no page has anything else. Pages are
-set by man, and the zsh function is read by zsh, where these are installed. Parameters that the
-manual shows first are in a deck, an example or a tool.
+PAGES is the folder of the pages in the build. The options and words in the help of a command must
+be in its page, in the page of the program and in both completions, and the pages must have no
+others. If man and zsh are installed, man formats the pages and zsh reads its function. Parameters
+that the manual shows first must be in a deck, an example or a tool.
 """
 import functools
 import json
@@ -36,12 +36,12 @@ def options(*words):
 
 
 def plain(path):
-    """The text of a manual page without its requests of fonts."""
+    """The text of a manual page without font requests."""
     return re.sub(r"\\f[BIR]", "", path.read_text(encoding="utf-8")).replace("\\-", "-")
 
 
 def spelled(text):
-    """Options that head an entry of a page."""
+    """Options that begin an entry of a page."""
     return {
         name for line in re.findall(r"^\.TP\n(-.*)$", text, re.M)
         for name in re.findall(r"(?<![\w-])--?[\w-]+", line)
@@ -79,7 +79,7 @@ def manual(names):
 
 
 def completed(*words):
-    """Completions of bash for the last of the words."""
+    """Completions by bash of the last of the words."""
     script = (
         'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _tooljoint; '
         'printf "%s\\n" "${COMPREPLY[@]}"')
@@ -149,8 +149,8 @@ def walked(described, path):
 
 
 def levels():
-    """A parameter that no deck, example or tool shows is for experts, unless a user of its list
-    must give it."""
+    """A parameter that no deck, example or tool uses is an expert parameter, unless a user of its
+    list must give it."""
     needed = {
         "Top Drive/Tuning Frequency",
         *(f"Coupling/{kind}/*/Second" for kind in ("Springs", "Stops", "Sliders", "Point Laws"))

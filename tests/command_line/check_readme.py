@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of documents word for word: check_readme.py PROGRAM PROJECT [PAGE]
 
-Without PAGE the block "Go on" of README.md; with one, a tutorial: its blocks `sh`, one after the
-other in one shell. Each line of its blocks `text` must stand in what the commands before it have
-printed.
+Without PAGE the block "Go on" of README.md; with PAGE a tutorial: its blocks `sh`, one after the
+other in one shell. Each line of its blocks `text` must be in the output of the commands before it.
 
-They run in a scratch folder that looks like the project. What stands there as
-build/release/tooljoint hands its arguments to PROGRAM; motions, maps and studies, which take
-minutes, are made shorter on the way, so that all words are tried and the test takes seconds.
-Tutorials show numbers of the whole motions.
+The commands run in a scratch folder that looks like the project. build/release/tooljoint is a
+script there that passes its arguments to PROGRAM and shortens motions, maps and studies, so that
+every command runs and the test takes seconds instead of minutes. Tutorials are run with the whole
+motions, since they show numbers of them.
 """
 import json
 import pathlib
@@ -48,8 +47,7 @@ def block():
 
 
 def stage(folder, settings):
-    """A folder that looks like the project to the block; `settings` of commands, which its program
-    adds."""
+    """A folder that looks like the project; its program adds these `settings` to the commands."""
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "build/release").mkdir(parents=True)
     for name in ("tools", "xml"):
@@ -98,14 +96,14 @@ def check_readme(folder):
 
 
 def check_page(folder, page):
-    """The blocks of a tutorial.
-    A mark in the output tells what the commands before a block of text have printed."""
+    """Checks the blocks of a tutorial. A mark in the output separates the commands before a block
+    of text."""
     blocks = re.findall(r"^```(sh|text)\n(.*?)^```$", (PROJECT / page).read_text(encoding="utf-8"),
                         re.M | re.S)
     commands = [text for kind, text in blocks if kind == "sh"]
     reports = sorted(set(PICTURED.get(page, {}).values()))
     keep = "".join(f"[ ! -f {report} ] || cp {report} {report}.kept\n"
-                   for report in reports)  # a later command takes it away where reports are off
+                   for report in reports)  # a later command deletes it if reports are off
     script = "".join(f"{text}{keep}echo '@@ {number}'\n" for number, text in enumerate(commands, 1))
     done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=folder,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Templates and new folders are decks that check and run as they are.
+"""Templates and decks of new folders can be checked and run unchanged.
 
     check_templates.py PROGRAM MPIEXEC
 """
@@ -63,8 +63,8 @@ def tvd(stations):
 
 
 def wells():
-    """`template well` and the deck of `new` are one well; its hook load is that of torque and
-    drag."""
+    """`template well` and the deck of `new` describe one well; its hook load equals that of torque
+    and drag."""
     text = printed("well.xml", "well")
     expect("template well: a page, of tubulars of the library", "fill*5 in stand" in text
            and len(text.splitlines()) < 70, str(len(text.splitlines())))

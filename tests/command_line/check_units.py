@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Printed results in units of the field: check_units.py PROGRAM MPIEXEC SOURCES
+"""Printed results in field units: check_units.py PROGRAM MPIEXEC SOURCES
 
-Commands run twice, with and without --units field. Their lines are the same words with the same
-quantities: each number, times the exact value of its unit, is that of the other line within the
-digits of both. Files are the same to the byte.
+Commands run twice, with and without --units field. Both outputs have the same words and quantities:
+each number, times the exact value of its unit, agrees within the printed digits. Files are bitwise
+equal.
 """
 import csv
 import json
@@ -48,7 +48,7 @@ NUMBER = r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 
 
 def quantities(text, units):
-    """(number as written, unit) of a text, and its words without numbers; the program breaks lines
+    """(number as printed, unit) of a text, and its words without numbers; the program wraps lines
     at 100 columns."""
     pattern = re.compile(
         f"({NUMBER}) ({'|'.join(map(re.escape, sorted(units, key=len, reverse=True)))})(?![\\w/]| "
@@ -60,7 +60,7 @@ def quantities(text, units):
 
 
 def half_digit(text):
-    """Half of the last digit of a number as it is written."""
+    """Half of the last digit of a printed number."""
     mantissa, _, exponent = text.partition("e")
     return 0.5 * 10.0**(int(exponent or 0) - len(mantissa.partition(".")[2]))
 
@@ -89,8 +89,8 @@ def same_words(what, usual, field, at_least):
 
 
 def both(command, deck, *arguments, at_least, files=(), begin="", end=None):
-    """Runs the command in both systems, with results in the folders usual and field; compares what
-    it prints from `begin` on, up to `end`, and its files."""
+    """Runs the command in both systems of units, with results in the folders usual and field;
+    compares its output from `begin` up to `end`, and its files."""
     out = [
         tooljoint(command, deck, *arguments,
                   *(["--output", folder] if command not in ("check", "modes") else []), *units)
@@ -139,7 +139,7 @@ def of_strings():
     both("buckling", str(SOURCES / "tests/effects/buckling.xml"), at_least=4,
          files=["buckling.csv", "buckling_profile.csv"], begin="crookedness ", end="contact force")
     both("modes", SCENE, "--set", "Reduction/Mode Selection/Modes=2", "--count", "3", at_least=10)
-    # the heading of the table, and numbers that a file has in SI
+    # the heading of the table, and numbers that are in SI in a file
     out = both("torque-drag", str(SOURCES / "xml/build_hold_1400m.xml"), "--set",
                "Torque and Drag/Count=1", "--set", "Torque and Drag/Stiff String=None", at_least=10,
                files=["torque_drag.csv", "torque_drag_profile.csv"])

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs every bad deck of a folder through `tooljoint check` and compares exit code and message.
 
-A deck says in its first XML comment what the user must see:
+The first XML comment of a deck gives the expected message:
 
     <!-- expect(2): deck.xml:7: /Scene/Contact/Stiffnes is not a parameter.
          expect(2): Did you mean "Stiffness"?
@@ -13,7 +13,7 @@ Each `expect(code):` line is text that stderr must contain (runs of blanks count
 must be equal. `set: PATH=VALUE` adds `--set PATH=VALUE`; `args:` adds words as a shell would split
 them, where `\\-\\-` stands for the two hyphens XML forbids in a comment. A deck that cannot hold a
 comment (empty, no XML at all) has the same lines in a file NAME.xml.expect beside it. Only *.xml
-directly in the folder are decks; what they name may stand in subfolders.
+directly in the folder are decks; files that they name may be in subfolders.
 """
 import argparse
 import concurrent.futures
@@ -58,7 +58,7 @@ def squeeze(text):
 
 
 def check(program, deck):
-    """List of complaints about one deck; empty when it behaves."""
+    """Complaints about one deck; empty if it behaves as expected."""
     try:
         code, sentences, arguments = read_expectations(deck)
     except ValueError as problem:
@@ -87,7 +87,7 @@ def main():
     parser.add_argument("program", help="the tooljoint program")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--at-least", type=int, default=1,
-                        help="fail when the folder holds fewer decks")
+                        help="fail if the folder has fewer decks")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
 

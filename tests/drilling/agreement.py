@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers of a run compared with true ones."""
+"""Compares numbers of a run with reference values."""
 from checks import expect
 
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Laws of bits and top drives in runs of the program, beside integrations of scipy and
+"""Laws of bits and top drives in runs of the program, compared with integrations of scipy and
 characteristic equations (models.py); figures of merit of motions with closed forms.
 
     check_drilling.py PROGRAM [NAME ...]           NAME: some of the checks
     check_drilling.py PROGRAM combinations [without-sundials]
                         laws under every integrator (combinations.py)
     check_drilling.py PROGRAM stick_slip_2500m
-                        the tables of docs/guide/bit-and-top-drive.md and what it says of them
+                        the tables of docs/guide/bit-and-top-drive.md and statements on them
 """
 import csv
 import math
@@ -94,8 +94,8 @@ def strings(program):
              np.abs(run.nodes(THETA_Z) - theta).max() / np.abs(theta).max(), 0.0, bound)
         near(f"{name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
         torque = run.data("transient/torque_on_bit")
-        # where it sticks, the torque of a step takes any value that the friction carries: by its
-        # mean square
+        # while the bit sticks, the torque of a step can have any value within the limit of
+        # friction, so the mean square is compared
         near(f"{name}: torque on bit",
              np.sqrt(np.mean((torque - STRING_BIT.torque(bit))**2)) / STRING_BIT.static, 0.0,
              4 * bound)
@@ -123,8 +123,8 @@ def torque_source(program):
 
 
 def steady(program):
-    """A motion that begins in steady drilling has the static torque and stays there where it is
-    stable."""
+    """A motion that begins in steady drilling has the static torque and keeps it if steady drilling
+    is stable."""
     drive = {"Control": "Impedance Matched", "Inertia": 1500.0, "Tuning Frequency": 0.25}
     rotary = {"Law": "Constant", "Constant": {"Speed": 15.0}}
     run = string(program, "steady", drive, {"Transient/End Time": 5.0}, **{"Rotary Speed": rotary})
@@ -174,8 +174,8 @@ def among_bending(program):
 
 
 def stuck_with_arkode(program):
-    """A bit that dry friction holds stays, also where Newton of a stage meets the way on which it
-    turns."""
+    """A bit held by dry friction stays at rest, even if the Newton iteration of a stage meets the
+    branch on which it turns."""
     run = program.run("stuck_with_arkode", HERE.parents[1] / "xml/stick_slip_2500m.xml",
                       {"Transient/Integrator": "SUNDIALS ARKODE", "Transient/End Time": 0.44},
                       ("Transient/Step",))
@@ -184,7 +184,7 @@ def stuck_with_arkode(program):
 
 
 def idle_bits(program):
-    """Bits that would do nothing, and drives without a torque or an integral, are refused."""
+    """Bits without effect, and drives without a torque or an integral, are refused."""
     cutting = {"Bit/Law": "Cutting", "Bit/Cutting/Radius": 0.1, "Bit/Cutting/Blades": 4}
     feed, steady, backward = (
         {"Top Drive/Block Speed": 1e-3},
@@ -233,7 +233,7 @@ def idle_bits(program):
 
 
 def misfit(t, x, roots):
-    """Part of x that is no sum of the modes with these roots, relative."""
+    """Relative part of x that is not a sum of the modes with these roots."""
     columns = np.column_stack(
         [np.ones(len(t)), *(part(np.exp(s * t)) for s in roots for part in (np.real, np.imag))])
     fit, *_ = np.linalg.lstsq(columns, x, rcond=None)
@@ -305,9 +305,9 @@ def matched(program):
 
 
 def cutting(program):
-    """A bit that cuts, axial and torsional loop together: static state, and the motion against an
-    integration of its own with the delay solved for; full against reduced; both integrators; a free
-    hook."""
+    """A cutting bit with coupled axial and torsional loops: static state, and the motion compared
+    with a separate integration that solves for the delay; full against reduced; both integrators; a
+    free hook."""
     slow, fast, rise, feed = 12.0, 14.0, 0.3, 3e-3
     bit = {"Blades": 4, "Radius": 0.108, "Specific Energy": 1e6, "Inclination": 0.6}
     drive = {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every law of the bit and every control of the drive under every integrator, in the full and the
-reduced model: one motion, a ledger that closes, figures of merit, and a run restarted from its
-checkpoint with the same numbers."""
+"""Every law of the bit and every control of the drive with every integrator, in the full and the
+reduced model. Each combination is one motion with a closed ledger, figures of merit, and a run
+restarted from its checkpoint with the same numbers."""
 import resource
 import subprocess
 
@@ -50,11 +50,11 @@ SCENES = {
     ),
     "penetration, autodriller and PI drive": ({"Law": "Tucker-Wang"}, {**SPEED, **DRILLER}, None),
 }
-# settings, and bounds of the difference from RK4 over the change of the motion: of the angle of the
-# bit and of its advance. The error of steps of order h^2 is a thousandth of the wave that returns
-# from the bit; tolerances of a step add up over hundreds of steps. RK4 adaptive and ARKODE have
-# their usual tolerances. A steep law turns small errors of velocities into forces: their errors may
-# be ten times that of the advance.
+# settings, and bounds of the differences from RK4 in the angle and the advance of the bit, relative
+# to the change of the motion. Steps of order h^2 have an error of a thousandth of the wave that
+# returns from the bit; tolerances of a step add up over hundreds of steps. RK4 adaptive and ARKODE
+# have their usual tolerances. A steep law turns small errors of velocities into forces: their
+# errors may be ten times that of the advance.
 REFERENCE = ("RK4", {"Transient/Integrator": "RK4", "Transient/Step": 1e-4})
 HALF = "generalized-alpha, half the step"
 INTEGRATORS = (
@@ -94,8 +94,7 @@ def deck(program, name, bit, drive, weight):
                 "Top Drive": drive,
                 "Substructures": {"Rule": "By component"},
                 "Reduction": {"Mode Selection": {"Modes": 6}},
-                "Output": {"Compression": 0
-                           },  # so that the place of a chunk is known before it is full
+                "Output": {"Compression": 0},  # gives a known file position of a chunk
                 "Transient": {
                     "Progress": False, "End Time": 1.0, "Sampling Interval": 0.002,
                     "Checkpoint Interval": 0.1
@@ -104,8 +103,8 @@ def deck(program, name, bit, drive, weight):
 
 
 def goes_on(program, name, path, whole, settings, without):
-    """The run on a disk that is full when the second chunk of a field is to be written, after nine
-    tenths of the motion, and then with room again."""
+    """The run on a disk that is full when the second chunk of a field is written, after nine tenths
+    of the motion, and then continued with free space."""
     folder = program.work / f"{name}_halted"
     size = int(0.85 * (whole.folder / "results.h5").stat().st_size)
     own = program.overrides({"Output/XDMF": "false", "Output/CSV": "false", **settings}, without)
@@ -135,7 +134,7 @@ def forces(run, gives_weight):
 
 
 def figures_of(run, gives_weight):
-    """Names of figures of merit that are missing, or are there without sense."""
+    """Names of figures of merit that are missing or implausible."""
     found = run.motion["figures"]
     missing = [name for name in OF_EVERY_BIT if found.get(name) is None]
     missing += [

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction along the hole (Contact/Friction/Axial): drag of steady sliding by formula, a string
-that slips and sticks on its way down against scipy, its damped modes and response against a
-separate matrix, and a string that begins to turn while it slides."""
+with stick-slip on its way down against scipy, its damped modes and response against a separate
+matrix, and a string that begins to turn while it slides."""
 import csv
 import math
 
@@ -63,8 +63,8 @@ def turning(speed):
 
 
 def steady(program):
-    """Hook load w L (cos a -+ mu sin a) of a sliding string, less by v_a/v if it also turns, at
-    rest and in the steady motion."""
+    """Hook load w L (cos a -+ mu sin a) of a sliding string; if it also turns, the friction term is
+    reduced by v_a/v; at rest and in the steady motion."""
     for name, feed, omega in (("up", -0.3, 0.0), ("down and turning back", 0.2, -OMEGA)):
         run = program.run("steady",
                           deck(program, "steady", feed, **(turning(omega) if omega else {})))
@@ -72,7 +72,7 @@ def steady(program):
         v = math.hypot(feed, omega * PIPE["Outer Radius"])
         along, around = mu(v) * feed / v, mu(v) * omega * PIPE["Outer Radius"] / v
         pressed = run.summary["static"]["total_normal_force"]
-        # the wall holds the weight across the hole with N and friction; the first node hangs in the
+        # N and friction of the wall carry the weight across the hole; the first node hangs in the
         # support
         across = WEIGHT * math.sin(INCLINATION) * (
             1 - 0.5 / (COUNT * PIPE["Elements"])) / math.sqrt(1 + around**2)
@@ -89,7 +89,7 @@ def steady(program):
 
 
 class Rod:
-    """Axial elements below a block that goes down at U, with friction of given normal forces."""
+    """Axial elements below a block that moves down at U, with friction of given normal forces."""
     def __init__(self, normal):
         n = len(normal)
         h = PIPE["Length"] / PIPE["Elements"]
@@ -136,7 +136,7 @@ class Rod:
         return s[s.imag > 0]
 
 
-# parts without retained nodes: friction acts by way of the modes
+# parts without retained nodes: friction acts on the modes
 PARTS = {
     "Substructures": {"Rule": "By component", "Retained Nodes": "None"},
     "Reduction": {"Mode Selection": {"Modes": 24}},
@@ -144,8 +144,8 @@ PARTS = {
 
 
 def slipping(program):
-    """The static state has no friction but the motion has: the string slows down almost to rest and
-    continues. The normal forces do not change."""
+    """The static state has no friction but the motion has: the string slows almost to rest and
+    moves on. The normal forces do not change."""
     feed, end = 0.03, 0.2
     settings = {
         "Transient/End Time": end, "Transient/Sampling Interval": 0.002, "Static/Friction": "None"
@@ -172,8 +172,8 @@ def slipping(program):
 
 
 def slopes(program):
-    """Damped modes about sliding: the axial ones have the slope of the coefficient as damping, here
-    a negative one."""
+    """Damped modes about sliding: the slope of the friction coefficient acts as damping of the
+    axial ones; it is negative here."""
     feed = 0.3
     run = program.run("slopes", deck(program, "slopes", feed), {}, ("Transient",), command="modes",
                       extra=("--count", "80"))
@@ -212,7 +212,7 @@ def slopes(program):
 
 
 def spun_up(program):
-    """A string that slides begins to turn: torque replaces drag, in both models and with two
+    """A sliding string begins to turn: torque replaces drag, in both models and with two
     integrators. If only translations are retained, the torque of friction acts on the four modes of
     a part."""
     lists = {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stability of steady drilling by drive: simulations on both sides of the limits of the torsional
-line."""
+"""Stability of steady drilling for several drives: simulations on both sides of the limits of the
+torsional line."""
 import math
 
 import models
@@ -9,7 +9,7 @@ from checks import expect
 from scenes import growth_of_pair
 
 THETA_Z = 5
-HIGHEST = 40.0  # [rad/s]: friction drives the first modes
+HIGHEST = 40.0  # [rad/s]: friction excites the first modes
 WEIGHT, INERTIA, MASS, STIFFNESS = 60e3, 1500.0, 0.05, 1e-3
 PIPE, COLLAR = {**models.PIPE, "Elements": 30}, {**models.COLLAR, "Elements": 10}
 BIT = models.Friction(static=WEIGHT * 0.108 * 0.8, dynamic=WEIGHT * 0.108 * 0.5, decay=1.1,
@@ -30,7 +30,7 @@ DRIVES = {"stiff": torsion.Drive(20000.0, 10000.0, INERTIA), "matched, ratio 4":
 
 
 def critical_speed(drive):
-    """Below it steady drilling is unstable [rad/s]."""
+    """Rotary speed below which steady drilling is unstable [rad/s]."""
     slope = LINE.critical_slope(drive, HIGHEST)
     return BIT.decay * math.log((BIT.static - BIT.dynamic) / BIT.decay / (BIT.viscous - slope))
 
@@ -70,8 +70,9 @@ def growth(program, name, drive, speed):
 
 
 def drive_limits(program):
-    """The critical speed of a stiff drive, and of matched ones, is that of the line: growth below,
-    decay above; between them the stiff drive's motion grows and the tuned one's decays."""
+    """The critical speeds of a stiff drive and of matched ones agree with those of the torsional
+    line: growth below, decay above. Between them the motion with the stiff drive grows and with the
+    tuned one decays."""
     speeds = {name: critical_speed(drive) for name, drive in DRIVES.items()}
     between = 0.5 * (speeds["stiff"] + speeds["matched, ratio 4"])
     expect("the tuned drive is stable at lower speeds",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bits of smooth curves and of penetration, and the autodriller, against closed forms and
-integrations of their own."""
+"""Bits with smooth torque curves or with a penetration law, and the autodriller, against closed
+forms and separate integrations."""
 import csv
 import math
 
@@ -26,7 +26,7 @@ def string(program, name, settings, end, lists):
 
 
 def tanh_bit(program):
-    """A string from rest below a PI drive, its bit resisting by the smooth curve: scipy, both
+    """A string from rest below a PI drive, with a smooth torque curve at the bit: scipy, both
     models and integrators, the ledger."""
     weight, speed, rise, inertia, kp, ki = 244.2e3, 8.0, 0.5, 1500.0, 2000.0, 1000.0
     times = np.arange(0, 10.0 + 1e-9, 0.01)
@@ -52,8 +52,8 @@ def tanh_bit(program):
         run = string(program, f"tanh_{name}", own, 10.0, {**lists, **more})
         near(f"tanh, {name}: largest error of theta_z",
              np.abs(run.nodes(THETA_Z) - theta).max() / np.abs(theta).max(), 0.0, bound)
-        # at low speed the curve is steep, and a release some ms early is a large error of the
-        # torque then: by its mean square
+        # at low speed the curve is steep, and a release a few ms early is a large error of the
+        # torque, so the mean square is compared
         near(
             f"tanh, {name}: torque on bit",
             np.sqrt(np.mean(
@@ -130,8 +130,8 @@ def driller(program, name, top, end=60.0, settings=None, **lists):
 
 
 def ahead(program, own):
-    """Torque and drag of a string with an autodriller drills ahead with the set weight, and the
-    torque of the bit at the speed of the operation."""
+    """In torque and drag, a string with an autodriller drills ahead with the set weight and with
+    the torque of the bit at the speed of the operation."""
     bit = models.PenetrationBit()
     for name, rotary in (
         ("constant", {"Law": "Constant", "Constant": {"Speed": SPEED}}),
@@ -171,8 +171,8 @@ def ahead(program, own):
 
 
 def two_sensors(program, top):
-    """Measured weight and hook load of a block that jerks: W = W_0 - (H - H_0) + m_b w_1'', and the
-    inertia of the first element."""
+    """Measured weight and hook load for an accelerated block: W = W_0 - (H - H_0) + m_b w_1'', and
+    the inertia of the first element."""
     own = {**top["Autodriller"], "Proportional Gain": 1e-6, "Integral Gain": 1e-7}
     run = driller(program, "driller_sensors", {**top, "Autodriller": own}, 5.0,
                   {"Output/Fields": "{displacement, acceleration}"})
@@ -187,8 +187,8 @@ def two_sensors(program, top):
 
 
 def autodriller(program):
-    """The loop of block, lines, pipe and bit: linear motion and closed-loop poles; the block speed
-    it begins with; its limits."""
+    """The loop of block, lines, pipe and bit: linear motion and closed-loop poles; initial block
+    speed; limits."""
     bit = models.PenetrationBit()
     slope, begin, lack = float(bit.factor(SPEED)), 120e3, 60e3
     feed = (begin - float(bit.weight(0.0, SPEED))) / slope
@@ -219,7 +219,7 @@ def autodriller(program):
         near(f"autodriller, {name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
     poles = loop.poles(KI)
     slow = np.sort_complex(np.linalg.eigvals(loop.A))
-    for pole in poles:  # masses shift them by little
+    for pole in poles:  # masses shift them only slightly
         near(f"autodriller: a pole of the loop is s = {pole:.4f} 1/s, without masses; off by",
              np.abs(slow - pole).min() / abs(pole), 0.0, 0.02)
     run = driller(program, "driller_found", {"Autodriller": {**own, "Weight On Bit": begin + lack}},

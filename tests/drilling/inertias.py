@@ -47,7 +47,7 @@ def two_inertias(program, name, drive, start=(0.0, 0.0), settings=None, bit=BIT)
 
 
 def exact(drive, times, start, bit=BIT):
-    """The same by scipy: angles and speeds of both."""
+    """The same motion by scipy: angles and speeds of both."""
     V, kp, ki = (drive.get(name, 0.0) for name in ("Speed", "Proportional Gain", "Integral Gain"))
     limit = drive.get("Force Limit", math.inf)
     a0 = start[0]
@@ -92,7 +92,7 @@ def stick_slip(program):
 
 
 def onset(program):
-    """On both sides of the speed where steady drilling loses stability: growth of a small
+    """Both sides of the speed at which steady drilling loses stability: growth of a small
     disturbance against the eigenvalue."""
     drive = {"Proportional Gain": 3000.0, "Integral Gain": 2000.0}
 
@@ -134,7 +134,7 @@ def onset(program):
 
 
 def torque_limit(program):
-    """The limit of a drive and the integral that it stops: against scipy."""
+    """The torque limit of a drive, and its integral, which stops at the limit: against scipy."""
     drive = {
         "Speed": 4.0, "Proportional Gain": 3000.0, "Integral Gain": 2000.0, "Force Limit": 7600.0
     }

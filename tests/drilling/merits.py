@@ -12,8 +12,8 @@ from scenes import parts_deck
 
 
 def figures(run, feed):
-    """Figures of merit of a bit that cuts, of the second half of the motion: the work of weight and
-    torque over the rock that is gone."""
+    """Figures of merit of a cutting bit over the second half of the motion: the work of weight and
+    torque divided by the removed rock."""
     found = run.motion["figures"]
     window = run.time() > 1.0 - 1e-9
     weight, torque = (run.data(f"transient/{name}_on_bit")[window] for name in ("weight", "torque"))
@@ -27,8 +27,8 @@ def figures(run, feed):
     energy = np.sum(weight * advance + torque * speed) / (area * advance.sum())
     near("figures: rate of penetration", found["rate_of_penetration"], advance.mean(), 1e-12)
     near("figures: mechanical specific energy", found["specific_energy"], energy, 1e-9 * energy)
-    # pure cutting: the torque gives the specific energy of the bit on the face of the bit, W v is
-    # small beside it
+    # pure cutting: the torque gives the specific energy on the face of the bit, W v is small in
+    # comparison
     near("figures: it is that of the bit",
          found["specific_energy"] / 1e6 * (models.BORE / 0.108)**2, 1.0, 0.1)
     near("figures: stick-slip index", found["stick_slip_index"],
@@ -36,13 +36,13 @@ def figures(run, feed):
 
 
 def oscillator(program):
-    """Figures of merit of a mass on a spring: x = X cos(omega t) has the acceleration omega^2 X,
-    1/sqrt(2) of it rms."""
+    """Figures of merit of a mass on a spring: x = X cos(omega t) has the acceleration amplitude
+    omega^2 X, and 1/sqrt(2) of it as rms."""
     mass, stiffness, size = 2.0, 800.0, 1e-3
     omega = math.sqrt(stiffness / mass)
     part = program.part("oscillator", ["u"], np.diag([mass, mass]),
                         stiffness * np.array([[1, -1], [-1, 1]]), np.zeros((2, 2)))
-    # symmetric: each mass swings against the middle of the spring
+    # symmetric: each mass vibrates against the middle of the spring
     swing = math.sqrt(2) * omega
     starts = {
         f"start {n}": {
@@ -67,10 +67,10 @@ def oscillator(program):
 
 
 def whirl(program):
-    """Figures of whirl of two balanced collars on hinges: a force that turns at omega drives every
+    """Figures of whirl of two balanced collars on hinges: a force rotating at omega moves every
     node on a circle at omega, in the sense of the force; the mass of an unbalance turns with the
     string."""
-    # hinged at 20 m: 5.5 rad/s, so that its own motion dies within the 4 s before the window
+    # hinged at 20 m: 5.5 rad/s, so that the free vibration decays within the 4 s before the window
     collar = {**models.COLLAR, "Length": 10.0, "Elements": 4}
     speed, omega, middle = 12.0, 2 * math.pi * 3.0, collar["Elements"] + 1
 
@@ -115,7 +115,7 @@ def whirl(program):
             near(f"whirl, {name}: {key}", found[key], wanted, 1e-12)
         near(f"whirl, {name}: worst precession", found["worst_precession_rpm"] * RPM, rate,
              1e-3 * abs(rate))
-        if rate < 0:  # all nodes do so all the time: that of the widest orbit is named
+        if rate < 0:  # all nodes do so all the time: the node of the widest orbit is named
             moved = run.data("transient/displacement")[run.time() >= 4.0 - 1e-9][:, :, :2]
             widest = int((moved**2).sum(axis=(0, 2)).argmax()) + 1
             expect(f"whirl, {name}: the node of the widest orbit",

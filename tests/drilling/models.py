@@ -13,7 +13,7 @@ COLLAR = {"Length": 100.0, "Elements": 1, "Outer Radius": 0.0795, "Inner Radius"
 STEEL = {"Density": 7850.0, "Young Modulus": 2.1e11, "Poisson Ratio": 0.3}
 BORE = 0.2  # radius of the hole [m]
 RPM = math.pi / 30
-THETA_Z, W = 5, 2  # components of a node
+THETA_Z, W = 5, 2  # components per node
 DENSITY, YOUNG, SHEAR = 7850.0, 2.1e11, 2.1e11 / 2.6
 
 
@@ -46,7 +46,7 @@ class Friction:
         return self.viscous * w + dry * smoothed_sign(w, self.width)
 
     def slope(self, w):
-        """dT/dw of a bit that slides forward."""
+        """dT/dw of a bit that slips forward."""
         return self.viscous - (self.static - self.dynamic) / self.decay * math.exp(-w / self.decay)
 
 
@@ -68,7 +68,7 @@ def string_deck(pieces, **lists):
 
 
 class TorsionalString:
-    """Linear torsional elements, in the frame that turns with Omega(t): an independent
+    """Linear torsional elements in the frame that turns with Omega(t): an independent
     implementation."""
     def __init__(self, pieces, damping=0.0, inertia=0.0):
         elements = [(part, part["Length"] / part["Elements"]) for part, count in pieces
@@ -102,7 +102,7 @@ class TorsionalString:
 
 class CuttingString:
     """Axial and torsional elements above a bit of sharp blades, as deviations from steady drilling,
-    by the classical Runge-Kutta method; the delay is the root of phi(t) - phi(t - t_n) = 2 pi/n in
+    by the classical Runge-Kutta method; the delay is the root of phi(t) - phi(t - t_n) = 2 pi/n for
     the motion so far."""
     def __init__(self, pieces, damping, inertia, blades, radius, energy, inclination):
         torsion = TorsionalString(pieces, damping, inertia)
@@ -171,8 +171,8 @@ def cycles(t, w, width):
 
 
 class Chatter:
-    """m s^2 + c s + k + A (1 - exp(-s tau)) = 0: a mass on a spring that cuts the surface it left
-    one delay earlier."""
+    """m s^2 + c s + k + A (1 - exp(-s tau)) = 0: a mass on a spring that cuts the surface left one
+    delay earlier."""
     def __init__(self, mass, damping, stiffness):
         self.m, self.c, self.k = mass, damping, stiffness
         self.natural = math.sqrt(stiffness / mass)
@@ -306,7 +306,7 @@ class TanhBit:
 
 class PenetrationBit:
     """Weight and torque after Tucker and Wang 2003 with the constants of Ritto, Soize and Sampaio
-    2009; Z^2 at least 0.01 where it divides."""
+    2009; as a divisor Z^2 is at least 0.01."""
     A1, A2, A3, A4, A5, E, FLOOR = 3.429e-3, 5.672e-8, 1.374e-4, 9.537e6, 1.475e3, 2.0, 1e-2
 
     def factor(self, w):
@@ -322,8 +322,8 @@ class PenetrationBit:
 
 
 class PenetratingString:
-    """Axial and torsional elements above a bit with weight and torque by its rates, below a PI
-    drive and a block that advances steadily."""
+    """Axial and torsional elements above a bit whose weight and torque depend on its rates, below a
+    PI drive and a block that advances steadily."""
     def __init__(self, pieces, damping, inertia):
         self.torsion = TorsionalString(pieces, damping, inertia)
         self.axial = CuttingString(pieces, damping, inertia, 1, 1.0, 1.0, 1.0)

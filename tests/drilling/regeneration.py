@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Growth of steady drilling with a bit that cuts, at the end of a long string: the static state
-beside characteristic equations."""
+"""Growth of steady drilling with a cutting bit at the end of a long string: the static state
+compared with characteristic equations."""
 import cmath
 import math
 import pathlib
@@ -18,9 +18,9 @@ INCH = 0.0254
 
 
 def stiffness(s, pieces, modulus, section, top):
-    """Of the lower end of uniform pieces below the stiffness `top`: of each piece Z (T + Z t)/(Z +
-    T t) with T that of the pieces above, Z = E (1 + b s) A q, t = tanh q L and q^2 = rho (s^2 + a
-    s)/(E (1 + b s)); with G and J of a twist."""
+    """Dynamic stiffness at the lower end of uniform pieces below the stiffness `top`: for each
+    piece Z (T + Z t)/(Z + T t), where T is the stiffness of the pieces above, Z = E (1 + b s) A q,
+    t = tanh q L and q^2 = rho (s^2 + a s)/(E (1 + b s)); for torsion with G and J."""
     below = top
     a, b = pieces[0]["Damping"]
     for piece in pieces:
@@ -44,7 +44,7 @@ class Drilling:
         self.feed = 0.0
 
     def under(self, weight):
-        """Sharp blades with that weight."""
+        """Sharp blades with this weight on bit."""
         self.feed = weight / self.slope / self.delay
         return self
 
@@ -105,10 +105,10 @@ def uniform(program, name, energy, lists):
 
 
 def regeneration(program):
-    """A string on a smooth wall: with the delay held, the turn of a bit takes torque from it, and
-    modes that bend the string hide how it yields along the hole. A bit below an autodriller, of
-    whose modes not the least damped one with held states is the one that grows fastest. A scene
-    with collars, whose growing mode is next to another one."""
+    """Three scenes. A string on a smooth wall: with the delay held, the rotation of the bit reduces
+    its torque, and bending modes mask the compliance along the hole. A bit below an autodriller:
+    the mode that grows fastest is not the least damped one with held states. A scene with collars:
+    its growing mode is close to another one."""
     pipe = [{**PIPE, "Damping": DAMPING}]
     drilling = Drilling((BLADES, RADIUS, 5e7), pipe, SPEED).under(20e3)
     beside(

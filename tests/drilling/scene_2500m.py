@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of docs/guide/bit-and-top-drive.md about xml/stick_slip_2500m.xml, and what the
-document says of them."""
+"""The tables of docs/guide/bit-and-top-drive.md about xml/stick_slip_2500m.xml, and the statements
+of the page on them."""
 import math
 import re
 import xml.etree.ElementTree
@@ -25,7 +25,7 @@ def matched(ratio, frequency="0.22 Hz"):
     }
 
 
-# name: (settings, lists left out) of 60 s, then of the first 15 s
+# name: (settings, lists left out) of runs of 60 s, then of the first 15 s
 DRIVES = {
     "stiff": ({}, ()),
     "stiff, full model": ({}, FULL),
@@ -82,8 +82,8 @@ LINE = torsion.Line(pieces(), mass=0.05, stiffness=1e-3)
 
 
 def drive_of(ratio, frequency=0.22):
-    """Matched to the drill pipe: sqrt(mean rho I_p/mean 1/(G I_p)) of a joint of it; None: the
-    stiff one of the deck."""
+    """A drive matched to the drill pipe: sqrt(mean rho I_p/mean 1/(G I_p)) of a joint of it; None:
+    the stiff drive of the deck."""
     if ratio is None:
         return torsion.Drive(10000.0, 5000.0, INERTIA)
     joint = LINE.pieces[:5]
@@ -113,8 +113,8 @@ def late_of(program, name, settings, without):
 
 
 def limits(program):
-    """Speed below which steady drilling is unstable by the torsional line, and the verdict of the
-    program on the steady state 3 % below and above; prints a table."""
+    """Speed below which steady drilling is unstable according to the torsional line, and the
+    verdict of the program on the steady state 3 % below and above; prints a table."""
     print("\n| drive | unstable below [rpm] | growth 3 % below, line; program [1/s] | 3 % above |\n"
           "|---|---|---|---|")
     for name, ratio in (("stiff", None), ("matched, `Impedance Ratio` 1", 1),
@@ -138,7 +138,7 @@ def limits(program):
                    static["stable"] == (truth.real < 0), f"{truth}")
             if truth.real > 0:
                 nearest = min(roots, key=lambda root: abs(root.imag / (2 * math.pi) - static[
-                    "growth_hz"])).real  # of several that grow the program names one
+                    "growth_hz"])).real  # the program names one of several growing modes
                 expect(f"{name}: growth {static['growth_rate']:.5f}, of the line {nearest:.5f}",
                        abs(static["growth_rate"] / nearest - 1) < 0.02)
                 cells.append(f"{nearest:.5f}; {static['growth_rate']:.5f}")
@@ -149,8 +149,8 @@ def limits(program):
 
 
 def alone(program):
-    """The scene compared with a separate model of masses and springs, integrated with a tolerance:
-    speeds of the bit, peak, share stuck, mean period of the last 30 s; prints a table."""
+    """The scene compared with a separate model of masses and springs, integrated with error
+    control: speeds of the bit, peak, share stuck, mean period of the last 30 s; prints a table."""
     final = 80 * math.pi / 30
     times = np.arange(0, 60.0 + 1e-9, 0.02)
     truth = torsion.LumpedString(LINE,
@@ -177,7 +177,7 @@ def alone(program):
 
 
 def stick_slip_2500m(program):
-    """Prints both tables, in rpm; not among the checks that run by themselves: 2 minutes."""
+    """Prints both tables, in rpm; takes 2 minutes, and is not run with the other checks."""
     found = {name: late(program, name) for name in DRIVES}
     print("\n| drive | lowest | highest | share stuck |\n|---|---|---|---|")
     for name, (low, high, share) in found.items():

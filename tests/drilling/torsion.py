@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Torsion of a string between a drive and a bit whose friction depends on its speed: roots of the
-line without a mesh, and an independent motion."""
+"""Torsion of a string between a drive and a bit with speed-dependent friction: roots of the line
+without a mesh, and an independent motion."""
 import math
 
 import numpy as np
@@ -11,7 +11,7 @@ from models import DENSITY, SHEAR
 
 
 class Drive:
-    """J theta'' + k_p theta' + k_i theta, of the deviation from the set speed."""
+    """J theta'' + k_p theta' + k_i theta of the deviation from the set speed."""
     def __init__(self, kp, ki, inertia):
         self.kp, self.ki, self.inertia = kp, ki, inertia
 
@@ -30,7 +30,8 @@ class Line:
         self.mass, self.stiffness = mass, stiffness
 
     def torque_over_angle(self, s, slope, drive):
-        """0 at a root: drive and string at the top, above a bit of the slope dT/domega."""
+        """Residual of drive and string at the top, above a bit of the slope dT/domega; 0 at a
+        root."""
         wave = np.sqrt(DENSITY * (s * s + self.mass * s) / (SHEAR * (1 + self.stiffness * s)))
         below = slope * s
         for length, polar in reversed(self.pieces):
@@ -39,7 +40,7 @@ class Line:
         return below + drive.over_angle(s)
 
     def root(self, slope, drive, start):
-        """The root next to `start`, by Newton's method; None."""
+        """The root next to `start` by Newton's method, or None."""
         s = complex(start)
         for _ in range(30):
             h = 1e-6 * abs(s)
@@ -68,7 +69,7 @@ class Line:
 
 
 class LumpedString:
-    """A line as masses and springs, far shorter than the waves; from rest, in the frame of the set
+    """A line as masses and springs, much shorter than the waves; from rest, in the frame of the set
     speed."""
     def __init__(self, line, longest):
         """Masses at most `longest` apart; shorter pieces in a row are one spring."""
@@ -109,7 +110,7 @@ class LumpedString:
         inertia[0] += drive.inertia
 
         def rates(t, y):
-            angle, speed = y[::2], y[1::2]  # side by side: the Jacobian is banded
+            angle, speed = y[::2], y[1::2]  # interleaved, so that the Jacobian is banded
             through = self.springs * (np.diff(angle) + self.line.stiffness * np.diff(speed))
             force = -acceleration(t) * inertia - self.line.mass * self.masses * speed
             force[:-1] += through

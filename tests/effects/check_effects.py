@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Changes every parameter of a deck and looks whether the answer changes, and in the known
-direction.
+"""Changes every parameter of a deck and checks that the results change in the known direction.
 
     check_effects.py PROGRAM [--shard I/N]
 
-effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json`
-with * for names of the user's own, "set": overrides, "base": overrides of the run it is compared
-with (the scene as it is when absent), "key": what is looked at, "effect": "up", "down", "changes"
-or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run
+effects.json has one row per parameter: {"parameter": path as in `tooljoint doc --format json` with
+* for names chosen by the user, "set": overrides, "base": overrides of the run for comparison (none
+if absent), "key": the result that is compared, "effect": "up", "down", "changes" or "same",
+"scene": a deck beside this file other than scene.xml}. Rows of the Study list run
 `tooljoint study` on tests/study/study.xml, those of the Map list `tooljoint map` on
 tests/study/map.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a
 file, or "files" for the list of files, or "dataset:NAME:PATH" for a dataset of an HDF5 file; tables
-and figures of an analysis (ANALYSES) are those of its own command, which "COMMAND.file:NAME" names
-where two have the table. A parameter of the manual without a row, or a row of no parameter, fails;
-"exempt" gives a reason where an effect cannot be seen in a run, and names the test that shows it.
+and figures of an analysis (ANALYSES) come from its own command; "COMMAND.file:NAME" names the
+command if two write the table. A parameter of the manual without a row, or a row without a
+parameter, fails. "exempt" gives the reason why a run cannot show an effect, and names the test that
+shows it.
 """
 import argparse
 import hashlib
@@ -36,7 +36,7 @@ SHORT = {
     STUDY: ["Study/End Time=0.1", "Study/Window=0.05"],
     MAP: ["Map/Pictures=false"],
 }  # before the overrides of a row
-ANALYSES = {  # command -> its tables; the keys of its figures begin with its name
+ANALYSES = {  # command -> its tables; the keys of its summary figures begin with its name
     "torque-drag": ["file:torque_drag.csv", "file:torque_drag_broomstick.csv",
                     "file:torque_drag_calibration.csv"],
     "bha": ["file:bha.csv", "file:bha_profile.csv"],
@@ -63,7 +63,7 @@ class Runs:
         self.done = {}
 
     def folder(self, overrides, scene, command="run"):
-        """Results of the scene with these overrides; each set of overrides runs once."""
+        """Results folder of the scene with these overrides; each set of overrides runs once."""
         key = json.dumps([command, scene, *overrides])
         if key not in self.done:
             folder = pathlib.Path("run_" + hashlib.sha1(key.encode()).hexdigest()[:12])
@@ -118,8 +118,8 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument(
-        "--shard", default="1/1", help="I/N: the I-th of N pieces of the rows; those of one scene "
-        "stand together and share its runs")
+        "--shard", default="1/1", help="I/N: the I-th of N groups of rows; rows of one scene are "
+        "in one group and share its runs")
     options = parser.parse_args()
     table = json.loads((HERE / "effects.json").read_text(encoding="utf-8"))
     manual = json.loads(

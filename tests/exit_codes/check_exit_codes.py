@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Exit codes: check_exit_codes.py PROGRAM MPIEXEC DECK [without-sundials]
 
-Runs the program into every kind of end and compares exit code and message, on one rank and on two;
-shows that a failed run spoils no finished result, and that an interrupted run goes on to the same
+Makes the program end in every possible way and compares exit code and message, on one rank and on
+two. A failed run must not damage finished results, and an interrupted run must continue to the same
 numbers.
 """
 import json

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A point law outside of the library, in a file of its own, between parts and in the bore.
+"""A point law outside of the library, in a separate file, between parts and in the bore.
 
     check_extension.py PROGRAM MPIEXEC FOLDER SOURCE
 
-PROGRAM is tooljoint, FOLDER holds the shared objects of this folder, SOURCE the folder tests/.
+PROGRAM is tooljoint, FOLDER has the shared objects of this folder, SOURCE is the folder tests/.
 """
 import json
 import os
@@ -76,7 +76,7 @@ def contact_list(law, own):
 
 
 def load(*names):
-    """Programs started from here load these extensions; SOURCE."""
+    """Makes programs started from here load these extensions; returns SOURCE."""
     folder, source = sys.argv[3:5]
     os.environ["LD_PRELOAD"] = " ".join(f"{folder}/lib{name}.so" for name in names)
     return pathlib.Path(source)

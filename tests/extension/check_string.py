@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""An element, a load and a mud model outside of the library, each in a file of its own, against
+"""An element, a load and a mud model outside of the library, each in a separate file, against
 closed forms.
 
     check_string.py PROGRAM MPIEXEC FOLDER
 
-PROGRAM is tooljoint, FOLDER holds the shared objects libRod.so, libWallDrag.so and libCuttings.so.
-The string hangs in a vertical well: `pipe` above, `tool` below, each PIPE and TOOL metres long.
+PROGRAM is tooljoint, FOLDER has the shared objects libRod.so, libWallDrag.so and libCuttings.so.
+The string hangs in a vertical well: `pipe` above, `tool` below, PIPE and TOOL metres long.
 """
 import csv
 import json
@@ -24,7 +24,7 @@ E, NU, RHO, G = 2.1e11, 0.3, 7850.0, 9.81
 OUTER, INNER = 0.06, 0.05
 AREA = math.pi * (OUTER**2 - INNER**2)
 PIPE, TOOL, ELEMENTS = 120.0, 80.0, 40
-FACTOR = 0.25  # on E S of the rods
+FACTOR = 0.25  # factor on E S of the rods
 
 DECK = """<ParameterList name="string">
   <ParameterList name="Well">
@@ -192,8 +192,8 @@ def an_element():
 
 
 def a_wave():
-    """A force put on the free end of the rods makes it move at F/(A sqrt(factor E rho)) until the
-    wave is back, in the full model and in a reduced one."""
+    """A force on the free end of the rods moves it at F/(A sqrt(factor E rho)) until the wave
+    returns, in the full model and in a reduced one."""
     force, end = 1e4, 0.12
     speed = force / (AREA * math.sqrt(FACTOR * E * RHO))
     expect("the wave is not back yet", end < 2 * (PIPE + TOOL) / math.sqrt(FACTOR * E / RHO))
@@ -204,13 +204,13 @@ def a_wave():
         call("run", deck, "--output", f"wave_{name}")
         with h5py.File(f"wave_{name}/results.h5") as file:
             w = file["/transient/displacement"][:, -1, 2]
-        # the front is as wide as an element of 2.5 m, 1 % of the 310 m it has run
+        # the front is as wide as an element of 2.5 m, 1 % of the 310 m it has travelled
         close(w[-1] - w[0], speed * end, 1e-2, f"way of the free end in {end} s, {name} model")
 
 
 def a_load():
-    """Drag between two depths hangs below the top, whatever elements carry it; both ends lie inside
-    elements."""
+    """Drag between two depths acts below the top and does not depend on the elements; both ends of
+    the interval lie inside elements."""
     total = 50.0 * (154 - 31)
     _, dry, _ = rest("dry")
     _, dragged, _ = rest("dragged", loads=DRAG.format(drag=50.0))
@@ -227,7 +227,8 @@ def a_load():
 
 
 def a_load_that_fails_on_one_rank():
-    """The other ranks wait for it in their next message: it ends them with its message and code."""
+    """The other ranks wait for the failed rank in their next message; it ends them with its message
+    and code."""
     os.environ["WALL_DRAG_FAILS_ON"] = "1"
     deck = written("fails", loads=DRAG.format(drag=50.0))
     done = tooljoint("run", deck, "--output", "fails", ranks=2, seconds=60)
@@ -265,7 +266,7 @@ def a_mud_model():
 
 
 def the_manual():
-    """Names, parameters and units of all three."""
+    """The manual has names, parameters and units of all three."""
     manual = json.dumps(json.loads(call("doc", "--format", "json")))
     for word in ('"Rod"', '"Axial Factor"', '"Wall Drag"', '"Force Per Length"', '"Cuttings"',
                  '"Cuttings Density"'):

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A basis, an explicit and an implicit integrator outside of the library, each in a file of its
-own, named in decks.
+"""A basis, an explicit and an implicit integrator outside of the library, each in a separate file,
+used in decks.
 
     check_variants.py PROGRAM MPIEXEC FOLDER SOURCE
 
-PROGRAM is tooljoint, FOLDER holds the shared objects of this folder, SOURCE the folder tests/.
+PROGRAM is tooljoint, FOLDER has the shared objects of this folder, SOURCE is the folder tests/.
 """
 import csv
 import pathlib
@@ -73,9 +73,9 @@ def measured(name, summary):
 
 
 def coarse_steps(source):
-    """The chain alone, on a wall of no stiffness: w h = 2.0 and 0.8.
-    Of a phase of w 3 s, 12 and 5 rad, steps lose (w h)^2 / 16 more than their halves: 3 and 0.2
-    rad."""
+    """The chain alone, on a wall without stiffness: w h = 2.0 and 0.8. For phases w 3 s of 12 and 5
+    rad, the phase errors of steps exceed those of their halves by a share of (w h)^2 / 16: 3 and
+    0.2 rad."""
     deck = pathlib.Path("coarse.xml")
     text = chain(source, "Trapezoidal", 0.5, end=250.0)
     deck.write_text(
@@ -129,8 +129,8 @@ def frequencies(source, name, basis, own=""):
 
 
 def basis(source):
-    """The error of the kept modes falls by (w_k / w_j)^2 with each step, j being the first vector
-    beyond the subspace."""
+    """The error of the kept modes decreases by (w_k / w_j)^2 with each step; j is the first vector
+    outside the subspace."""
     known = frequencies(source, "craig_bampton", "Craig-Bampton")
     errors = []
     for steps in (1, 30):

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that are none, sizes that cannot be, and choices that cannot stand together:
-check_inputs.py PROGRAM
+"""Invalid files, impossible sizes and contradictory choices: check_inputs.py PROGRAM
 
-Every file a deck or a command line can name is replaced by a FIFO, a device and a terabyte of
-zeros, and parts announce matrices they do not hold: each is refused with a message, in seconds and
-without memory. `check` refuses everything that `run` refuses without solving, with the same exit
-code.
+Every file that a deck or a command line can name is replaced by a FIFO, a device and a terabyte of
+zeros, and parts declare matrices that are missing. Each must be refused with a message, in seconds
+and with little memory. `check` must refuse everything that `run` refuses without solving, with the
+same exit code.
 """
 import json
 import os
@@ -27,7 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FRAME = ROOT / "xml" / "frame.xml"
 STRING = ROOT / "tests" / "effects" / "scene.xml"
 SURVEY = ROOT / "examples" / "03_survey_well" / "deck.xml"
-SECONDS = 60  # of a loaded machine; unloaded it takes one
+SECONDS = 60  # on a loaded machine; one on an idle machine
 MEGABYTES = 400
 
 
@@ -60,7 +59,7 @@ def refused(what, code, sentence, *arguments):
 
 
 def part(folder, **changes):
-    """A part of two dofs as part.json and matrices, with changes of the JSON."""
+    """A part of two dofs as part.json and matrices, with changes in the JSON."""
     pathlib.Path(folder).mkdir(exist_ok=True)
     text = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 2 2\n2 1 -1\n"
     pathlib.Path(folder, "K.mtx").write_text(text, encoding="utf-8")
@@ -215,7 +214,7 @@ def check_refuses_what_run_refuses():
         "--without", "Reduction/Mode Selection", "--set",
         "Reduction/Mode Selection/Effective Interface Mass=0.5"
     ]
-    hooked = "hooked.xml"  # a spring in the place of a support
+    hooked = "hooked.xml"  # a spring instead of a support
     text = STRING.read_text(encoding="utf-8").rstrip().removesuffix("</ParameterList>")
     pathlib.Path(hooked).write_text(
         text +
@@ -284,7 +283,7 @@ def check_refuses_what_run_refuses():
             f"{what}: both say why",
             all(" ".join(sentence.split()) in " ".join(one[1].split()) for one in (ran, checked)),
             f"run: {ran[1][-300:]} check: {checked[1][-300:]}")
-    # Interface dofs are left to the modes: whatever a run makes of this start, check knows it.
+    # Interface dofs are left to the modes: check must predict the outcome of this start in a run.
     ran, checked = tooljoint("run", FRAME, *dual, *short, "--output",
                              "refused"), tooljoint("check", FRAME, *dual, *short)
     expect("a dual basis with a start: check ends as run does", ran[0] == checked[0],
@@ -292,7 +291,7 @@ def check_refuses_what_run_refuses():
 
 
 def absurd_counts_are_told():
-    """The size of a long motion is one number of three digits."""
+    """The size of a too long motion is printed as one number of three digits."""
     done = subprocess.run(
         [PROGRAM, "check", str(STRING), "--set", "Transient/End Time=500000"],
         stdout=subprocess.PIPE, text=True, check=False)
@@ -302,8 +301,8 @@ def absurd_counts_are_told():
 
 
 def a_mistyped_depth_is_told():
-    """A station 1 m below the one before instead of 60 m: the well would turn on a radius of 5
-    m."""
+    """A station is 1 m below the previous one instead of 60 m: the well would have a radius of
+    curvature of 5 m."""
     text = (SURVEY.parent / "survey.csv").read_text(encoding="utf-8")
     sentence = "sharper than wells are drilled: check the depths and angles there"
     for name, depth, told in (("as it is", "180", False), ("mistyped", "121", True)):

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds the numbers of an implicit step together: src/transient/Tuned.hpp, its table in
-docs/step-constants.md, and the code.
+"""Checks that the numbers of an implicit step agree in src/transient/Tuned.hpp, in its table in
+docs/step-constants.md, and in the code.
 
     constants.py PROJECT        prints file:line: what is wrong, exit code 1 if anything is
-    constants.py --self-test    shows that each rule catches what it is for
+    constants.py --self-test    shows that each rule detects its fault
 
-A number that a step is tuned with stands in Tuned.hpp and, with its value, in the first table of
-the page. Any other named number of the loop stands in the second table; numbers without a name are
-formulas' own: FORMULA. Named numbers of what judges and measures a run stand in the third table,
+Tuned numbers of a step are in Tuned.hpp and, with their values, in the first table of the page. All
+other named numbers of the loop are in the second table; numbers without a name must be those of
+formulas (FORMULA). Named numbers of the code that judges and measures a run are in the third table,
 with value and file.
 """
 import pathlib
@@ -21,7 +21,7 @@ LOOP = ("src/transient/contact/*.?pp", "src/transient/compiled/*.?pp",
         "src/transient/implicit/*.?pp", "src/transient/schemes/ImplicitStep.?pp",
         "src/transient/schemes/AlphaStep.?pp", "src/transient/schemes/GeneralizedAlpha.cpp")
 JUDGES = ("src/transient/verdict/*.?pp", "src/transient/accuracy/*.?pp")
-MOST = 30  # numbers that are tuned
+MOST = 30  # tuned numbers
 FORMULA = {"0.0", "0.1", "0.25", "0.5", "1.0", "2.0",
            "4.0"}  # powers of two and a tenth of another number
 NAMED = re.compile(r"\bconstexpr\s+(?:double|int|long|auto|std::size_t)\s+([^;]*);")

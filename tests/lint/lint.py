@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds the rules of the source tree that a compiler does not: who may include whom, names that
-stay out, licence lines, sizes, code that stands twice, names without their headers.
+"""Checks rules of the source tree that a compiler does not check: allowed includes, forbidden
+names, licence lines, sizes, repeated code, names without their headers.
 
-    lint.py PROJECT         prints file:line: what is wrong, exit code 1 if anything is
-    lint.py --self-test     shows that each rule catches what it is for
-    lint.py --rooms         prints the table of rooms for docs/architecture.md
-    lint.py --counts PROJECT  prints the lines of product code, room by room, and of tests, and the
-                              fullest folders
+    lint.py PROJECT         prints file:line: complaint, exit code 1 if there are any
+    lint.py --self-test     shows that each rule detects its fault
+    lint.py --rooms         prints the table of folders for docs/architecture.md
+    lint.py --counts PROJECT  prints the lines of product code by folder, and of tests, and the
+                              folders with the most sources
 """
 import pathlib
 import re
@@ -22,8 +22,8 @@ import repeats
 import rooms
 import sizes
 
-LONGEST = 500  # lines of a source file; beyond, it is two ideas
-WIDEST = 100  # columns of a line of Python; clang-format holds C++
+LONGEST = 500  # lines of a source file; a longer one contains two concepts
+WIDEST = 100  # columns of a line of Python; clang-format checks C++
 ROOMS = [
     "src", "substructures", "python", "tests", "tools", "examples", "benchmarks", "cmake", "docs",
     "xml"
@@ -101,9 +101,8 @@ def lint_file(root, path):
 
 
 def files_of(root, room):
-    """The files of a room.
-    Decks in xml/ that git does not know are a user's own; without git (an unpacked archive) all are
-    the project's."""
+    """The files of a room. In xml/ only decks in git count, since others are a user's own; without
+    git (an unpacked archive) all count."""
     if room == "xml":
         listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z", "--", room],
                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
@@ -114,14 +113,14 @@ def files_of(root, room):
 
 
 def modes(root):
-    """Complaints about scripts a person runs by name that cannot be run so."""
+    """Complaints about command-line scripts that are not executable."""
     for path in sorted((root / "tools").glob("*.py")):
         if not path.stat().st_mode & stat.S_IXUSR:
             yield f"{path.relative_to(root)}:1: is not executable: chmod +x"
 
 
 def house(root):
-    """The table of rooms in docs/architecture.md is that of rooms.py."""
+    """Checks that the table of rooms in docs/architecture.md is that of rooms.py."""
     page = root / "docs" / "architecture.md"
     if page.is_file() and rooms.table() not in page.read_text(encoding="utf-8"):
         yield "docs/architecture.md:1: has not the table of rooms that lint.py --rooms prints"
@@ -138,8 +137,8 @@ def room_lines(root):
 
 
 def size_table(root):
-    """Complaints about numbers of lines in docs/architecture.md that the tree has left by more than
-    a tenth."""
+    """Complaints about numbers of lines in docs/architecture.md that differ from the tree by more
+    than a tenth."""
     page = root / "docs" / "architecture.md"
     rows = re.findall(r"^\| ([a-z, ]+) \| ([\d,]+) \|", page.read_text(
         encoding="utf-8"), re.M) if page.is_file() else []
@@ -172,8 +171,8 @@ def strangers(root):
 
 
 def of_all_sources(root, files):
-    """Complaints about code that stands twice in product code, the Python package or tools, and
-    about names without their headers."""
+    """Complaints about repeated code in product code, the Python package or tools, and about names
+    without their headers."""
     texts = {
         path.relative_to(root).as_posix(): path.read_text(encoding="utf-8", errors="replace")
         for path in files if path.suffix in (".cpp", ".hpp", ".py")

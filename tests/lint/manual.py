@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares docs/parameters.md with what `tooljoint doc` prints; --update writes the file
+"""Compares docs/parameters.md with the output of `tooljoint doc`; --update writes the file
 instead."""
 import difflib
 import pathlib

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Paths of parameters that docs/parameters.md and other pages name exist in it.
+"""Checks that the parameter paths in docs/parameters.md and other pages exist in that manual.
 
     paths.py PARAMETERS [PAGE ...] | --self-test
 
-A path is a name of a list, a "/" and a word; what follows the list must be a list or parameter of
-it. In the descriptions of parameters paths stand in the text, in pages between backticks.
+A path is the name of a list, a "/" and a word, which must be a list or parameter of that list.
+Paths are plain text in the descriptions of parameters, and between backticks in pages.
 """
 import collections
 import pathlib
@@ -18,7 +18,7 @@ PATH = re.compile(rf"{WORD}(?: [\w-]+)*(?:/{WORD}(?: [\w-]+)*)+")
 
 def declared(text):
     """Names in each list, by the name of the list: {"Transient": {"Step", "Generalized-alpha",
-    ...}}; None of names a user chooses."""
+    ...}}; None for a list whose names are chosen by the user."""
     inside = collections.defaultdict(set)
     for line in text.splitlines():
         if heading := re.match(r"#+ (\S.*)", line):
@@ -44,7 +44,7 @@ def begins(words, names):
 
 
 def faults(text, inside):
-    """Paths in a text that lead nowhere."""
+    """Paths in a text that do not exist."""
     found = []
     for match in PATH.finditer(text):
         parts = [part.split() for part in match.group().split("/")]

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/figures/architecture.svg: the rooms of rooms.py, each above the rooms it includes.
+"""Draws docs/figures/architecture.svg: the folders of rooms.py, each above the folders it includes.
 
-    picture.py PROJECT              ends with 1 when the picture is old
+    picture.py PROJECT              exit code 1 if the picture is old
     picture.py PROJECT --update     draws it
 """
 import pathlib
@@ -12,16 +12,15 @@ from xml.sax.saxutils import escape
 
 import rooms
 
-# pixels: of a side, around it, between boxes, height of a row, of a heading
+# pixels: width of a side, margin, gap between boxes, height of a row, of a heading
 WIDTH, MARGIN, GAP, ROW, HEAD = 640, 20, 8, 62, 34
 LINE, TEXT = 12, 5.2  # height of a line of small text, width of a letter
 SIDES = (
-    ("src/", "component mode synthesis, knows no drillstring", "#dbe9f6", "#3b6694"),
-    ("substructures/", "what a drillstring is made of", "#dcf0d8", "#4a7a43"),
-    ("python/ and tools/", "the library in Python, and what draws its results", "#f6e3cf",
-     "#9a6a33"),
+    ("src/", "component mode synthesis, independent of drillstrings", "#dbe9f6", "#3b6694"),
+    ("substructures/", "the parts of a drillstring", "#dcf0d8", "#4a7a43"),
+    ("python/ and tools/", "the library in Python, plots and reports", "#f6e3cf", "#9a6a33"),
 )
-# Python has no table of includes: each row stands above what it imports.
+# Python has no table of includes: each row is above the rows it imports.
 PYTHON = [
     [
         ("tools/report", "report.html of a results folder"),
@@ -32,12 +31,12 @@ PYTHON = [
         ("python/tooljoint", "parts, decks, results, arguments as deck lists"),
         ("python/tooljoint/plots", "the style of all figures; needs no compiled module"),
     ],
-    [("python/core", "the library in Python: a file for each concept of it")],
+    [("python/core", "the library in Python, a file for each concept")],
 ]
 
 
 def layers(includes):
-    """Rows of rooms from the top, each above all it includes."""
+    """Rows of folders from the top, each above all folders it includes."""
     def height(room):
         return 1 + max((height(each) for each in includes[room]), default=-1)
 
@@ -82,7 +81,7 @@ def picture():
     height = max(height, top + HEAD + ROW * len(right) + MARGIN)
     text = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {other + WIDTH + MARGIN} '
             f'{height}" font-family="DejaVu Sans, Verdana, sans-serif" fill="#222222">\n')
-    text += ('<title>The rooms of the house, each above the rooms it includes</title>\n'
+    text += ('<title>Folders of the source tree, each above the folders it includes</title>\n'
              '<rect width="100%" height="100%" fill="white"/>\n')
     return text + side(MARGIN, MARGIN, left, SIDES[0]) + side(
         other, MARGIN, PYTHON, SIDES[2]) + side(other, top, right, SIDES[1]) + "</svg>\n"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sources that break the rules of lint.py, each with the complaint it must get: file -> (text, part
-of the complaint), None where there is none."""
+"""Sources that break the rules of lint.py, with the expected complaints: file -> (text, part of the
+complaint), None if there is none."""
 import repeats
 import sizes
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names of src/common in sources whose includes do not reach the header that declares them. Sources
-of a folder are compiled together, so that a compiler finds such a name through another source."""
+"""Finds names of src/common in sources whose includes do not reach the declaring header. Sources of
+a folder are compiled together, so a compiler can find such a name through another source."""
 import pathlib
 import re
 
@@ -11,7 +11,7 @@ DECLARED = re.compile(
     r"(?:template <[^>]*>\s*)?(?:inline |constexpr )*[\w:]+(?:<[^;={]*>)?[ &*]+(\w+)\()", re.M)
 TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.S)
 ROOM = "src/common/"
-CAMEL = re.compile(r"[A-Z]")  # a name without a capital is that of a local variable, too
+CAMEL = re.compile(r"[A-Z]")  # a name without a capital letter may be a local variable
 
 
 def without_texts(source):
@@ -20,8 +20,7 @@ def without_texts(source):
 
 
 def owners(sources):
-    """Name -> its header, of the names that one header of src/common declares and no other
-    header."""
+    """Name -> its header, for the names declared by exactly one header of src/common."""
     found = {}
     for name, code in sources.items():
         if not name.endswith(".hpp"):

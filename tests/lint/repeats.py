@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Repeated code: six lines or more that are the same in two places, of product code, of the Python
-package or of tools."""
+"""Finds repeated code: six or more equal lines in two places of product code, of the Python package
+or of tools."""
 import re
 
 LEAST = 6  # lines of code that count as a repeat

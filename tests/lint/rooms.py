@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The folders and what each may include. docs/architecture.md shows this table (`lint.py
+"""The folders and their allowed includes. docs/architecture.md shows this table (`lint.py
 --rooms`)."""
 
 GROUND = "common deck linalg model statics"
 MODELS = f"{GROUND} coupling io reduction"
 CASES = f"{MODELS} estimate parts stability transient"
 
-# Room: (rooms of its own side it may include, in words what it holds). src/ never includes
-# substructures/, but for app.
+# Folder: (folders of its own side it may include, contents in words). src/ never includes
+# substructures/, except in app.
 TOOLKIT = {
     "common": ("", "errors, log, ranks, text, constants"),
     "deck": ("common", "from XML to checked values, the manual, registries"),
@@ -20,16 +20,16 @@ TOOLKIT = {
     "transient": ("common coupling deck io linalg model", "time integration"),
     "parts": (MODELS, "parts from files and into files"),
     "estimate": (f"{MODELS} transient", "errors of a reduced model, without the full one"),
-    "stability": (f"{MODELS} estimate", "whether a state at rest is stable"),
+    "stability": (f"{MODELS} estimate", "stability of a state at rest"),
     "cases": (CASES, "a case; run, record, restart, check"),
     "study": (f"{CASES} cases", "speed against error over many runs, maps over parameters"),
     "response": (f"{CASES} cases", "Campbell diagrams and harmonic responses of any case"),
     "texts": ("cases common deck io",
-              "what the program prints: last screens, manual pages, completions, templates"),
+              "texts of the program: last screens, manual pages, completions, templates"),
     "app": (f"{CASES} cases response study texts", "the program: a file for each command"),
 }
-PROGRAM = ("app", "texts")  # rooms of src/ that the installed library leaves out
-# Room: (rooms of substructures/, rooms of src/, what it holds)
+PROGRAM = ("app", "texts")  # folders of src/ that are not in the installed library
+# Folder: (folders of substructures/, folders of src/, contents in words)
 DRILLSTRING = {
     "well": ("", GROUND, "trajectories, surveys, bore"),
     "beam": ("", GROUND, "sections, elements, rotations"),
@@ -52,16 +52,16 @@ DRILLSTRING = {
                          "a string as a case: records, results, figures"),
     "drillstring/buckling": ("beam contact drilling drillstring drillstring/case drillstring/scene "
                              "equilibrium loads mud path softstring well", f"{CASES} cases",
-                             "a string past buckling"),
+                             "a string beyond buckling"),
     "drillstring/analyses": ("beam contact drilling drillstring drillstring/case "
                              "drillstring/figures drillstring/scene equilibrium loads mud path "
                              "softstring well", f"{CASES} cases",
-                             "what engineers ask of a string beside its motion"),
+                             "engineering analyses of a string other than its motion"),
 }
 
 
 def room_of(path):
-    """(side, room) of a path in pieces, or None for what is no room."""
+    """(side, room) of a path in pieces, or None if the path is in none."""
     if len(path) < 3 or path[0] not in ("src", "substructures"):
         return None
     if path[0] == "substructures" and len(path) > 3 and "/".join(path[1:3]) in DRILLSTRING:
@@ -80,7 +80,7 @@ def included_room(included):
 
 
 def include_problem(path, included):
-    """Why a file at `path` (in pieces) may not include `included`, or None."""
+    """Reason why a file at `path` (in pieces) may not include `included`, or None."""
     room, target = room_of(path), included_room(included)
     if path[0] == "python" and target and (target[0] != "src" or target[1] in PROGRAM):
         return (f"python/core binds the toolkit, and may not include {'/'.join(target)} "
@@ -104,13 +104,13 @@ def include_problem(path, included):
 
 def table():
     """Both sides as Markdown."""
-    lines = ["| Room | holds | may include |", "|---|---|---|"]
+    lines = ["| Folder | contents | may include |", "|---|---|---|"]
     for name, (rooms, holds) in TOOLKIT.items():
         extra = ", substructures/" if name == "app" else ""
         lines.append(f"| src/{name} | {holds} | {', '.join(sorted(rooms.split())) or '-'}{extra} |")
     for name, (own, toolkit, holds) in DRILLSTRING.items():
         allowed = [*sorted(own.split()), "src/{" + ",".join(sorted(toolkit.split())) + "}"]
         lines.append(f"| substructures/{name} | {holds} | {', '.join(allowed)} |")
-    lines.append("| python/core | the library in Python: a file for each concept of it | src/ but "
+    lines.append("| python/core | the library in Python, a file for each concept | src/ but "
                  "app and texts |")
     return "\n".join(lines) + "\n"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sizes that lint.py holds: files of a folder, data members of a class, lines of a recipe."""
+"""Sizes checked by lint.py: files of a folder, data members of a class, lines of a recipe."""
 import re
 
 FILES = 20  # of a folder of product code
@@ -21,7 +21,7 @@ def plain(text):
 
 
 def statements(text, begin):
-    """Statements of the body that begins at `begin`, without what stands in braces inside it."""
+    """Statements of the body that begins at `begin`, without nested braces."""
     depth, statement, i = 1, "", begin
     while i < len(text) and depth:
         c = text[i]
@@ -46,7 +46,7 @@ def members(statement):
     while (shorter := re.sub(r"<[^<>]*>", "", statement)) != statement:
         statement = shorter
     if re.match(r"(struct|class) \w+ +\w+$", statement):
-        return 1  # of a type declared with it
+        return 1  # a type defined in the declaration
     if not statement or NO_MEMBER.match(statement):
         return 0
     names = re.sub(r"=[^,]*", "", statement)
@@ -84,8 +84,8 @@ def of_folders(names):
 
 
 def of_recipes(text):
-    """(line, complaint) about the recipes of docs/architecture.md: from one bold word to the
-    next."""
+    """(line, complaint) about the recipes of docs/architecture.md; a recipe ends at the next bold
+    word."""
     lines = text.splitlines()
     if "## Recipes" not in lines:
         return

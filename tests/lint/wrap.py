@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds the width of prose in pages of Markdown: 100 columns. A page has no tab either: that of a
-formula is a \\t whose backslash was lost.
+"""Checks the width of prose in Markdown pages: 100 columns. Pages must not have tabs: a tab in a
+formula is a \\t without its backslash.
 
     wrap.py PAGE...            names the pages with wider paragraphs or tabs, exit code 1 if there
                                are any
-    wrap.py --update PAGE...   fills those paragraphs anew; code, tables, headings, formulas and
-                               pictures stay as they are
-    wrap.py --self-test        shows that it catches what it is for
+    wrap.py --update PAGE...   wraps those paragraphs; code, tables, headings, formulas and pictures
+                               are not changed
+    wrap.py --self-test        shows that it detects such lines
 """
 import pathlib
 import re
@@ -15,20 +15,19 @@ import sys
 import textwrap
 
 WIDTH = 100
-GLUE = "\0"  # stands for a blank at which no line may end
+GLUE = "\0"  # replaces a blank at which a line must not break
 UNBROKEN = re.compile(r"`+[^`]+`+|\$[^$\n]+\$|!?\[[^\]]*\]\([^)]*\)")
 ITEM = re.compile(r"(\s*(?:[-*+]|\d+[.)])\s+)(.*)$")
 STANDS = re.compile(
-    r"\s*(#|\||<|>|!\[|\(.*\)=$|---|===|\[\^?[^\]]+\]:)")  # begins a line that stays as it is
+    r"\s*(#|\||<|>|!\[|\(.*\)=$|---|===|\[\^?[^\]]+\]:)")  # starts of lines that are not changed
 FENCE = re.compile(r"\s*(```+|~~~+|\$\$|<!--)")
 CONTROL = re.compile(r"[\x00-\x09\x0b-\x1f]")
-MARKUP = re.compile(
-    r"([-+*#>|=:]|\d+[.)])(\s|$)|~|<")  # would mean something at the start of a line
+MARKUP = re.compile(r"([-+*#>|=:]|\d+[.)])(\s|$)|~|<")  # markup at the start of a line
 
 
 def filled(first, rest, text):
-    """Lines of at most WIDTH columns behind `first` and `rest`, none of which begins with what
-    would be markup there."""
+    """Lines of at most WIDTH columns with the prefixes `first` and `rest`; no line begins with
+    markup."""
     text = UNBROKEN.sub(lambda found: found[0].replace(" ", GLUE), " ".join(text.split()))
     while True:
         lines = textwrap.wrap(text, WIDTH, initial_indent=first, subsequent_indent=rest,
@@ -58,7 +57,7 @@ def is_code(line, before):
 
 
 def paragraph(lines, at):
-    """Position behind the paragraph or item that begins at `at`."""
+    """Position after the paragraph or item that begins at `at`."""
     end = at + 1
     while end < len(lines) and lines[end].strip() and not (ITEM.match(lines[end]) or FENCE.match(
             lines[end]) or STANDS.match(lines[end])):
@@ -67,7 +66,7 @@ def paragraph(lines, at):
 
 
 def wrapped(text):
-    """The text of a page with its wide paragraphs filled anew."""
+    """The text of a page with its wide paragraphs wrapped."""
     lines, out, at, fence = text.split("\n"), [], 0, ""
     while at < len(lines):
         line = lines[at]

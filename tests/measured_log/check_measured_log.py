@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measured logs beside the motion of a run: check_measured_log.py PROGRAM MPIEXEC SOURCES
+"""Measured logs compared with the motion of a run: check_measured_log.py PROGRAM MPIEXEC SOURCES
 
-A log made of a run gives no difference, one that is scaled and shifted the difference that numpy
-gives; spectra are those of scipy, peaks those of a sine. CSV, LAS and wrapped LAS files with other
-units give the same numbers, and so do two ranks and a run that is stopped and goes on. Invalid
-files and decks end with a message.
+A log made from a run has no difference. A scaled and shifted log has the difference computed by
+numpy; spectra agree with scipy, peaks with those of a sine. CSV, LAS and wrapped LAS files with
+other units give the same numbers, and so do two ranks and a run that is stopped and continued.
+Invalid files and decks give a message.
 """
 import csv
 import json
@@ -42,7 +42,7 @@ COLUMNS = {
 
 
 def computed(folder):
-    """Time and computed signals of a run, from what it records anyway."""
+    """Time and computed signals of a run, from its usual records."""
     with h5py.File(pathlib.Path(folder, "results.h5")) as file:
         data = file["/transient"]
         return data["time"][:], {
@@ -96,7 +96,7 @@ def write_csv(name, times, signals):
 
 
 def write_las(name, times, signals, wrap=False):
-    """Times in minutes, units in capitals, as logs have them."""
+    """Times in minutes and units in capitals, as is common in logs."""
     curves = "\n".join(f" {COLUMNS[key][0]:<8}.{COLUMNS[key][2].upper():<10} : {COLUMNS[key][1]}"
                        for key in signals)
     head = f"""~VERSION INFORMATION
@@ -160,7 +160,7 @@ def of_itself():
            rows["surface"]["computed_max"] > 0)
     expect("the lines of the log say so", "stick-slip index" in done.stdout
            and "computed less measured" in done.stdout, done.stdout[-600:])
-    # at rest hook load and torque are those of the static state, where the motion starts
+    # at rest hook load and torque are those of the static state, the start of the motion
     static = json.loads(pathlib.Path("plain/summary.json").read_text(encoding="utf-8"))["static"]
     near("hook load at the start", signals["hook"][0], static["hook_load"], 1e-6)
     near("surface torque at the start", signals["torque"][0], -static["top_torque"], 1e-6)
@@ -168,8 +168,8 @@ def of_itself():
 
 
 def shifted(times, signals):
-    """x -> 1.1 x + c at times that are late by 5 s, at every third sample and with gaps: numpy has
-    the differences, scipy the spectra."""
+    """x -> 1.1 x + c at times late by 5 s, at every third sample and with gaps: numpy gives the
+    differences, scipy the spectra."""
     offsets = {"bit": 2.0, "surface": -1.0, "torque": 300.0, "hook": -5e3, "shock": 0.5}
     changed = {key: 1.1 * values + offsets[key] for key, values in signals.items()}
     for values in changed.values():
@@ -216,7 +216,7 @@ def shifted(times, signals):
 
 
 def spectra(times, signals):
-    """Sines of known amplitude on a line of the spectrum; densities are those of scipy."""
+    """Sines of known amplitude on a line of the spectrum; densities agree with scipy."""
     frequency, amplitude = 8 / 0.15, 3.0 * RPM  # 8 periods in a segment of 150 samples
     sine = {"bit": 12.0 + amplitude * np.sin(2 * np.pi * frequency * times)}
     write_csv("sine.csv", times, sine)
@@ -261,7 +261,7 @@ def ranks_and_restart(rows, window):
     whole = tooljoint("run", "shifted.xml", "--output", "whole", *long)
     expect("a longer run ends well", whole.returncode == 0, whole.stderr[-300:])
     stopped = None
-    for _ in range(5):  # a machine that is busy elsewhere may let a run end before its signal
+    for _ in range(5):  # on a busy machine a run may end before its signal
         shutil.rmtree("halted", ignore_errors=True)
         process = subprocess.Popen([PROGRAM, "run", "shifted.xml", "--output", "halted", *long],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,

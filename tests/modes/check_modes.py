@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""`tooljoint modes` on structures nobody tuned it for: check_modes.py PROGRAM MPIEXEC
+"""`tooljoint modes` on structures for which it was not tuned: check_modes.py PROGRAM MPIEXEC
 
 Free and pinned beams (closed forms), frames and solids with repeated frequencies, undamped,
 lightly, proportionally and strongly damped, and rotors: values against scipy's dense solver of the
-companion form, counts and times against what the documentation promises.
+companion form, counts and times against the documentation.
 """
 import csv
 import json
@@ -139,7 +139,7 @@ def damped():
             _, rows, _, cpu = modes(f"{name}_{kind}", structure, 12)
             if rows:
                 exact = proportional(structure, alpha, beta, 40)
-                # rounding makes two real values or one complex one of each of the two lowest modes
+                # rounding makes each of the two lowest modes two real values or one complex one
                 if kind == "critical":
                     exact = np.append(exact, [-first, -first])
                 expect(f"{name}, {kind}: values", *same(values(rows), exact, tolerance))
@@ -147,7 +147,7 @@ def damped():
                     f"{name}, {kind}: the lowest ones",
                     abs(values(rows)[-1]) <=
                     abs(proportional(structure, alpha, beta, 14 if kind == "critical" else 12)[-1])
-                    * (1 + 1e-6))  # double values split either way
+                    * (1 + 1e-6))  # double values may split in either way
                 expect(f"{name}, {kind}: time", cpu < SECONDS,
                        f"{cpu:.1f} s for {structure.M.shape[0]} dofs")
     # 600 dofs with a range of four decades between the lowest frequency and the stiffest element
@@ -206,8 +206,8 @@ def gyroscopic():
 
 
 def reduced():
-    """Two halves of a free beam and of a tower: every coupled mode once, rigid-body modes zero, no
-    basis fails."""
+    """Two halves of a free beam and of a tower: every coupled mode appears once, rigid-body modes
+    are zero, no basis fails."""
     half = st.beam(20, length=5.0, direction=(1, 2, 3))
     half.write("half.h5", {"left": [1], "right": [21]})
     parts, joints = {"a": "half.h5", "b": "half.h5"}, ["a:right = b:left"]
@@ -257,8 +257,8 @@ def reduced():
 
 
 def floating():
-    """Multilevel on free bodies, one and two in a part: estimates beside true errors; without a
-    partner, and without estimates, fields are empty."""
+    """Multilevel on free bodies, one and two in a part: estimates against true errors; fields
+    without a matching mode or an estimate are empty."""
     body, other = st.solid(2, 2, 6, (1, 1, 4.0)), st.solid(2, 2, 4, (1, 1, 3.0))
     labels = np.vstack([body.labels, other.labels + [body.labels[:, 0].max(), 0]])
     both = st.Structure(sparse.block_diag([body.M, other.M]), sparse.block_diag([body.K, other.K]),
@@ -378,8 +378,8 @@ WELL = """<ParameterList name="well">
 
 
 def sliding_string():
-    """A turning string that lies on the wall with friction: the symmetric part without friction has
-    no negative value."""
+    """A rotating string on the wall with friction: the symmetric part without friction has no
+    negative value."""
     pathlib.Path("well.xml").write_text(WELL, encoding="utf-8")
     done = subprocess.run([PROGRAM, "modes", "well.xml", "--count", "12", "--output", "well_out"],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
@@ -415,8 +415,8 @@ BLOCKS = """<ParameterList name="blocks"><ParameterList name="Parts"><ParameterL
 
 
 def clamped_frequencies(path, count):
-    """The lowest ones of a part file whose set `root` is held [Hz], and rows and entries of its
-    stiffness."""
+    """The lowest frequencies [Hz] of a part file with the set `root` held, and rows and entries of
+    its stiffness."""
     with h5py.File(path, "r") as file:
         n = len(file["dofs"])
         K, M = (sparse.csr_matrix((file[name]["value"], (file[name]["row"], file[name]["column"])),
@@ -427,8 +427,8 @@ def clamped_frequencies(path, count):
 
 
 def solids_on_two_ranks():
-    """Two solid parts whose matrices MUMPS factors, one on each rank: frequencies against scipy,
-    and those of one rank."""
+    """Two solid parts factored by MUMPS, one on each rank: frequencies against scipy and against
+    one rank."""
     block = ROOT / "examples" / "12_solid_block" / "make_block.py"
     exact = []
     for name, counts, length in (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Values of damped modes: those printed, those of dense forms, and how far they are apart."""
+"""Values of damped modes: printed values, values of dense forms, and their differences."""
 import numpy as np
 from scipy.linalg import eig, eigh
 
@@ -35,7 +35,7 @@ def companion(structure, count):
 
 
 def same(found, exact, tolerance):
-    """Largest relative distance after each value has been given the nearest one that is left."""
+    """Largest relative distance when each value is paired with the nearest remaining one."""
     left, worst = list(exact), 0.0
     for s in found:
         nearest = min(range(len(left)), key=lambda i: abs(left[i] - s))
@@ -44,7 +44,7 @@ def same(found, exact, tolerance):
 
 
 def proportional(structure, alpha, beta, count):
-    """Values of C = alpha M + beta K from the undamped ones, a double zero listed once."""
+    """Values of C = alpha M + beta K from the undamped ones; a double zero is listed once."""
     omega2 = np.maximum(eigh(structure.K.toarray(), structure.M.toarray(), eigvals_only=True), 0)
     c = alpha + beta * omega2
     root = np.sqrt((c**2 / 4 - omega2).astype(complex))

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Debian packages of a build: check_debian.py CPACK BUILD VERSION CMAKE
 
-Packs what is built as docs/first-report.md does, installs the packages with dpkg into an empty
-root, maintainer scripts included, and uses them from there: the program makes a folder and runs its
-deck, the commands of docs/first-report.md lead to a report, the installed report answers, a client
-is built with the headers and runs, Python imports its package and computes. The libraries of the
-distribution are those of this machine. Lintian, where it is installed, finds no error.
+Packs the build as docs/first-report.md does, installs the packages with dpkg into an empty root,
+maintainer scripts included, and uses them there: the program makes a folder and runs its deck, the
+commands of docs/first-report.md produce a report, the installed report tool works, a client is
+built with the headers and runs, Python imports its package and computes. The libraries of the
+distribution are those of this machine. If Lintian is installed, it finds no error.
 """
 import gzip
 import json
@@ -36,8 +36,8 @@ def command(*words, **options):
 
 
 def pack():
-    """The files of the packages by their name, made by the first commands of docs/first-report.md,
-    but for the build, which is there."""
+    """The files of the packages by their name, made by the first commands of docs/first-report.md
+    without the build, which exists."""
     for folder in (SOURCES, ROOT):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
@@ -104,7 +104,7 @@ exec /sbin/ldconfig -r "$DPKG_ROOT" "$@"
 
 def install(packages):
     """dpkg unpacks and configures all packages in an empty root; the library cache of the machine
-    does not change."""
+    is not changed."""
     for folder in ("var/lib/dpkg/info", "var/lib/dpkg/updates", "var/lib/dpkg/triggers", "etc"):
         (ROOT / folder).mkdir(parents=True)
     for file in ("var/lib/dpkg/status", "var/lib/dpkg/available", "etc/ld.so.conf"):
@@ -186,7 +186,7 @@ def use():
 
 
 def develop():
-    """The client finds the installed headers, is built with them, and runs."""
+    """A client finds the installed headers, is built with them, and runs."""
     done = command(CMAKE, "-S", CLIENT, "-B", "client", "--fresh", "-D",
                    f"CMAKE_PREFIX_PATH={ROOT}/usr", "-D", "CMAKE_BUILD_TYPE=None", env=os.environ)
     cache = pathlib.Path("client/CMakeCache.txt").read_text(
@@ -202,7 +202,8 @@ def develop():
 
 
 def use_python():
-    """The package from the root with the interpreter it was built for, that of this test."""
+    """Imports the package from the root with the interpreter for which it was built, which runs
+    this test."""
     libraries = next(ROOT.glob("usr/lib/**/libtooljoint_toolkit.so.*")).parent
     folder = ROOT / "usr/lib/python3/dist-packages"
     done = command(

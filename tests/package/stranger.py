@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The commands of docs/first-report.md, word for word: from the packages to a report of a well of
-one's own.
+"""Runs the commands of docs/first-report.md word for word: from the packages to a report of a
+user's own well.
 
     stranger.py PACKAGES      in an empty Debian 12 (target `clean-root`): made by mmdebstrap, the
                               packages of the folder PACKAGES installed by apt. Needs root and the
                               network.
 
-check_debian.py runs the commands behind the installation on the unpacked packages.
+check_debian.py runs the commands after the installation on the unpacked packages.
 """
 import json
 import os
@@ -36,8 +36,8 @@ def page():
 
 
 def script(commands):
-    """A shell script that ends with the first command that fails; the page is opened by looking
-    whether it is there."""
+    """A shell script that ends at the first failing command; instead of opening the page it checks
+    that the page exists."""
     lines = [command.replace(OPEN, "test -s") for command in commands]
     return "set -eu\n" + "".join(f"echo '@@ {line}'\n{line}\n" for line in lines)
 
@@ -53,7 +53,7 @@ def before_installation():
 
 
 def behind_installation():
-    """Commands behind the installation, and the survey; the page keeps its promise of ten."""
+    """Commands after the installation, at most the ten that the page promises, and the survey."""
     commands, survey = page()
     expect(f"the page has at most {MOST} commands", len(commands) <= MOST, str(len(commands)))
     return commands[installation(commands) + 1:], survey
@@ -67,7 +67,7 @@ def installed(folder):
 
 
 def judge(done, home):
-    """The final result for a new user."""
+    """Checks the final result of a new user."""
     expect("every command of the page succeeds", done.returncode == 0,
            done.stdout[-600:] + done.stderr[-600:])
     if done.returncode:
@@ -99,8 +99,8 @@ def on_files(environment, home):
 
 
 def in_clean_root(packages):
-    """The same in an empty Debian, the packages installed by its apt with all they depend on and
-    recommend."""
+    """The same in an empty Debian; its apt installs the packages with all dependencies and
+    recommendations."""
     if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
         sys.exit("The clean root needs root and mmdebstrap (Debian: mmdebstrap).")
     names = ("tooljoint", "libtooljoint-dev", "python3-tooljoint")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`tooljoint paraview` of a string and of parts: files that a strict reader, and VTK where it is
-installed, read back with the numbers of results.h5.
+"""`tooljoint paraview` of a string and of parts: a strict reader, and VTK if it is installed, read
+the numbers of results.h5 from its files.
 
     check_paraview.py PROGRAM
 """
@@ -40,7 +40,7 @@ def array(element):
 
 
 def read(path):
-    """{group: {name: values}} of a .vtp file, after the rules of the format."""
+    """{group: {name: values}} of a .vtp file, according to the format."""
     root = ET.parse(path).getroot()
     wanted = {
         "type": "PolyData", "byte_order": "LittleEndian", "header_type": "UInt64", "version": "1.0"
@@ -244,7 +244,7 @@ def check_faults():
             and "damaged/results.h5 cannot be read: it is damaged" in done.stderr
             and "Error" not in done.stderr, f"{done.returncode} {done.stderr}")
     results.write_bytes(whole)
-    if os.geteuid() > 0:  # root may read everything
+    if os.geteuid() > 0:  # root can read every file
         results.chmod(0)
         done = tooljoint("paraview", "damaged")
         expect(

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A swept plate through the files of every format: check_formats.py PROGRAM
 
-A plate of hexahedra, swept by 30 degrees, whose root moves as a rigid body with the six dofs of one
-node. Written here for each format that is read, its frequencies are those of its matrices; reduced,
-exported in each format that is written, and read again, those of the reduced plate. An export that
-fails leaves nothing behind.
+The plate consists of hexahedra, is swept by 30 degrees, and its root moves as a rigid body with the
+six dofs of one node. It is written here in each format that the program reads; the frequencies must
+be those of its matrices. Then it is reduced, exported in each format that the program writes, and
+read again; the frequencies must be those of the reduced plate. A failed export leaves no files.
 """
 import csv
 import json
@@ -28,7 +28,7 @@ CELLS, EDGES = (8, 3, 1), np.array([[0.05, 0.05 * np.tan(np.radians(30)), 0], [0
 CORNERS = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], dtype=float)
 COMPONENTS = "u", "v", "w", "theta_x", "theta_y", "theta_z"
 MODES, RIGID = 12, 6
-# ten digits of entries, whose largest eigenvalue is some thousand times that of the lowest bending
+# ten digits of entries; the largest eigenvalue is some thousand times that of the lowest bending
 # mode
 OF_PUNCH = 1e-6
 
@@ -86,7 +86,7 @@ def hdf5(K, M, labels, positions, name="plate.h5", first=1):
     labels = np.array(labels) + [first - 1, 0]
     with h5py.File(name, "w") as file:
         file.attrs["format"] = np.bytes_(
-            "tooljoint part 1")  # texts of a fixed length, as MATLAB and Fortran write them
+            "tooljoint part 1")  # texts of fixed length, as written by MATLAB and Fortran
         file["components"] = np.array(COMPONENTS, "S8")
         file["dofs"] = labels
         file["mass"], file["stiffness"] = M, K
@@ -134,7 +134,7 @@ def harwell_boeing(K, M, labels, _):
 
 
 def harwell_boeing_of_scipy(K, M, labels, _):
-    """Numbers between blanks, in narrower columns than the format says."""
+    """Numbers between blanks, in narrower columns than the format states."""
     folder = pathlib.Path("scipy")
     folder.mkdir(exist_ok=True)
     names = "UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"
@@ -211,7 +211,7 @@ def frequencies(K, M, count=RIGID + MODES):
 
 
 def superelement(path):
-    """M and K of a file as ReadFlexASCII of OpenFAST takes them."""
+    """M and K of a file as read by ReadFlexASCII of OpenFAST."""
     lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
     n = int(next(line for line in lines if line.startswith("!Dimension")).split(":")[1])
     found = []
@@ -256,8 +256,8 @@ def written_formats():
 
 
 def failing_export(K, M, labels, positions):
-    """The second part keeps two nodes, which the format cannot hold; the first one is written
-    before."""
+    """The second part has two retained nodes, which the format does not support; the first one is
+    written before."""
     text = pathlib.Path("reduced.xml").read_text(encoding="utf-8")
     second = ('<ParameterList name="wide"><Parameter name="File" type="string" value="{}"/>'
               '<Parameter name="Retained" type="Array(string)" value="{{1001, 1002}}"/>'
@@ -284,7 +284,7 @@ def failing_export(K, M, labels, positions):
 
 def equilibrium_round_trip():
     """A bar at rest under a load and on a spring of the deck, reduced, exported and read again: the
-    spring counts from where it did, so that it rests."""
+    spring keeps its reference, so the bar stays at rest."""
     k = 1e4
     content = {
         "format": "tooljoint part 1",

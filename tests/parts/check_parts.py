@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts from files, looked at from outside: check_parts.py PROGRAM MPIEXEC
+"""Parts from files, tested through the program: check_parts.py PROGRAM MPIEXEC
 
-The scripts of docs/file-formats.md write parts that couple to the frequencies of the closed form;
-the frame of xml/ has the frequencies of the same frame assembled here; reduced parts come back from
-both kinds of files; bad parts end alike on every rank.
+The scripts of docs/file-formats.md write parts whose coupled frequencies agree with the closed
+form; the frame of xml/ has the frequencies of the same frame assembled here; reduced parts are read
+from both kinds of files; bad parts give the same error on every rank.
 """
 import importlib.util
 import json
@@ -138,7 +138,7 @@ def exported():
         expect(f"a run exports {kind}", done.returncode == 0
                and len(list((folder / "parts").iterdir())) == 5,
                done.stderr[-300:] if done.returncode else "")
-        # both are in the files now
+        # now both are in the files
         overrides = [
             "--without", "Reduction", "--without", "Parts/Loads", "--without", "Parts/Starts"
         ]
@@ -172,8 +172,8 @@ def exported():
 
 
 def string_part():
-    """A reduced part of a string has point laws that a file cannot hold: exported with a warning,
-    and read."""
+    """A reduced part of a string has point laws, which a file cannot contain: it is exported with a
+    warning, and read."""
     deck = ROOT / "tests" / "effects" / "scene.xml"
     done = tooljoint("export", str(deck), "--output", "string parts")
     expect("parts of a string are exported", done.returncode == 0,
@@ -245,7 +245,7 @@ def goes_on():
 
 def cost_energy_and_remarks():
     """A run of parts prints the same as a run of a string: cost of a step, energy balance, remarks
-    of the coupling; a failed one leaves a summary."""
+    of the coupling. A failed run writes a summary."""
     deck = ROOT / "xml" / "frame.xml"
     short = ["--set", "Transient/End Time=0.2"]
     done = tooljoint("run", str(deck), "--output", "said", "--verbose", *short)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts in motion: floating and massless ones, equilibria they leave, modes chosen by the
-motion."""
+"""Parts in motion: floating and massless parts, unstable equilibria, modes chosen by the motion."""
 import csv
 import importlib.util
 import json
@@ -16,8 +15,8 @@ from program import parameter_list
 
 
 def floating_beams():
-    """Two free beams, the second turned about its axis, whose planes of bending are nearly the
-    same: six rigid-body modes, whatever rounding leaves of them."""
+    """Two free beams, the second turned about its axis, whose bending planes are nearly the same:
+    six rigid-body modes in spite of rounding."""
     spec = importlib.util.spec_from_file_location("make_parts",
                                                   ROOT / "xml" / "frame" / "make_parts.py")
     make = importlib.util.module_from_spec(spec)
@@ -65,8 +64,8 @@ def floating_beams():
 
 
 def creeping_dofs():
-    """Massless interior dofs with dampers, or coupled through an unsymmetric stiffness, are in no
-    basis, and a message says so."""
+    """Massless interior dofs with dampers, or coupled through an unsymmetric stiffness, are not in
+    any basis, and a message says so."""
     deck = bars("creep",
                 Reduction={"Basis": "Craig-Bampton", "Mode Selection": {"All Modes": True}})
     part = json.loads(pathlib.Path("bar10.json").read_text(encoding="utf-8"))
@@ -98,8 +97,8 @@ def creeping_dofs():
 
 
 def unstable_equilibria():
-    """An unstable equilibrium is reported with the growth rate of the matrices, also one with a
-    negative damper."""
+    """An unstable equilibrium is reported with the growth rate of the matrices, also if it is
+    unstable because of a negative damper."""
     deck = bars("leaves", {"Initial State": "Equilibrium"})
     bar = json.loads(pathlib.Path("bar10.json").read_text(encoding="utf-8"))
     count = len(bar["dofs"])
@@ -150,8 +149,8 @@ def unstable_equilibria():
 
 
 def motion_tolerance_of_fast_parts():
-    """Modes chosen by the motion keep their tolerance where the samples of the results are far
-    apart: here 5 ms, for vibrations of up to 1 kHz."""
+    """Modes chosen by the motion keep their tolerance if the samples of the results are far apart:
+    here 5 ms, for vibrations of up to 1 kHz."""
     M, K = springs_in_a_row(31, 1e7)
     write_bar("fast.json", M, K, damping=2e-6 * K + 2 * M)
     parts = {
@@ -183,8 +182,8 @@ def motion_tolerance_of_fast_parts():
 
 
 def relaxed_laws_at_rest():
-    """A law with a relaxed state at rest has no force there, whatever its stiffness relative to the
-    parts: 100 N on 20 springs in a row, 2 mm."""
+    """A law with a relaxed state at rest has no force there, for any ratio of its stiffness to that
+    of the parts: 100 N on 20 springs in a row, 2 mm."""
     for law, values in (
         ("Maxwell", {"Stiffness": 1e7, "Damping": 40.0}),
         ("Elastic-Plastic", {"Stiffness": 1e7, "Yield Force": 1e3}),
@@ -206,8 +205,8 @@ def relaxed_laws_at_rest():
 
 
 def responses_beyond_the_linear_range():
-    """A linear response that meets a stop, or that negative damping makes none, is warned of; one
-    that stays clear is not."""
+    """A linear response gives a warning if it reaches a stop, or if negative damping makes it
+    meaningless, and no warning if it stays clear."""
     def warnings(name, force, damping, stop):
         pathlib.Path("one.json").write_text(
             json.dumps({

@@ -14,7 +14,7 @@ from program import parameter_list
 
 
 def released():
-    """At a released dof results have the motion of the first part: those that name the other one
+    """At a released dof results have the motion of the first part; outputs that name the other part
     are refused."""
     good = ROOT / "tests" / "decks" / "parts" / "good"
     imported = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" '
@@ -50,8 +50,8 @@ def released():
 
 
 def laws_on_joints():
-    """Forces between parts as coordinates have no residual flexibility for the force of a law: of
-    Dual Craig-Bampton such laws are refused where they are wrong at rest."""
+    """If forces between parts are coordinates, a force of a law has no residual flexibility. Dual
+    Craig-Bampton therefore refuses laws that would be wrong at rest."""
     def spring(stiffness, damping=0.0):
         return {
             "Springs": {
@@ -100,7 +100,7 @@ def laws_on_joints():
 
 
 def starts_of_joints():
-    """A joined node starts once, under whichever name; a constraint with a value holds from the
+    """A joined node has one start, under either name; a constraint with a value holds from the
     start."""
     def started(*places):
         return {
@@ -186,7 +186,7 @@ def turned_out_of_the_plane():
 
 
 def starts_that_coordinates_lose():
-    """Dependent coordinates and interface modes do not represent an initial state that the bases
+    """Dependent coordinates and interface modes may not represent an initial state that the bases
     contain: the warning includes this loss."""
     start = {
         "Starts": {
@@ -214,8 +214,8 @@ def starts_that_coordinates_lose():
 
 def massless_nodes_of_dual_assemblies():
     """A node without mass starts in equilibrium with the others, also if a multiplier joins it: q2
-    = q1/2 beside q3, whatever start it is given. The parts are turned, so that no dof alone is
-    without mass in the common frame; across their axis nothing moves."""
+    = q1/2 + q3/2 for any given start. The parts are turned, so that no dof alone is without mass in
+    the common frame; nothing moves across their axis."""
     for part, m, k, ends in (
         ("a", [1.0, 0.0, 1.0], [[2e4, -1e4, 0], [-1e4, 2e4, -1e4], [0, -1e4, 1e4]], {"r": [3]}),
         ("b", [1.0, 1.0], [[1e4, -1e4], [-1e4, 1e4]], {"l": [1]}),

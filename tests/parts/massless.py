@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts of which directions across the axes of their dofs have no mass."""
+"""Parts without mass in directions other than the axes of their dofs."""
 import csv
 import json
 import pathlib
@@ -37,13 +37,13 @@ def run(command, lists):
 
 
 def displacement():
-    """Of the run before, samples x nodes x components."""
+    """Displacements of the last run, samples x nodes x components."""
     with h5py.File("massless/results.h5") as file:
         return file["/transient/displacement"][()]
 
 
 def imported(name, axis, angle, **more):
-    """The entry of a part that is turned."""
+    """The deck entry of a turned part."""
     return {name: {"File": f"{name}.json", "Rotation Axis": axis, "Rotation Angle": angle, **more}}
 
 
@@ -72,8 +72,8 @@ def node_turned_a_little():
 
 
 def directions_that_meet():
-    """Each side of a joint is without mass in a plane of its own: where the planes meet, nothing at
-    the joint has mass, and a dual assembly starts as the primal one."""
+    """Each side of a joint has no mass in a plane of its own; along the intersection of the planes
+    the joint has no mass, and a dual assembly starts like the primal one."""
     numbers = np.random.default_rng(1)
     for part, bare, ends in (("a", [4, 5], {"r": [2]}), ("b", [0, 2], {"l": [1]})):
         mass = definite(numbers, 6, 1, 2)
@@ -90,8 +90,8 @@ def directions_that_meet():
 
 
 def rounding_of_masses():
-    """Rounding of masses that are none, after turning, projection and coupling, is no mass: the
-    motions of both assemblies are the same."""
+    """Rounding errors of zero masses after turning, projection and coupling do not count as mass:
+    the motions of both assemblies are equal."""
     numbers = np.random.default_rng(14)
     parts = {}
     for part in ("p0", "p1", "p2"):
@@ -132,8 +132,8 @@ def same_in_both_assemblies(what, parts):
 
 
 def light_beside_massless():
-    """A dof of 1e-14 kg vibrates seven decades above the others, and one has no mass: all have the
-    frequencies of the condensed matrices."""
+    """One dof of 1e-14 kg, whose frequency is seven decades above the others, and one dof without
+    mass: the frequencies are those of the condensed matrices."""
     stiffness = definite(np.random.default_rng(3), 5, 200, 4000)
     masses = np.array([1.0, 1.5, 0.8, 1e-14, 0.0])
     write_part("a", np.diag(masses), stiffness, ["u"], {})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Beams of plane Euler-Bernoulli elements as matrices, for the tests: components v and theta of
-each node."""
+"""Matrices of beams of plane Euler-Bernoulli elements for the tests: components v and theta of each
+node."""
 import numpy as np
 import scipy.sparse as sparse
 
@@ -28,8 +28,8 @@ def beam(length, elements):
 
 
 def halves(tj, elements=24):
-    """A cantilever of 4 m cut in its middle, clamped at node 1: the two parts, and K and M in one
-    piece."""
+    """A cantilever of 4 m cut in its middle, clamped at node 1: the two parts, and K and M of the
+    whole."""
     K, M = beam(4.0, elements)
     half = elements // 2
     Kh, Mh = beam(2.0, half)

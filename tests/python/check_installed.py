@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The package is imported from FOLDER, with the libraries installed beside it, and computes.
+"""Checks that the package in FOLDER can be imported, with the libraries installed beside it, and
+computes.
 
     check_installed.py FOLDER
 """

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks in process: read, changed, written, run; results with units; the sentences of the program
-as exceptions."""
+"""Decks in Python: read, changed, written, run; results with units; messages of the program as
+exceptions."""
 import os
 import pathlib
 import re
@@ -180,7 +180,7 @@ class Runs(unittest.TestCase):
         self.assertEqual(tj.read("run").summary, results.summary)
 
     def test_warnings_are_those_of_the_last_call(self):
-        for run in range(2):  # of every call anew
+        for run in range(2):  # new in every call
             results = tj.run(FRAME, SHORT, output="warned")
             self.assertIn("basis does not represent the initial state", "".join(results.warnings))
             self.assertEqual(tj.warnings(), results.warnings)
@@ -263,7 +263,7 @@ class Interrupts(unittest.TestCase):
         self.assertLess(time.perf_counter() - begin, 20)
         self.assertEqual(tj.read("interrupted").summary["status"], "interrupted")
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
-        with self.assertRaises(KeyboardInterrupt):  # Python has its handler back
+        with self.assertRaises(KeyboardInterrupt):  # the handler of Python is restored
             os.kill(os.getpid(), signal.SIGINT)
             time.sleep(5)
 

@@ -61,7 +61,7 @@ class Blocks(unittest.TestCase):
         self.assertEqual(run(BLOCKS[1]), "Random Subspace\n")
 
     def test_a_law(self):
-        # A mass on a spring without damping swings from 0.1 m to -0.1 m; samples meet the turning
+        # A mass on a spring without damping moves from 0.1 m to -0.1 m; samples hit the turning
         # point to 1e-4.
         self.assertAlmostEqual(float(run(BLOCKS[2])), -0.1, places=3)
 

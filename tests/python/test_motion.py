@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Motions of reduced models: against scipy, and point laws written in Python against the same in
+"""Motions of reduced models against scipy, and point laws in Python against the same laws in
 C++."""
 import os
 import signal
@@ -24,7 +24,7 @@ def tip_spring(t, d, v, stiffness=tj.Parameter(unit="N/m"), cubic=tj.Parameter(0
 
 
 def synthesis(law=None, load=None):
-    """The cantilever reduced, with a law at the tip of the right half and a start there."""
+    """The reduced cantilever with a law and a start at the tip of its right half."""
     left, right, _, _ = beams.halves(tj)
     tip = right.model.position(25, "v")
     if law is not None:
@@ -93,7 +93,7 @@ class Motions(unittest.TestCase):
         truth = scipy.integrate.solve_ivp(rates, (0, END), np.zeros(2 * len(model)), "DOP853",
                                           times, rtol=1e-10, atol=1e-14)
         exact = row @ truth.y[:len(model)]
-        # Generalised-alpha is of second order: a quarter of the error with half of the step.
+        # Generalised-alpha is of second order: half the step gives a quarter of the error.
         coarser = (tip_motion(python, step=step) for step in (2e-4, 1e-4))
         errors = [abs(each - exact).max() / size for each in (*coarser, other)]
         self.assertLess(errors[2], 2e-3, f"errors {errors}")
@@ -169,7 +169,7 @@ class Motions(unittest.TestCase):
         ball.model.add_points("wall", tj.law("Wall"), [[1.0]])
         ball.model.set_start([0.0], [-1.0])
         bounce = tj.integrate(ball, 0.05, sampling_interval=0.001, step=2e-5)
-        # 10 ms of flight, half a period of contact, then back at the speed it came with.
+        # 10 ms of flight, half a period of contact, then the same speed backwards
         back = 0.01 + np.pi / 1e3
         self.assertAlmostEqual(float(bounce.velocity[-1, 0]), 1.0, delta=1e-3)
         self.assertAlmostEqual(float(bounce.displacement[-1, 0]), -0.01 + (0.05 - back), delta=1e-4)
@@ -207,7 +207,7 @@ class Motions(unittest.TestCase):
                     self.assertAlmostEqual(reports[0][name], reports[1][name],
                                            delta=1e-6 * abs(reports[0]["loads"]), msg=name)
 
-        # Without `power` all that its forces take counts as damping.
+        # Without `power` the work of its forces counts as damping.
         tj.point_law("Creep Unsaid", states=1, start=relaxed)(creep)
         unsaid = tj.integrate(synthesis(tj.law("Creep Unsaid", **given), push), END,
                               sampling_interval=SAMPLING, step=1e-4).report["energy"]
@@ -266,7 +266,7 @@ class Motions(unittest.TestCase):
         force = law.force(0.0, [1.0, 0.0, 0.0, 1.0], np.zeros(4))
         self.assertEqual(force.tolist(), [-200.0, -100.0, -100.0, -300.0])
         self.assertEqual(seen, [(2, 2)])
-        # As stiffness of a model: its frequencies are those of the matrix.
+        # as stiffness of a model: the frequencies are those of the matrix
         part = tj.part("plane", np.eye(4), np.zeros((4, 4)), component_names=("u", "v"))
         part.model.add_points("skew", law, np.eye(4))
         want = np.sqrt(
@@ -296,7 +296,7 @@ class Motions(unittest.TestCase):
                 'The point law "Wrong Shape" returned 7 values at t = 0 s; expected are 1 forces'):
             tip_motion(synthesis(tj.law("Wrong Shape")), step=1e-3)
         with self.assertRaises(
-                tj.ModelError) as caught:  # the cause of the last call is not that of this one
+                tj.ModelError) as caught:  # the cause of the last call is not the cause of this one
             tj.part("no matrix", "mass", np.eye(2))
         self.assertIsNone(caught.exception.__cause__)
 
@@ -343,7 +343,7 @@ class Motions(unittest.TestCase):
         with self.assertRaisesRegex(tj.ConvergenceError,
                                     '^The point law "No Rate" returned nan at t = '):
             motion("No Rate", lambda t, d, v, x: (-d, np.nan + x), states=1)
-        # A rejected trial is no error, and a call has no effect on the next one.
+        # A rejected trial is not an error, and calls are independent.
         motion("In Bounds", lambda t, d, v: np.where(abs(d) < 1.5, -d, np.nan))
         self.assertEqual(str(tj.ConvergenceError("Another one.")), "Another one.")
 
@@ -385,7 +385,7 @@ class Threads(unittest.TestCase):
             thread.join(60)
         for one in found:
             self.assertTrue(np.array_equal(one, want))
-        with self.assertRaises(KeyboardInterrupt):  # signals are Python's again
+        with self.assertRaises(KeyboardInterrupt):  # Python handles signals again
             os.kill(os.getpid(), signal.SIGINT)
             time.sleep(5)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts from scipy matrices: reduction, coupling and modes against scipy.linalg.eigh of the
-whole."""
+"""Parts from scipy matrices: reduction, coupling and modes against scipy.linalg.eigh of the whole
+structure."""
 import gc
 import pathlib
 import unittest
@@ -23,7 +23,7 @@ class Matrices(unittest.TestCase):
         left, _, K, M = beams.halves(tj)
         model = left.model
         given = M[:len(left), :len(left)].toarray(
-        )[:-2, :-2]  # all but the interface, where the right half adds
+        )[:-2, :-2]  # without the interface, where the right half adds
         self.assertTrue(np.allclose(model.mass.toarray()[:-2, :-2], given, rtol=1e-14))
         first, second = model.mass, model.mass
         self.assertTrue(np.shares_memory(first.data, second.data),
@@ -46,7 +46,7 @@ class Matrices(unittest.TestCase):
         K, M = beams.beam(1.0, 3)
         K, M = K[2:, 2:], M[2:, 2:]
         want = tj.modes(tj.part("csr", M, K, component_names=("v", "theta")), 3).frequency
-        # Every entry stands twice in its row, with half of its value.
+        # Every entry is stored twice in its row, with half its value.
         twice = sparse.csr_matrix((np.repeat(K.data / 2, 2), np.repeat(K.indices, 2), 2 * K.indptr),
                                   K.shape)
         for name, matrix in {

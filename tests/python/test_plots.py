@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """tooljoint.plots, and the figures of tools/plot_results.py and tools/plot_study.py: labels with
-units, depth downwards, one scale in space, titles with conditions, no text on another one."""
+units, depth downwards, one scale in space, titles with conditions, no overlapping texts."""
 import os
 import pathlib
 import re
@@ -299,8 +299,8 @@ class Results(Style):
 
 class Campbell(Style):
     def draw(self, whirl, damping):
-        """A diagram of two modes over four speeds, with lines of excitations that leave it near to
-        one another."""
+        """A diagram of two modes over four speeds; the lines of excitations leave it close to one
+        another."""
         with memory() as file:
             speed = np.tile(np.linspace(0, 200, 4) / plots.RPM, 2)
             rows = {
@@ -351,7 +351,7 @@ DECK = ('<ParameterList name="well"><ParameterList name="Loads"><Parameter name=
 
 class Studies(Style):
     def study(self, count):
-        """A study of `count` methods of nearly the same speed and error."""
+        """A study of `count` methods with nearly the same speed and error."""
         folder = pathlib.Path(f"study_{count}")
         folder.mkdir(exist_ok=True)
         head = ("line,label,kind,model,sweep,status,vibration_error,cpu_per_simulated_s "

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The package on several ranks: the same numbers as on one, errors on all of them, and no rank that
-waits for one that has failed."""
+"""The package on several ranks: the same numbers as on one, errors on all ranks, and no rank waits
+for a failed one."""
 import os
 import pathlib
 import subprocess
@@ -14,7 +14,7 @@ PRELUDE = "import sys; sys.path.insert(0, %r); import numpy as np, tooljoint as 
 
 
 def run(ranks, code):
-    """Standard output, standard error and exit code of this code on so many ranks."""
+    """Standard output, standard error and exit code of this code on several ranks."""
     command = [sys.executable, "-c", PRELUDE + code]
     done = subprocess.run([MPIEXEC, "-n", str(ranks), *command] if ranks > 1 else command,
                           capture_output=True, text=True, timeout=120, check=False)

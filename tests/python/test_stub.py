@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python/tooljoint/_core.pyi agrees with the module. `test_stub.py --update` writes it."""
+"""Checks that python/tooljoint/_core.pyi agrees with the module. `test_stub.py --update` writes
+it."""
 import inspect
 import os
 import pathlib
@@ -27,8 +28,8 @@ from numpy.typing import ArrayLike
 
 
 def typed(signature):
-    """Types of pybind11 as those of Python: classes of this module, arrays; arguments may be
-    anything that becomes one."""
+    """Converts types of pybind11 to those of Python: classes of this module, arrays; arguments may
+    be anything that can be converted."""
     signature = re.sub(r"numpy\.ndarray\[(?:[^\[\]]|\[[^\[\]]*\])*\]", "numpy.ndarray", signature)
     signature = signature.replace("tooljoint._core.", "").replace("tooljoint::python::", "")
     signature = re.sub(r"\bUnion\[None, (.*?)\] = None",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bases and point laws written in Python take part in calls, in decks and in studies."""
+"""Bases and point laws written in Python, used in calls, decks and studies."""
 import os
 import pathlib
 import unittest
@@ -15,8 +15,8 @@ FRAME = SOURCE / "xml/frame.xml"
 @tj.basis("Inverse Steps")
 def inverse_steps(part, count, steps=3, extra=tj.Parameter(4,
                                                            doc="Vectors beside those asked for.")):
-    """A random subspace of the interior, drawn towards its low modes by inverse steps (Halko et al.
-    2011)."""
+    """A random subspace of the interior, moved towards its low modes by inverse iteration (Halko et
+    al. 2011)."""
     random = np.random.default_rng(1)
     vectors = random.standard_normal((len(part.interior), count + extra))
     for step in range(steps):
@@ -83,7 +83,7 @@ class Bases(unittest.TestCase):
             kept[0].interior_mass
         with self.assertRaisesRegex(tj.UsageError, "already"):
             tj.basis("Craig-Bampton")(lambda part, count: None)
-        tj.basis("Short")(lambda part, count: np.eye(22))  # written anew, as in a notebook
+        tj.basis("Short")(lambda part, count: np.eye(22))  # defined again, as in a notebook
         tj.reduce(left, "Short", modes=2)
 
     def test_it_takes_part_in_a_deck_and_in_a_study(self):
@@ -166,7 +166,7 @@ class Laws(unittest.TestCase):
         clamped = tj.run(SOURCE / "tests/effects/scene.xml", {}, at_rest,
                          output="clamped").summary["static"]
         self.assertEqual(own["contact_nodes"], clamped["contact_nodes"])
-        # The same walls carry the same weight; friction carries some of it in one of the two.
+        # Equal walls carry the same weight; in one of the two cases friction carries part of it.
         self.assertAlmostEqual(own["total_normal_force"] / clamped["total_normal_force"], 1.0,
                                delta=0.1)
 

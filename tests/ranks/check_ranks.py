@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Motions that ranks divide among themselves against the motion of one rank.
+"""Compares motions divided among ranks with the motion on one rank.
 
     check_ranks.py PROGRAM MPIEXEC [--all]
 
-Every scene runs on one rank and, with Transient/Ranks = Divide, on others. Equal must be the dofs,
-the steps and the iterations; every dataset to 1e-10 (static state), 1e-9 (motion) or 1e-6 (figures
-of merit) of its largest entry. --all takes every scene of xml/ that moves, full and reduced, 2, 3
-and 4 ranks and 0.2 s of motion; without it one model of each scene that is not in tests/regression
-(of the two long vertical ones the shorter), mostly over 0.02 s on 2 ranks. A table of the
+Every scene runs on one rank and, with Transient/Ranks = Divide, on several. Dofs, steps and
+iterations must be equal, and every dataset to 1e-10 (static state), 1e-9 (motion) or 1e-6 (figures
+of merit) of its largest entry. --all takes every scene of xml/ with a motion, full and reduced, on
+2, 3 and 4 ranks over 0.2 s. Without it one model of each scene that is not in tests/regression runs
+(the shorter of the two long vertical ones), mostly over 0.02 s on 2 ranks. A table of the
 differences is printed.
 """
 import json
@@ -33,18 +33,19 @@ from same_results import datasets, difference  # noqa: E402
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 # An acceleration is a difference of displacements divided by the square of the step.
 BOUNDS = {"static": 1e-10, "motion": 1e-9, "figures": 1e-6}
-# Velocities [m/s] and figures below these are errors of iterations in a motion at rest.
+# Smaller velocities [m/s] and figures are iteration errors of a motion at rest.
 REST = {"veloc": 1e-8, "figures": 1e-3}
-# What rounding leaves in 200 steps, which do not damp it, per displacement [m, rad]. An element of
-# a metre turns 94 rad with the string (extended_reach_5000m) and holds with terms of 8e7 N m: 1e-16
-# of them over the inertia of 0.3 kg m2 of a node are 3e-8 rad/s2, four such terms 1e-10 rad/s in a
-# step, 14 times that in 200 steps, and four to ten times that of the largest of 5000 nodes: 6e-9 to
-# 2e-8 rad/s. Axial accelerations likewise: 1e-16 of E/(rho L2) = 2.6e7 / s2, 100 times.
+# Rounding of velocities after 200 steps, which do not damp it, per displacement [m, rad]. An
+# element of a metre turns by 94 rad with the string (extended_reach_5000m); its torsion terms are
+# 8e7 N m. 1e-16 of them divided by the inertia 0.3 kg m2 of a node is 3e-8 rad/s2, four such terms
+# give 1e-10 rad/s in a step, 200 steps 14 times that, and the largest of 5000 nodes four to ten
+# times that: 6e-9 to 2e-8 rad/s. Axial accelerations likewise: 1e-16 of E/(rho L2) = 2.6e7 / s2,
+# 100 times.
 VELOCITY_ROUNDING, AXIAL_ROUNDING = 2.2e-10, 2.6e-7
 COUNTS = "steps", "newton_iterations", "factorisations", "rejected", "halved"
-# With its own tolerance of 0.01 the steps of this scene grow beyond the limit of stability until
-# the fastest mode, grown from rounding, has the size of the tolerance: 1e-14 of the density changes
-# velocities by 4e-8 in 0.02 s and counts of steps in 0.2 s.
+# With the tolerance of its deck, 0.01, the steps of this scene grow beyond the limit of stability
+# until the fastest mode, excited by rounding, reaches the tolerance: a relative change of 1e-14 in
+# the density changes velocities by 4e-8 in 0.02 s and the numbers of steps in 0.2 s.
 ACCURATE = ["--set", "Transient/RK4 adaptive/Tolerance=1e-8"]
 # (deck, words, end of the motion [s], ranks)
 SHORT = [
@@ -87,7 +88,8 @@ def rests(name, value):
 
 
 def compare(one, many):
-    """Largest difference of the static state and of the motion, each with its dataset."""
+    """Largest difference of the static state and of the motion, each with the name of its
+    dataset."""
     worst = dict.fromkeys(BOUNDS, (0.0, ""))
     moved = np.abs(one["static/displacement"])
     rounding = {
@@ -136,7 +138,7 @@ def first_rank(parent):
             if above == parent and b"OMPI_COMM_WORLD_RANK=0" in (
                     entry / "environ").read_bytes().split(b"\0"):
                 return int(entry.name)
-        except OSError:  # it has ended
+        except OSError:  # the process has ended
             continue
     return 0
 
@@ -169,8 +171,7 @@ def full_disk():
 def main():
     every = "--all" in sys.argv[3:]
     memory = {scene[0]: check(*scene) for scene in (ALL if every else SHORT)}
-    # 236 MB; 28 MB more where the problem at rest and its factors stay while the stability is
-    # checked
+    # 236 MB; 28 MB more if the problem at rest and its factors are kept during the stability check
     more = memory["vertical_5000m"] - memory["stress_170m"]
     expect("27000 dofs take at most 250 MB more than 1000", every or more <= 250, f"{more:.0f} MB")
     full_disk()

@@ -9,7 +9,7 @@ A gold is a JSON file:
       "set": ["Transient/End Time=0.2"],                  overrides, may be absent
       "ranks": [1, 2, 4],                                 one CTest each
       "timeout_s": 300,
-      "rests_on": {                                       of every norm: why its value is right
+      "rests_on": {                                       reason why the value of each norm is right
         "static.residual":        "balance: the bound is Static/Tolerance",
         "static.top_axial_force": "closed form: weight of the string less the weight on bit"
       },
@@ -23,14 +23,14 @@ A gold is a JSON file:
     }
 
 `rests_on` begins with one of "closed form", "balance", "published", "independent computation",
-"pinned", a colon, and the argument. "pinned" is a value that is right only because it was so
-before: the argument says why there is nothing better.
+"pinned", a colon, and the argument. A "pinned" value is supported only by an earlier result: the
+argument says why there is nothing better.
 
-Keys are dotted paths into summary.json, numbers step into lists. A real number needs `relative`
-and/or `absolute` (the sum of both allowances holds), or `at_most`, which bounds its size, or
-`at_least`, which bounds the number; whole numbers, texts and booleans without tolerance must be
-equal. `--update` runs the deck once on the first of `ranks` and rewrites the values (not those with
-`at_most` or `at_least`), never the tolerances.
+Keys are dotted paths into summary.json; numbers are indices of lists. A real number needs
+`relative` and/or `absolute` (the sum of both allowances holds), or `at_most`, which bounds its
+size, or `at_least`, which bounds the number; whole numbers, texts and booleans without tolerance
+must be equal. `--update` runs the deck once on the first of `ranks` and rewrites the values (not
+those with `at_most` or `at_least`), never the tolerances.
 """
 import argparse
 import copy
@@ -47,7 +47,7 @@ SOURCES = ("closed form", "balance", "published", "independent computation", "pi
 
 
 def look_up(summary, key):
-    """The value at a dotted path; raises KeyError naming the step that is missing."""
+    """The value at a dotted path; raises KeyError with the missing key."""
     value = summary
     for step in key.split("."):
         if isinstance(value, list) and step.isdigit() and int(step) < len(value):
@@ -85,7 +85,7 @@ def is_number(value):
 
 
 def compare(norm, found):
-    """(difference, allowed, ok) as texts and a truth value."""
+    """(difference, allowed, ok) as two texts and a boolean."""
     expected = norm["value"]
     if not (is_number(expected) and is_number(found)):
         return "", "equal", type(expected) is type(found) and expected == found
@@ -120,14 +120,14 @@ def faults_of(gold):
 
 
 def check_gold(gold, path):
-    """Ends the process when there is something wrong with the gold itself."""
+    """Ends the process if the gold itself has errors."""
     faults = list(faults_of(gold))
     if faults:
         sys.exit("\n".join(f"{path}: {fault}" for fault in faults))
 
 
 def self_test():
-    """Shows that every fault of a gold is found, and that values outside of their tolerance
+    """Shows that every fault of a gold is detected, and that values outside of their tolerance
     fail."""
     good = {
         "norms": {

@@ -13,8 +13,8 @@ from written import EFFECTS, ROOT, STRING, figures, page
 
 
 def analysis(chromium, title, command, deck, wanted, *arguments):
-    """The report of an analysis: its title, warnings first, headline figures before the sections,
-    the deck; its text and its summary, {} where there is none."""
+    """Makes and checks the report of an analysis: its title, warnings first, headline figures
+    before the sections, the deck; its text and its summary, {} if there is none."""
     folder = f"analysis_{command}"
     shutil.rmtree(folder, ignore_errors=True)
     done = tooljoint(command, deck, "--output", folder, *arguments)
@@ -45,7 +45,7 @@ def card(name, value):
 
 
 def cells(text, column):
-    """Texts of a column of the first table that is no list of pairs."""
+    """Texts of a column of the first table that is not a list of pairs."""
     rows = re.findall(
         r"<tr>(.*?)</tr>",
         re.search(r"<table><caption>.*?</table>|<table><thead>.*?</table>", text, re.S).group(),

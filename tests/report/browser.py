@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A headless Chromium that is driven through its pipe: pages at a given width, their console
-output, pixels, values."""
+"""A headless Chromium controlled through a pipe: pages at a given width, their console output,
+pixels, values."""
 import base64
 import json
 import os
@@ -18,7 +18,7 @@ OPTIONS = ("--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=an
 
 
 def program():
-    """The Chromium that is installed, or None."""
+    """The installed Chromium, or None."""
     return next((path for path in map(shutil.which, NAMES) if path), None)
 
 
@@ -31,8 +31,8 @@ class Browser:
         self.profile = tempfile.mkdtemp(prefix="report_browser_")
         to_read, self.write = os.pipe()
         self.read, to_write = os.pipe()
-        # Chromium reads commands from descriptor 3 and writes answers to 4; moved out of the way
-        # first, since they may be these numbers.
+        # Chromium reads commands from descriptor 3 and writes answers to 4. Our own descriptors may
+        # have these numbers and are therefore moved first.
         moved = [os.dup(descriptor) for descriptor in (to_read, to_write)]
         while min(moved) <= 4:
             moved = [os.dup(descriptor) for descriptor in moved]
@@ -99,7 +99,7 @@ class Browser:
         return self
 
     def value(self, expression):
-        """Value of a JavaScript expression in the page, promises awaited."""
+        """Value of a JavaScript expression in the page; promises are awaited."""
         result = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
                            awaitPromise=True)
         if "exceptionDetails" in result:
@@ -108,7 +108,7 @@ class Browser:
         return result["result"].get("value")
 
     def faults(self):
-        """Errors and warnings of the console, exceptions, and requests to anything but the file
+        """Errors and warnings of the console, exceptions, and requests other than the file
         itself."""
         found = []
         for event in self.events:

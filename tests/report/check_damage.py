@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reports of folders with a damaged file: check_damage.py PROGRAM
 
-If one of several files is damaged, a report of the others begins with it, with exit code 5. A full
-disk is reported as such, and no file is left.
+If one of several files is damaged, the report shows the others and begins with a note on it; the
+exit code is 5. A full disk is reported as such, and no file is left.
 """
 import html
 import pathlib

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Quantities computed by a report, against closed forms: check_quantities.py
+"""Quantities computed in a report against closed forms: check_quantities.py
 
 Stresses, curvatures, precession, spectra, envelopes, units, the deck with its overrides, best and
 worst points of maps, and the numbers of the 3-D view.
@@ -77,9 +77,9 @@ def motions():
 
 
 def touching():
-    """Tool joints on the wall all along, but for a stretch without contact: the picture is white
-    there and nowhere else."""
-    s = np.arange(241) * 4.7244  # two elements a joint of pipe
+    """Tool joints touch the wall along the whole string except for an interval without contact: the
+    picture is white there and only there."""
+    s = np.arange(241) * 4.7244  # two elements per joint of pipe
     middles, joints = 0.5 * (s[1:] + s[:-1]), np.arange(241) % 2 == 1
     radius = np.where(joints, 0.0841, 0.0635)
     lifted = (s > 500) & (s < 560)
@@ -115,7 +115,7 @@ def recorded():
 
 
 def many_nodes():
-    """Five kilometres of nodes are a few hundred lines, with the largest of them."""
+    """Five kilometres of nodes are drawn as a few hundred lines, with the largest values."""
     s, values = np.linspace(0, 5000, 5001), np.zeros(5001)
     values[[777, 4321]] = 9.0, 7.0
     made, axes = plots.figure()
@@ -281,12 +281,12 @@ def view():
 
 
 def released():
-    """Below a released joint results have the motion of the part above: the element there is shown
-    as the next one."""
+    """Below a released joint, results have the motion of the part above: the first element there is
+    shown with the values of the next one."""
     bar, bent = Bar(), np.zeros((11, 6))
     bent[:, 2], bent[:, 3], bent[:, 5] = 1e-5 * bar.s, -1e-3 * bar.s, 1e-4 * bar.s
     smooth = results.von_mises(bar, bent)
-    bent[5:, 2:] += 0.05  # the part below node 6 is apart from what is shown of it
+    bent[5:, 2:] += 0.05  # the part below node 6 moves apart from the recorded motion of the node
     expect("a joint that opens is seen as a stress",
            results.von_mises(bar, bent)[5 - 1] > 2 * smooth[5 - 1])
     bar.data["/model/elements_below_releases"] = np.array([5])

@@ -4,12 +4,12 @@
 
     check_report.py PROGRAM MPIEXEC pages|folders
 
-Each page has its figures, says nothing wrong on the console, asks nothing of a network, fits into
-400 px, is below 5 MB, and its 3-D view is drawn and moves with its slider. The numbers in it are
-those of the results. What cannot be reported on ends with a sentence and exit code 5. "pages" are
-those of a string, of parts, of a study, of a map and of each analysis; without Chromium they are
-only read. "folders" are those of runs that leave less, failed, were interrupted or damaged, and the
-end of a run.
+Each page has its figures, causes no error on the console, needs no network, fits into 400 px, is
+below 5 MB, and its 3-D view is drawn and moves with its slider. Its numbers are those of the
+results. Folders without usable results give a message and exit code 5. "pages" are those of a
+string, of parts, of a study, of a map and of each analysis; without Chromium they are only read.
+"folders" are those of runs with fewer outputs, of failed, interrupted and damaged runs, and the
+report at the end of a run.
 """
 import contextlib
 import csv
@@ -39,8 +39,8 @@ from analyses import analyses, card  # noqa: E402
 
 
 def string_numbers(folder, text):
-    """The view shows the results: positions, frames, displacements, fields; the headline figures
-    are those of the summary."""
+    """The view agrees with the results: positions, frames, displacements, fields; the headline
+    figures agree with the summary."""
     scene = scene_of(text)
     summary = json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))
     with h5py.File(pathlib.Path(folder, "results.h5")) as file:
@@ -56,7 +56,7 @@ def string_numbers(folder, text):
     frame = numbers(scene["frames"])  # node, axis, component
     near("string: frames are turned likewise", frame[:, :, 1], -data["/model/frame"][:, 2, :], 1e-6)
     expect("string: frames stay right-handed", np.all(np.linalg.det(frame) > 0.999))
-    # 0.109 m to 10 m, 0.108 m below; a node where both meet touches the narrower one
+    # 0.109 m to 10 m, 0.108 m below; a node at the boundary touches the narrower one
     near("string: the bore", numbers(scene["bore"]), np.where(data["/model/s"] < 10, 0.109, 0.108),
          1e-7)
     near("string: what touches",
@@ -87,7 +87,8 @@ def string_numbers(folder, text):
 
 
 def strings(chromium):
-    """Runs of a string: 20 s of motion with the tables of other commands beside it, and at rest."""
+    """Runs of a string: 20 s of motion with the tables of other commands in the same folder, and at
+    rest."""
     run("string", STRING, "--set", "Transient/End Time=20", "--set",
         "Transient/Sampling Interval=0.005", "--set", "Torque and Drag/Depths={40, 42}", "--set",
         "Torque and Drag/After Run=true")
@@ -139,7 +140,7 @@ def lesser_strings():
 
 
 def old_results():
-    """Results without contents that other programs may omit: a report of the rest."""
+    """Results without contents that other programs may omit: the report shows the others."""
     for gone in (
         [
             "/model/young_modulus", "/model/component_names", "/model/outer_radius",
@@ -242,8 +243,8 @@ def map_numbers(text):
 
 
 def maps(chromium):
-    """A map with a third axis, whose second point makes runs fail; tables that are sorted by a
-    click; a map that has not ended."""
+    """A map with a third axis, at whose second point runs fail; tables sorted by a click; an
+    unfinished map."""
     shutil.rmtree("map", ignore_errors=True)
     third = ('<ParameterList name="iterations"><Parameter name="Parameter" type="string" '
              'value="Static/Max Iterations"/><Parameter name="Values" type="Array(string)" '
@@ -364,7 +365,7 @@ def refusals():
 
 def failed():
     """Runs that did not converge, before and after the state at rest: a page of the existing
-    results, with the reason first."""
+    results that begins with the reason."""
     for folder, setting, wanted, reason in (
         ("no motion", "Transient/Step=0.1", WITHOUT_MOTION, "The time step (0.1 s) is too large"),
         ("no rest", "Static/Max Iterations=1", set(), "The static equilibrium did not converge"),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A report opened in a browser at two widths and on paper: nothing is cut off, lies on another
-thing or is too small to read, the view in space is drawn and moves."""
+"""A report opened in a browser at two widths and on paper: nothing is cut off, overlaps or is too
+small to read, and the view in space is drawn and moves."""
 import base64
 import re
 
@@ -21,8 +21,8 @@ PIXELS = """(() => {
   return {colours: counts.size, drawn: 1 - Math.max(...counts.values()) / pixels.length, sum: sum};
 })()"""
 
-# Texts of plots that are cut off, or that lie on another one; slanted texts have boxes larger than
-# themselves and are not compared.
+# Texts of plots that are cut off or overlap. Slanted texts are not compared, since their boxes are
+# larger than the texts.
 TEXTS = """[...document.querySelectorAll("figure svg")].flatMap((svg) => {
   const frame = svg.getBoundingClientRect(), faults = [];
   const slants = (t) => /rotate\\(-(?!0|90)/.test(t.getAttribute("transform") || "");
@@ -40,7 +40,7 @@ TEXTS = """[...document.querySelectorAll("figure svg")].flatMap((svg) => {
   return faults.map((fault) => svg.closest("figure").id + ": " + fault);
 })"""
 
-# Texts of the axes in space that lie on one another or outside of the picture.
+# texts of the axes in space that overlap or are outside of the picture
 AXES = """(() => {
   const view = document.getElementById("view"), texts = view.labels();
   const canvas = view.querySelector("canvas");
@@ -61,8 +61,8 @@ WHEEL = """(() => {
   for (let i = 0; i < 8; ++i) canvas.dispatchEvent(new WheelEvent("wheel", turn));
 })()"""
 
-# Of each figure: its name, the size [px] of its smallest text, by how much it is wider than the
-# place it has, and whether it is a large one.
+# For each figure: name, size [px] of the smallest text, excess width over its place, and whether it
+# is a large one.
 SMALLEST = """[...document.querySelectorAll("figure")].map((figure) => {
   const svg = figure.querySelector("svg"), width = svg.getBoundingClientRect().width;
   const scale = width / svg.viewBox.baseVal.width;
@@ -73,7 +73,7 @@ SMALLEST = """[...document.querySelectorAll("figure")].map((figure) => {
 })"""
 LEAST = 8.4  # [px] of a text of a plot on a screen
 MARGIN = 14  # of a printed page [mm]
-# What stands out of a page of this width, or is higher than one.
+# elements wider than a page of this width, or higher than a page
 CUT = """[...document.querySelectorAll("figure, .card, #view canvas, table")].filter((one) => {
   const box = one.getBoundingClientRect();
   return box.width > 0 && (box.left < -1 || box.right > %d + 1 ||
@@ -116,7 +116,7 @@ def look(title, path, chromium, view=True, moves=True):
         if view:
             expect(f"{title}, {width} px: the axes in space have their names",
                    chromium.value(NAMES) == 3, chromium.value(NAMES))
-            for zoom in (0, 100, -100, -100):  # as it opens, farther away, nearer
+            for zoom in (0, 100, -100, -100):  # initial view, farther away, nearer
                 if zoom:
                     chromium.value(WHEEL % zoom)
                 faults = chromium.value(AXES)
@@ -142,8 +142,7 @@ def look(title, path, chromium, view=True, moves=True):
 
 
 def on_paper(title, path, chromium, view):
-    """A4 pages on which each thing stands whole, and the view has its scale of colours in words and
-    numbers."""
+    """A4 pages on which no element is split; the view has its colour scale in words and numbers."""
     width, height = (round(length / 25.4 * 96) for length in (210 - 2 * MARGIN, 297 - 2 * MARGIN))
     chromium.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=1, mobile=False)

@@ -30,7 +30,7 @@ def sides():
 
 
 def rounding():
-    """Without vibration there are no orbits, spectra and whirl; no number is minus zero."""
+    """Without vibration there are no orbits, spectra and whirl, and no number is minus zero."""
     figures_ = {
         "begin": 1.0, "end": 2.0, "stick_slip_index": 0.0, "stuck_share": 0.25,
         "stuck_speed_rpm": 4.77, "weight_on_bit": {"mean": 444822.16152605, "min": 4e5,
@@ -91,8 +91,8 @@ def rounding():
 
 
 def whirls():
-    """Captions of orbits that turn with the string and against it, to the right and to the left,
-    from recorded velocities and without."""
+    """Captions of orbits that rotate with the string and against it, to the right and to the left,
+    with recorded velocities and without."""
     for speed, orbit, said in (
         (10.0, 10.0,
          "mean precession 95.5 rpm, 1.00 of the surface speed; clockwise is forward, positive"),
@@ -123,8 +123,8 @@ def whirls():
 
 
 def torques():
-    """One sign, against the rotation, though the program records torque on bit against a rotation
-    to the right."""
+    """Torques are plotted with one sign, positive against the rotation, although the program
+    records the torque on bit against a rotation to the right."""
     for sense in (1, -1):
         run = Still(
             1e-3, {
@@ -134,7 +134,7 @@ def torques():
                     "max": max(sense * 1500.0, sense * 2500.0),
                 }
             }, sense * 10.0)
-        run.speed[0] = 0.0  # there the surface torque is against a rotation to the right
+        run.speed[0] = 0.0  # at that point the surface torque is against a rotation to the right
         run.data["/transient/torque_on_bit"] = np.full(200, sense * 2000.0)
         run.data["/transient/surface_torque"] = np.where(np.arange(200) > 0, 5000.0, sense * 5000.0)
         drawn = []
@@ -153,7 +153,7 @@ def torques():
 
 
 def torques_at_rest():
-    """The static torque has the sign of the surface torque, whichever way the string turns."""
+    """The static torque has the sign of the surface torque for both senses of rotation."""
     for sense in (1, -1):
         bar = Bar(torque=-sense * 2e3)  # resists a rotation of this sense
         bar.summary = {"static": {"surface_torque": 2e3, "top_torque": -sense * 2e3}}

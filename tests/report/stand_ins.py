@@ -7,7 +7,7 @@ from report import figures, results
 
 
 class Bar:
-    """A straight vertical pipe of `elements` elements in the place of a run."""
+    """A straight vertical pipe of `elements` elements instead of a run."""
     def __init__(self, elements=10, length=20.0, outer=0.06, inner=0.05, tension=1e5, torque=-2e3):
         nodes = elements + 1
         self.s = np.linspace(0, length, nodes)
@@ -38,8 +38,8 @@ def near(what, found, expected, tolerance=1e-12):
 
 
 class Still:
-    """A string of three nodes in the place of a run: vertical, inclined by 30 degrees to the east,
-    by 1 degree to the south; `amplitude` [m] of a circle at all of them."""
+    """A string of three nodes instead of a run: vertical, inclined by 30 degrees to the east, by 1
+    degree to the south; all nodes move on a circle of `amplitude` [m]."""
 
     is_string, moves, value, sense = True, True, results.Run.value, results.Run.sense
 

@@ -37,8 +37,8 @@ def run(folder, deck, *arguments):
 
 
 def report(folder, *arguments):
-    """Runs the command; (output, CPU seconds of the command and its script), which parallel tests
-    do not increase."""
+    """Runs the command; (output, CPU seconds of the command and its script), which do not depend on
+    parallel tests."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = tooljoint("report", folder, *arguments)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -10,8 +10,8 @@ from scenes import SHAFT, close, expect, lists, material, modes_at, run, table, 
 
 
 def window():
-    """A window and a target show the modes of a wide diagram that lie there, at every speed, and
-    its critical speeds; shapes belong to their rows."""
+    """A window and a target show the modes of a wide diagram within them at every speed, and its
+    critical speeds; shapes are stored with their rows."""
     text = SHAFT.replace('name="Modes" type="int" value="4"',
                          'name="Modes" type="int" value="24"').replace('"{1}"', '"{1, 2}"')
     pathlib.Path("wide.xml").write_text(text, encoding="utf-8")
@@ -45,8 +45,8 @@ def window():
         found = modes_at(near, speed)["frequency"]
         expect(f"target at {speed} rad/s: {np.sort(nearest)} are followed",
                all(np.min(np.abs(found - f)) < 1e-6 * f for f in nearest), found)
-    # pinned at both ends: a mode of n half waves crosses the axis n - 1 times, and the sense of its
-    # circle is that of its row
+    # pinned at both ends: a mode of n half waves crosses the axis n - 1 times, and its sense of
+    # whirl is that of its row
     with h5py.File("window/campbell.h5") as results:
         shapes = results["shapes"]
         length = results["profile/s"][-1]
@@ -74,7 +74,7 @@ def window():
 
 
 def excitations():
-    """Blades, motor and lobes are lines of their own: order and offset; critical speeds of the
+    """Blades, motor and lobes are separate lines with order and offset; critical speeds of the
     overhung disc with them."""
     run("campbell", "overhung.xml", "motor", "Campbell/Blades=5", "Campbell/Motor Speed=20",
         "Campbell/Motor Lobes=4", "Campbell/Orders={}")
@@ -139,7 +139,7 @@ def bending():
             close("bending: at rest F x/2 from the ends to the middle", moments[row], exact, 1e-9)
         elif np.min(np.abs(f - pinned_hz(young, rho, radius, length, (1, 3)))) > 0.5:
             close(f"bending: along the beam at {f:g} Hz", moments[row], exact,
-                  4e-3)  # means of elements, 40 of them
+                  4e-3)  # means over the elements, 40 in all
     rows = table("bending", "response")
     close("bending: the largest of the table is that along the beam", rows["bending_moment"],
           moments.max(axis=1), 1e-12)

@@ -26,8 +26,8 @@ from refusals import STRING, refusals  # noqa: E402
 
 
 def laval():
-    """A disc amid a shaft without mass, damped: amplitude and phase of the unbalance at all speeds,
-    critical speed."""
+    """A disc at the middle of a massless shaft, damped: amplitude and phase of the unbalance at all
+    speeds, critical speed."""
     m, k, c, moment = 12.0, 3e6, 900.0, 4e-3
     omega0, ratio = np.sqrt(k / m), c / (2 * np.sqrt(k * m))
     part("laval.h5", ["u", "v"], m * np.eye(2), k * np.eye(2), c * np.eye(2))
@@ -76,7 +76,7 @@ def laval():
 
 def neighbours():
     """A wide and a narrow resonance between the points of the sweep, whose flanks meet: both are
-    found once, whatever the points."""
+    found once, for any choice of points."""
     K = np.array([[2.0e5, -1.2e4], [-1.2e4, 2.05e5]])
     squares, shapes = np.linalg.eigh(K)
     rates = 2 * np.pi * np.array([2.2, 0.1])  # half widths [rad/s] of 69 and 73.6 Hz
@@ -100,8 +100,8 @@ def neighbours():
 
 
 def overhung():
-    """A disc at the end of a cantilever without mass: the gyroscopic moment splits its modes,
-    forward and backward."""
+    """A disc at the end of a massless cantilever: the gyroscopic moment splits its modes, forward
+    and backward."""
     m, diametral, polar, length, bending = 8.0, 0.05, 0.1, 0.4, 5e4
     k = bending / length**3 * np.array([[12, -6 * length], [-6 * length, 4 * length**2]])
     flip = np.diag([1.0, -1.0])
@@ -215,7 +215,7 @@ def transfer():
             1j * rows["node 1:at 3_phase"])
     close("harmonic loads add with their phases",
           loads["node 1_amplitude"] * np.exp(1j * loads["node 1_phase"]), sum_of, 1e-12)
-    # near 0 Hz the motion of a free chain is so large that the error of a few modes is hidden
+    # near 0 Hz the rigid motion of a free chain is large and masks the error of a few modes
     links = np.diff(np.eye(12), axis=0)
     free = 1e12 * links.T @ np.diag(k * (1 + 0.3 * np.sin(range(1, 12)))) @ links
     turn = np.array([[0.8, 0.6], [-0.6, 0.8]]) @ np.diag([1, 0.7]) @ np.array([[0.8, -0.6],
@@ -240,8 +240,8 @@ def transfer():
 
 
 def motor():
-    """A narrow resonance met at Order Omega + Motor Order Omega_m; with the order 0 one frequency
-    at all speeds."""
+    """A narrow resonance at Order Omega + Motor Order Omega_m; with order 0 the frequency is the
+    same at all speeds."""
     m, k, c = 2.0, 5e4, 0.2
     part("motor.h5", ["u"], m * np.eye(1), k * np.eye(1), c * np.eye(1))
     scene = deck(
@@ -283,7 +283,7 @@ def motor():
 
 def shaft():
     """A spinning pinned Rayleigh shaft as a string: (rho S + rho I q^2) w^2 - 2 rho I q^2 Omega w -
-    (E I q^4) = 0 with shear as a softer spring."""
+    (E I q^4) = 0, with shear flexibility as a softer spring."""
     pathlib.Path("shaft.xml").write_text(SHAFT, encoding="utf-8")
     run("campbell", "shaft.xml", "shaft")
     rows = table("shaft", "campbell")
@@ -308,8 +308,8 @@ def shaft():
 
 
 def walls():
-    """Unbalance of the shaft, by the scene and by the analysis, and the remaining distance to a
-    wall."""
+    """Unbalance of the shaft, applied by the scene and by the analysis, and the remaining distance
+    to a wall."""
     contact = lists("Contact", values(Stiffness=1e7))
     response = lists(
         "Response",
@@ -343,7 +343,7 @@ def walls():
     close("walls: the least margin is that of the largest amplitude between the points",
           margins["margin"][margins["node"] == 21], 0.9 - largest, 1e-9)
     expect("walls: that is behind the wall", largest > 1.0, largest)
-    shear = 2 * (1 + material()[1]) * 0.1**2 / (4 * 0.9)  # E I/(G S beta): the section turns less
+    shear = 2 * (1 + material()[1]) * 0.1**2 / (4 * 0.9)  # E I/(G S beta): the section rotates less
     close("walls: the turn of the section at the quarter of a sine",
           peaks["amplitude"][peaks["output"] == 2],
           largest * np.pi / 2 * np.cos(np.pi / 4) / (1 + shear * (np.pi / 2)**2), 1e-3)
@@ -353,7 +353,7 @@ def walls():
 
 def turning():
     """A response at 0 rpm of a turning shaft gives a warning, one at a given speed does not. The
-    shaft does not bend, and no moment is printed."""
+    shaft does not bend, so no moment is printed."""
     loads = lists("Loads", lists("middle", values(Node=21, Component="u")))
     response = lists(
         "Response",
@@ -372,9 +372,9 @@ def turning():
 
 
 def critical_speeds(reduced, settings):
-    """Critical speeds of the string itself: those of the reduced model differ from those of the
-    full one by the estimate. The estimate is of first order in the error, which is 1e-6 and less
-    here; rounding and the tolerance of the crossings are below 1e-9."""
+    """Critical speeds of a string: the difference between reduced and full model is the estimate.
+    The estimate is of first order in the error, which is 1e-6 and less here; rounding and the
+    tolerance of the crossings are below 1e-9."""
     done = tooljoint("campbell", "string.xml", "--output", "string_full", "--without", "Reduction",
                      "--without", "Substructures",
                      *(word for one in settings for word in ("--set", one)))
@@ -453,7 +453,7 @@ def string():
 
 
 def pictures():
-    """Both kinds of results are drawn; a folder without either gives a message."""
+    """Both kinds of results are drawn; a folder with neither gives a message."""
     for folder, name in (
         ("nelson", "campbell"),
         ("laval_response", "response"),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rotors that become unstable as they turn faster: with vibration by damping of the shaft, without
-by a stiffness that the speed takes away."""
+"""Rotors that become unstable at higher speeds: with vibration, because of damping of the shaft;
+without vibration, because of a stiffness that decreases with the speed."""
 import json
 import pathlib
 
@@ -25,8 +25,8 @@ def response(sweep):
 
 
 def shaft_damping():
-    """Damping c_i of the shaft and c_e outside: m r'' + (c_i + c_e) r' + (k - i c_i Omega) r = 0
-    grows above omega_0 (1 + c_e/c_i)."""
+    """Internal damping c_i of the shaft and external damping c_e: m r'' + (c_i + c_e) r' + (k - i
+    c_i Omega) r = 0 grows above omega_0 (1 + c_e/c_i)."""
     m, k, inner, outer = 2.0, 5e3, 4.0, 6.0
     part("inner.h5", ["u", "v"], m * np.eye(2), k * np.eye(2), (inner + outer) * np.eye(2), None,
          (("Omega", inner * np.array([[0, 1], [-1, 0]])),))

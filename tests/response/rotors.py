@@ -4,8 +4,8 @@ solver.
 
 Nelson: H. D. Nelson and J. M. McVaugh, J. Eng. Ind. 98 (1976) 593-600. Friswell: M. I. Friswell, J.
 E. T. Penny, S. D. Garvey and A. W. Lees, Dynamics of Rotating Machines (Cambridge University Press,
-2010), examples 5.9.1 and 5.9.2, with the frequencies and amplitudes that the ROSS project prints of
-them (R. Timbo et al., J. Open Source Softw. 5 (2020) 2120; docs/examples/example_05_09_01 and
+2010), examples 5.9.1 and 5.9.2, with their frequencies and amplitudes as printed by the ROSS
+project (R. Timbo et al., J. Open Source Softw. 5 (2020) 2120; docs/examples/example_05_09_01 and
 ross/tests/test_rotor_assembly of that project).
 """
 import h5py
@@ -61,8 +61,8 @@ def symmetric(upper):
 
 
 def shaft_matrices(x, inner, outer, young, density, shear=np.inf):
-    """Elements of Timoshenko (Friswell et al., section 5.4) in one plane, of a solid section with
-    the shear coefficient 6 (1 + nu)/(7 + 6 nu): K, M, G."""
+    """Timoshenko elements (Friswell et al., section 5.4) in one plane, for a solid section with the
+    shear coefficient 6 (1 + nu)/(7 + 6 nu): K, M, G."""
     K, M, G = (np.zeros((2 * len(x), 2 * len(x))) for _ in range(3))
     nu = young / (2 * shear) - 1 if np.isfinite(shear) else 0.3
     for e, l in enumerate(np.diff(x)):
@@ -124,8 +124,8 @@ def friswell_matrices():
 
 
 def rotor_part(file, k, m, g, c=None, across=None):
-    """Both planes of a rotor as a part with the components u, v, theta_x, theta_y.
-    `across` is the stiffness of the plane of v, where it is another."""
+    """Both planes of a rotor as a part with the components u, v, theta_x, theta_y. `across` is the
+    stiffness of the plane of v, if it differs."""
     stations = len(k) // 2
     flip = np.diag([1.0, -1.0] * stations)
     K, M, G, C = (np.zeros((4 * stations, 4 * stations)) for _ in range(4))
@@ -146,7 +146,7 @@ def reduction(modes):
 
 
 def nelson():
-    """The published rotor, whole and reduced, and the same critical speeds from a dense solver."""
+    """The published rotor, full and reduced, and the same critical speeds from a dense solver."""
     k, m, g = nelson_matrices()
     rotor_part("nelson.h5", k, m, g)
     campbell = lists(
@@ -207,7 +207,7 @@ def friswell():
 
 def anisotropic():
     """The same rotor on bearings of 1 and 0.8 MN/m, example 5.9.2: amplitudes under unbalance as
-    ROSS prints them."""
+    printed by ROSS."""
     k, m, g = friswell_matrices()
     softer = k.copy()
     for end in (0, -2):
@@ -248,7 +248,7 @@ def anisotropic():
 
 def damped():
     """The same rotor on bearings of 1 and 2 MN/m with 1 kN s/m, 1 kg m at station 1, 50 rad/s: the
-    major axis of the orbits of stations 1 and 2 as ROSS prints it [m]."""
+    major axis of the orbits of stations 1 and 2 as printed by ROSS [m]."""
     k, m, g = friswell_matrices()
     stiffer, bearings = k.copy(), np.zeros_like(k)
     for end in (0, -2):
@@ -272,10 +272,10 @@ def damped():
     ):
         u, v = (rows[f"{name}{station}_amplitude"][-1] *
                 np.exp(1j * rows[f"{name}{station}_phase"][-1]) for name in "uv")
-        turn = -np.angle(u * u + v * v) / 2  # of the phase, to the instant of the largest distance
+        turn = -np.angle(u * u + v * v) / 2  # phase up to the instant of the largest distance
         axis = np.real(np.array([u, v]) * np.exp(1j * turn))
-        # the published axis is that of a picture, which its test holds to 1e-4; the smaller
-        # component agrees in all figures
+        # the published axis comes from a picture, which its own test checks to 1e-4; the smaller
+        # component agrees in all digits
         close(f"damped: major axis at station {station} {axis} against the published one",
               np.abs(axis) / published, 1.0, 1e-4)
 
@@ -302,7 +302,7 @@ def unbalance(name, k, m, g, c, station, last, modes):
         force[2 * station - 2] = moment
         r = np.array(
             [np.linalg.solve(k - w**2 * (m - g) + 1j * w * c, w**2 * force) for w in rows["speed"]])
-        # peaks are a hundred times the static response and more
+        # peaks are at least a hundred times the static response
         tolerance = 1e-6 if not reduced else 5e-3
         close(f"{scene}: motion of the disc along x",
               rows["x_amplitude"] * np.exp(1j * rows["x_phase"]), r[:, 2 * station - 2], tolerance)

@@ -25,7 +25,7 @@ def lists(name, inner):
 
 
 def values(**given):
-    """Parameters of a list; blanks of a name are written as underscores."""
+    """Parameters of a list; blanks in a name are written as underscores."""
     kinds = {str: "string", int: "int", float: "double"}
     return "".join(
         f'<Parameter name="{key.replace("_", " ")}" type="{kinds[type(value)]}" value="{value}"/>'
@@ -33,8 +33,8 @@ def values(**given):
 
 
 def part(path, components, mass, stiffness, damping=None, gyroscopic=None, terms=()):
-    """A part of one file; `gyroscopic` is the damping of unit speed, `terms` further stiffnesses
-    (law, matrix)."""
+    """A part in one file; `gyroscopic` is the gyroscopic matrix at unit speed, `terms` further
+    stiffnesses (law, matrix)."""
     nodes = len(mass) // len(components)
     with h5py.File(path, "w") as f:
         f.attrs["format"] = "tooljoint part 1"
@@ -91,7 +91,7 @@ def modes_at(rows, speed):
 
 
 def estimates(folder):
-    """Errors of the spot checks are those that were estimated, where they are more than
+    """Compares the errors of the spot checks with their estimates, if they are more than
     rounding."""
     checks = table(folder, "spot_checks")
     large = checks["error"] > 1e-8

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of Campbell diagrams about the static state of each speed: a shaft under the weight on bit
-of a cutting bit, strings on the wall, and a shaft whose state does not change."""
+"""Campbell diagrams whose static state depends on the speed: a shaft under the weight of a cutting
+bit, strings on the wall, and a shaft with an unchanged state."""
 import pathlib
 
 import numpy as np
@@ -12,7 +12,7 @@ EACH = "Campbell/Static State=Each Speed"
 
 
 def shaft():
-    """If nothing depends on the speed, the diagram is that of one state."""
+    """If nothing depends on the speed, the diagram equals that of a single state."""
     pathlib.Path("states_shaft.xml").write_text(SHAFT, encoding="utf-8")
     run("campbell", "states_shaft.xml", "states_shaft_one")
     run("campbell", "states_shaft.xml", "states_shaft_each", EACH)
@@ -25,9 +25,10 @@ def shaft():
 
 
 def bit():
-    """A pinned shaft between a block that moves at v and a cutting bit of n blades: W = n a zeta
-    eps d with d = 2 pi v/(n Omega) per blade compresses it, so that its frequencies rise with the
-    speed: (rho S + rho I q^2) w_f w_b = E I q^4/(1 + phi) - W q^2 of forward and backward whirl."""
+    """A pinned shaft between a block that moves at v and a cutting bit of n blades: the weight W =
+    n a zeta eps d with d = 2 pi v/(n Omega) per blade compresses it, so its frequencies rise with
+    the speed: (rho S + rho I q^2) w_f w_b = E I q^4/(1 + phi) - W q^2 of forward and backward
+    whirl."""
     length, radius, blades, speed, zeta, energy = 20.0, 0.1, 3, 0.01, 0.6, 60e6
     loads = lists("Loads", values(Gravity=0.0)) + lists("Top Drive", values(Block_Speed=speed))
     law = lists(
@@ -63,8 +64,8 @@ def bit():
         pairs = np.sort(2 * np.pi * modes_at(rows, at)["frequency"]).reshape(-1, 2)
         found = pairs[:, 0] * pairs[:, 1]
         exact = np.array([product(waves, load) for waves in range(1, len(found) + 1)])
-        # torque and shear in the mass matrix are the rest; the weight itself is 7 % of the first
-        # frequency at 4 rad/s
+        # the rest is due to torque, and to shear in the mass matrix; the weight itself is 7 % of
+        # the first frequency at 4 rad/s
         expect(f"each speed, bit at {at:g} rad/s: {np.sqrt(found)} rad/s",
                np.max(np.abs(found / exact - 1)) < 2e-4, np.sqrt(exact))
     rise = modes_at(rows, 20.0)["frequency"][0] / modes_at(rows, 4.0)["frequency"][0]
@@ -93,8 +94,8 @@ def bit():
 
 def wall():
     """The reference scene with half of its string and friction that weakens with the speed,
-    reduced: at each speed the modes of the deck that turns at it from the start; spot checks;
-    ranks."""
+    reduced: at each speed the modes are those of a deck that turns at this speed from the start;
+    spot checks; ranks."""
     scene = str(SOURCES / "xml/helical_170m.xml")
     settings = [
         f"Drillstring/Assembly={SHORTER}", "!Path/Pre-stress", "Static/Friction=Sliding Speed",
@@ -125,9 +126,8 @@ def wall():
 
 
 def drive():
-    """A torque at the end of a shaft that a PI controller turns: G J theta'' = -rho J omega^2
-    theta, G J theta'(0) = Z theta(0) with Z = K_i + i omega K_p - omega^2 I. No motion is asked
-    for."""
+    """A torque at the end of a shaft turned by a PI controller: G J theta'' = -rho J omega^2 theta,
+    G J theta'(0) = Z theta(0) with Z = K_i + i omega K_p - omega^2 I. The deck has no motion."""
     length, radius, inertia, proportional, integral = 2000.0, 0.06, 1500.0, 800.0, 300.0
     sweep = lists("Loads", lists("t", values(Node=201, Component="theta_z"))) + lists(
         "Outputs",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Analyses that are stopped and go on."""
+"""Analyses that are stopped and continued."""
 import pathlib
 import re
 import signal
@@ -11,7 +11,8 @@ from stopped import FULL, ROOT, command, fresh, run
 
 
 def stopped_analysis(signum, folder, plural, least, *arguments):
-    """Starts an analysis and sends it a signal when it has kept something; its exit code."""
+    """Starts an analysis and sends it a signal when it has stored a result; returns its exit
+    code."""
     fresh(folder)
     process = subprocess.Popen(command(*arguments, "--output", folder), stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL, env=of_ranks(1))
@@ -23,8 +24,8 @@ def stopped_analysis(signum, folder, plural, least, *arguments):
 
 
 def analyses():
-    """Interrupted or killed analyses continue with the same command to the same tables, and print a
-    message."""
+    """Interrupted or killed analyses are continued by the same command, end with the same tables,
+    and print a message."""
     assembly, string = str(ROOT / "xml/bha_motor_1500m.xml"), str(ROOT / "xml/helical_170m.xml")
     bha = [
         word
@@ -72,7 +73,7 @@ def analyses():
         whole = run(*arguments, "--output", "whole_table")
         expect(f"{name}: runs", whole.returncode == 0, whole.stderr[-300:])
         for how, code in ((signal.SIGINT, 130), (signal.SIGKILL, -9)):
-            # a machine that is busy elsewhere may let a command end before its signal
+            # on a busy machine a command may end before its signal
             for _ in range(5):
                 found = stopped_analysis(how, "stopped_table", plural, least, *arguments)
                 if found != 0:

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs that are stopped and go on: check_restart.py PROGRAM MPIEXEC PART [without-sundials]
+"""Runs that are stopped and continued: check_restart.py PROGRAM MPIEXEC PART [without-sundials]
 
-PART is "analyses" (tables whose command was stopped), "bits" (laws of the bit and of the top
-drive), "integrators" (every integrator, full and reduced models, strings and imported parts:
-stopped by SIGTERM, gone on with, killed, gone on with) or "folders" (full disks, other ranks, two
-runs in one folder, damaged and foreign files). A run that was stopped ends with the samples,
-tables, pictures and figures of the one that was not, bit by bit.
+PART is "analyses" (tables of stopped commands), "bits" (laws of the bit and of the top drive),
+"integrators" (every integrator, full and reduced models, strings and imported parts: stopped by
+SIGTERM, continued, killed, continued) or "folders" (full disks, other ranks, two runs in one
+folder, damaged and foreign files). A stopped and continued run ends with samples, tables, pictures
+and figures that are bitwise equal to those of an uninterrupted run.
 """
 import functools
 import hashlib
@@ -32,7 +32,7 @@ if "without-sundials" not in sys.argv[4:]:
 
 @functools.lru_cache(maxsize=None)
 def whole_run(deck, options):
-    """Folder of the run that nothing stops, made once for all that is compared with it."""
+    """Folder of the uninterrupted run, made once for all comparisons."""
     folder = f"whole_{hashlib.sha1(repr((deck, options)).encode()).hexdigest()[:12]}"
     fresh(folder)
     done = run("run", deck, "--output", folder, *options)
@@ -43,9 +43,9 @@ def whole_run(deck, options):
 
 def interrupted_twice(title, deck, options, ranks=(1, 1, 1), tolerance=0.0, but=None):
     """Stopped by SIGTERM, continued and killed, continued: the numbers of an uninterrupted run.
-    `but`: beginnings of names of values within rounding."""
+    `but`: first parts of names of values that agree only within rounding."""
     whole = whole_run(deck, tuple(options))
-    for _ in range(5):  # a machine that is busy elsewhere may let a run end before its signal
+    for _ in range(5):  # on a busy machine a run may end before its signal
         fresh("halted")
         codes = [
             stop(signal.SIGTERM, "halted", "run", deck, "--output", "halted", *options,
@@ -88,8 +88,8 @@ def integrators():
 
 
 def bits():
-    """Delay lines of a bit, the integral of a drive at its limit, block and integral of an
-    autodriller."""
+    """State beyond the model: delay lines of a bit, the integral of a drive at its limit, block and
+    integral of an autodriller."""
     def overrides(*pairs):
         return [word for pair in pairs for word in ("--set", pair)]
 
@@ -176,8 +176,8 @@ def other_ranks():
 
 
 def two_runs_in_one_folder():
-    """Another run in the folder of an interrupted one, failing or not, preserves the pair of
-    checkpoint and samples."""
+    """Another run in the folder of an interrupted one, failed or not, keeps the pair of checkpoint
+    and samples."""
     other = {
         STRING: ["--set", "Contact/Stiffness=2e7"],
         FRAME: ["--set", "Parts/Loads/shaker/Value=600"],
@@ -205,7 +205,7 @@ def two_runs_in_one_folder():
         wrong = differences(whole,
                             "shared/interrupted") if done.returncode == 0 else [done.stderr[-300:]]
         expect(f"{title}: A goes on from where it is now", not wrong, "; ".join(wrong[:6]))
-        # the samples of B beside the checkpoint of A, and none at all
+        # the checkpoint of A with the samples of B, and without samples
         for name in ("results.h5", "results.h5.part"):
             pathlib.Path("spare", name).unlink(missing_ok=True)
         none = run("run", deck, "--restart", "spare", *LONG)
@@ -240,7 +240,7 @@ def restart_killed_early():
 
 
 def elsewhere():
-    """--output beside --restart: the interrupted run stays as it is."""
+    """--output with --restart: the folder of the interrupted run is not changed."""
     fresh("from", "to")
     whole = whole_run(STRING, LONG)
     stop(signal.SIGTERM, "from", "run", STRING, "--output", "from", *LONG)
@@ -254,7 +254,7 @@ def elsewhere():
 
 
 def other_decks():
-    """A checkpoint restarts its own run only, and the message names the difference."""
+    """A checkpoint restarts only its own run, and the message names the difference."""
     fresh("deck", "kept")
     shutil.copytree(ROOT / "xml" / "frame", "deck/frame")
     shutil.copy(FRAME, "deck/frame.xml")
@@ -307,7 +307,7 @@ def other_decks():
 
 
 def other_contents():
-    """Files of a string: survey and library."""
+    """Files of a string that have changed: survey and library."""
     fresh("contents", "kept")
     pathlib.Path("contents").mkdir()
     for name in ("survey.csv",):
@@ -331,8 +331,8 @@ def other_contents():
 
 
 def results_larger_than_the_disk():
-    """The longest motion that a deck may ask for, all fields recorded: 0.4 to 0.6 TB.
-    A disk with more room cannot show it."""
+    """The longest motion that a deck may request, all fields recorded: 0.4 to 0.6 TB. The test is
+    left out on a disk with more free space."""
     longest = [
         "--set", "Transient/Sampling Interval=0.005", "--set", "Transient/End Time=4.9e5", "--set",
         "Output/Fields={displacement, velocity, acceleration, normal_force}"

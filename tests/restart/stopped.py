@@ -49,14 +49,14 @@ def children(parent):
             if entry.name.isdigit() and int((entry / "stat").read_text(encoding="utf-8").rsplit(
                     ")", 1)[1].split()[1]) == parent:
                 found.append(int(entry.name))
-        except (FileNotFoundError, ProcessLookupError):  # it has ended meanwhile
+        except (FileNotFoundError, ProcessLookupError):  # the process has ended
             continue
     return found
 
 
 def stop(signum, folder, *arguments, ranks=1):
-    """Starts a run and sends it a signal as soon as it has written a checkpoint; its exit code.
-    With several ranks the signal goes to each of them: mpiexec hands it on late, or never, and a
+    """Starts a run and sends it a signal as soon as it has written a checkpoint; returns its exit
+    code. With several ranks each of them gets the signal: mpiexec forwards it late or never, and a
     short run would end first."""
     before = stamp(folder)
     process = subprocess.Popen(command(*arguments, ranks=ranks), stdout=subprocess.DEVNULL,
@@ -67,7 +67,7 @@ def stop(signum, folder, *arguments, ranks=1):
         if process.poll() is None:
             os.kill(target, signum)
     code = process.wait(timeout=60)
-    lock = os.open(folder, os.O_RDONLY)  # ranks may outlive their mpiexec for a moment
+    lock = os.open(folder, os.O_RDONLY)  # ranks may run a little longer than their mpiexec
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline:
         try:

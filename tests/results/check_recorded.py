@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Recording of chosen depths and nodes, and compression: check_recorded.py PROGRAM MPIEXEC
 
-Records of chosen nodes equal, bitwise, those of a run that records all nodes, on one rank and two
-and after a restart. Reports, comparisons and pictures use them or state why not; a depth or name
-without a node is refused. Compression changes no number.
+Records of chosen nodes are bitwise equal to those of a run that records all nodes, on one rank, on
+two and after a restart. Reports, comparisons and pictures use them or state why not. A depth or
+name without a node is refused. Compression does not change numbers.
 """
 import pathlib
 import shutil
@@ -35,7 +35,7 @@ def run(folder, deck, *arguments, ranks=1):
 
 
 def same(title, whole, chosen, wanted, heading, components):
-    """The motion of the chosen nodes is that of the whole; everything else is as it was."""
+    """The motion of the chosen nodes equals that of the full record; all other data are equal."""
     with h5py.File(f"{whole}/results.h5") as one, h5py.File(f"{chosen}/results.h5") as other:
         rows = other["/transient/node"][:] - 1
         expect(f"{title}: the nodes are those that were asked for",
@@ -63,7 +63,7 @@ def same(title, whole, chosen, wanted, heading, components):
 
 
 def figures(folder):
-    """summary.json but for times and memory."""
+    """summary.json without times and memory."""
     lines = pathlib.Path(folder, "summary.json").read_text(encoding="utf-8").splitlines()
     return [
         line for line in lines if not any(word in line
@@ -153,7 +153,7 @@ def parts():
 
 
 def compression():
-    """It is on by default. Off, the numbers are the same."""
+    """Compression is on by default; without it the numbers are the same."""
     plain = run("plain", STRING, "--set", "Output/Compression=0")
     with h5py.File("all/results.h5") as packed, h5py.File(f"{plain}/results.h5") as other:
         expect(

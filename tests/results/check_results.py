@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of a run agree with docs/file-formats.md: check_results.py PROGRAM
 
-Every dataset has the shape and the unit of its row in the table, and every row is written by some
-run; velocities are rates of displacements, contact forces those of the law, tables and summary
-agree with the datasets, pictures are the motion in the global frame. The runs are
+Every dataset has the shape and the unit of its row in the table, and every row is written by at
+least one run. Velocities are rates of displacements, contact forces are those of the law, tables
+and summary agree with the datasets, pictures show the motion in the global frame. The runs are
 tests/effects/scene.xml (a string) and tests/study/frame.xml with springs, stops and a slider
 (parts).
 """
@@ -94,7 +94,7 @@ def check_geometry(data):
 
 def check_contact(data):
     """F_n = (2 k/pi) atan(pi lambda G) G, G = r - clearance > 0 (the law Clamped at rest), with the
-    stiffness of the interval."""
+    stiffness of the depth interval."""
     s, d = data["/model/s"], data["/static/displacement"]
     penetration = np.hypot(d[:, 0], d[:, 1]) - data["/model/clearance"]
     stiffness = np.where((s >= 12) & (s < 62), 1.2e7, 1e7)
@@ -179,7 +179,7 @@ def check_summary(summary, data):
 
 
 def check_figures(figures, folder, data):
-    """Figures of merit against the histories of the same run, over the second half of the
+    """Compares figures of merit with the histories of the same run over the second half of the
     motion."""
     time = data["/transient/time"]
     window = time > 0.15 - 1e-9
@@ -238,9 +238,9 @@ def check_figures(figures, folder, data):
 
 
 def section_axes(data, rigidity):
-    """Axes of the cross sections on the path, global: those with the least energy of bending sum 2
-    E I/l (a.a + a.b + b.b), where a and b are the angles from the chord of an element to the axes
-    at its ends (a natural cubic spline through the nodes)."""
+    """Axes of the cross sections on the path, global: they minimise the bending energy sum 2 E I/l
+    (a.a + a.b + b.b), where a and b are the angles from the chord of an element to the axes at its
+    ends (a natural cubic spline through the nodes)."""
     chord = np.diff(data["/path/position"], axis=0)
     length = np.linalg.norm(chord, axis=1)
     nodes = len(length) + 1
@@ -254,7 +254,7 @@ def section_axes(data, rigidity):
 
 def check_bending(figures, data):
     """The largest range of a rainflow count is that of the whole history; the moment is E I times
-    the turn of the axes of the sections."""
+    the change of the section axes."""
     time = data["/transient/time"]
     window = time > 0.15 - 1e-9
     frames, d = data["/model/frame"], data["/transient/displacement"][window]
@@ -279,7 +279,7 @@ def check_bending(figures, data):
     expect(
         "figures: the worst element", figures["bending"]["range"] == found.max()
         and figures["bending"]["range_element"] == np.argmax(found) + 1)
-    # one cycle of the largest range at least, two such half cycles at least
+    # at least one cycle, or two half cycles, of the largest range
     stress = found * data["/model/outer_radius"] / (rigidity / data["/model/young_modulus"])
     least = 0.5 * (stress / 100e6)**4 / 1e6 * 3600 / (t[-1] - t[0])
     damage = data["/figures/damage_per_hour"]
@@ -290,7 +290,7 @@ def check_bending(figures, data):
 
 
 def check_pictures(data):
-    """Vectors of the pictures are those of the samples turned by the nodal frames."""
+    """Vectors of the pictures are those of the samples, transformed by the nodal frames."""
     at = np.searchsorted(data["/transient/time"], data["/xdmf/time"] - 1e-9)
     frames = data["/model/frame"]
     near("pictures: displacement in the global frame", data["/xdmf/displacement"],
@@ -305,8 +305,8 @@ def check_pictures(data):
 
 
 def check_left_turn():
-    """The sign of friction at rest is that of a rotation to the right, whichever way the string
-    turns."""
+    """The sign of friction at rest is that of a rotation to the right, for both senses of
+    rotation."""
     folder = run(ROOT / "tests" / "effects" / "scene.xml", "left",
                  "Rotary Speed/Exponential/Final Speed=-120 rpm", "Transient/End Time=0.002")
     with h5py.File(folder / "results.h5") as file:
@@ -327,7 +327,7 @@ def main():
     check_left_turn()
     check_released(strings, written["string"])
     check_parts(parts, written["parts"])
-    for title in written:  # tests/results/check_recorded.py writes it
+    for title in written:  # written by tests/results/check_recorded.py
         written[title].add("/transient/node")
     for title, rows in (("string", strings), ("parts", parts)):
         expect(f"{title}: every documented dataset is written",

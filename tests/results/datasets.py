@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Datasets and tables of a run, read and compared."""
+"""Reads and compares datasets and tables of a run."""
 import csv
 import pathlib
 import re
@@ -54,7 +54,7 @@ def table(path, header):
 
 
 def rates(values, time):
-    """Central differences of the samples in between."""
+    """Central differences at the inner samples."""
     apart = time[2:] - time[:-2]
     return (values[2:] - values[:-2]) / apart.reshape((-1,) + (1,) * (values.ndim - 1))
 

@@ -9,8 +9,8 @@ MANUAL = pathlib.Path(__file__).resolve().parents[2] / "docs" / "file-formats.md
 
 
 def rows(heading):
-    """First table of datasets below a heading: path -> {"shape": ..., "units": ...}.
-    NAME and NNN in a path stand for any name."""
+    """First table of datasets below a heading: path -> {"shape": ..., "units": ...}. NAME and NNN
+    in a path match any name."""
     text = MANUAL.read_text(encoding="utf-8")
     lines = text[text.index(heading):].split("\n| dataset |", 1)[1].splitlines()
     titles = [title.strip() for title in lines[0].strip("|").split("|")]
@@ -39,15 +39,15 @@ def matches(pattern, path):
 
 
 def fits(shape, found, sizes):
-    """`sizes` gives the numbers that the letters of a documented shape stand for; other words stand
-    for any number."""
+    """`sizes` gives the numbers for the letters of a documented shape; other words match any
+    number."""
     wanted = [sizes.get(word, int(word) if word.isdigit() else None) for word in shape.split(" x ")]
     return len(wanted) == len(found) and all(size in (None, extent)
                                              for size, extent in zip(wanted, found))
 
 
 def faults(file, table, sizes=None):
-    """Messages on datasets without a row, or with another unit or shape than their row; and the
+    """Messages on datasets without a row, or with another unit or shape than in their row; and the
     rows found."""
     wrong, met = [], set()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results of parts: lengths, places, forces of connectors, joints that are released."""
+"""Results of parts: lengths, positions, forces of connectors, released joints."""
 import json
 import xml.etree.ElementTree as xml
 
@@ -98,8 +98,7 @@ def check_parts(rows, written):
 
 
 def check_parts_figures(figures, file, names):
-    """Lengths of displacements and accelerations of the nodes over the second half of the
-    motion."""
+    """Norms of displacements and accelerations of the nodes over the second half of the motion."""
     time = file["/transient/time"][:]
     window = time > 0.5 * (time[0] + time[-1]) - 1e-9
     lengths = [c for c, name in enumerate(names) if not name.startswith("theta")]
@@ -139,8 +138,8 @@ def check_parts_figures(figures, file, names):
 
 
 def check_places(file):
-    """The frame as its deck describes it: beams of 4 m along x, an arm of 1.5 m along y, columns of
-    3 m upright."""
+    """Positions of the frame as in its deck: beams of 4 m along x, an arm of 1.5 m along y, columns
+    of 3 m upright."""
     position, links = file["/model/position"][:], file["/model/links"][:]
     expect("parts: every node has its place",
            file["/model/located"][:].tolist() == list(range(1,
@@ -155,8 +154,8 @@ def check_places(file):
 
 
 def check_released(rows, written):
-    """Below a joint that is free in part nodes have the motion of the part above: bending there is
-    that of the next element."""
+    """Below a partly released joint, nodes have the motion of the part above: bending there is that
+    of the next element."""
     folder = run(ROOT / "tests" / "effects" / "coupling.xml", "released", "Transient/End Time=0.05",
                  "Output/Figures/Begin=0")
     with h5py.File(folder / "results.h5") as file:

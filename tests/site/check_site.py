@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Builds the documentation site and checks it: check_site.py CMAKE BUILD PROJECT
 
-Every link within the site leads to a file and an anchor that are there, every picture exists, every
-page of docs/ has become one, every page stands in the navigation of the first, long tables are CSV
-files, and the reference of the Python package has all it offers. In Chromium, where it is
-installed, a page has no errors and its theme switch works. Links to other hosts are those listed
-here; they are not opened (target `docs-linkcheck`).
+Every link within the site leads to an existing file and anchor, every picture exists, every page of
+docs/ is in the site and in the navigation of the first page, long tables are CSV files, and the
+reference of the Python package lists all public names. If Chromium is installed, a page has no
+errors in it and its theme switch works. Links to other hosts are those listed here; they are not
+opened (target `docs-linkcheck`).
 """
 import csv
 import html.parser
@@ -26,14 +26,14 @@ from checks import expect, finish  # noqa: E402
 from pictured import RECORD  # noqa: E402
 
 GENERATED = {"index.html", "genindex.html",
-             "search.html"}  # of Sphinx, or the way to the first page
-# bytes; pictures are read over slow lines and stay in the repository for good
+             "search.html"}  # made by Sphinx, or redirection to the first page
+# bytes; pictures are read over slow connections and remain in the repository
 LARGEST_PICTURE = 150_000
 ELSEWHERE = {"https://uscilab.github.io/cereal/"
              }  # links to other hosts, which only `docs-linkcheck` opens
 THEME = {"https://github.com/pradyunsg/furo",
-         "https://pradyunsg.me"}  # those that the theme writes into each page
-# Target or tool of each figure of record; all but the first are part of the target `records`.
+         "https://pradyunsg.me"}  # links that the theme writes into each page
+# Target or tool of each figure of the documents; all but the first belong to the target `records`.
 MAKERS = {
     "architecture.svg": "tests/lint/picture.py", "cms_variants_*.png": "cms-variants",
     "hard_*.svg": "hard-cases", "map_*.svg": "maps", "step_error.svg": "step_accuracy",
@@ -86,7 +86,7 @@ class Page(html.parser.HTMLParser):
 
 
 def target(page, link):
-    """(file, anchor) that a link of a page leads to, or None where that is another host."""
+    """(file, anchor) of a link in a page, or None for another host."""
     parts = urllib.parse.urlsplit(link)
     if parts.scheme or parts.netloc:
         return None
@@ -95,7 +95,7 @@ def target(page, link):
 
 
 def broken(pages):
-    """Each link that leads nowhere, as a text."""
+    """Each broken link as a text."""
     for path, page in pages.items():
         for link in sorted(page.links):
             led = target(path, link)
@@ -140,7 +140,7 @@ def self_test(folder):
 
 
 def read(site):
-    """The pages but for those of Doxygen, which are its own."""
+    """The pages, without those of Doxygen."""
     return {
         path: Page(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")
         if "doxygen" not in path.relative_to(site).parts
@@ -148,7 +148,7 @@ def read(site):
 
 
 def unlisted(pages, first):
-    """Names of the pages that the navigation of the first does not list."""
+    """Names of the pages missing in the navigation of the first page."""
     listed = {target(first, link)[0] for link in pages[first].navigation if target(first, link)}
     return sorted(
         path.name for path in pages if path not in listed | {first} and path.name not in GENERATED)
@@ -225,7 +225,7 @@ def main():
 
 
 def tabulated(docs):
-    """Long tables are CSV files, each linked from a page that says how many rows it has."""
+    """Long tables are CSV files, each linked from a page that states the number of rows."""
     texts = {path: path.read_text(encoding="utf-8") for path in docs.rglob("*.md")}
     long = [
         f"{path.name}: {rows}" for path, text in texts.items()
@@ -248,7 +248,7 @@ def tabulated(docs):
 
 
 def documented(package, pages, folder):
-    """The pages of the Python package have every name it offers."""
+    """The pages of the Python package list every public name."""
     done = subprocess.run([sys.executable, "-c", OFFERED],
                           env={**os.environ, "PYTHONPATH": str(package)}, stdout=subprocess.PIPE,
                           text=True, check=True)

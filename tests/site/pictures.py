@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of reports for the documents (target `docs-pictures`): pictures.py PROGRAM WORK FIGURES
 
-Runs scenes and photographs the tops of their reports, and sections of those of analyses, in a
-headless Chromium. The key figures of the reports go into reports.json beside the pictures, with
-which tests compare what they run.
+Runs scenes and takes pictures of the tops of their reports, and of sections of reports of analyses,
+in a headless Chromium. The key figures of the reports are written into reports.json beside the
+pictures; tests compare their own runs with it.
 """
 import json
 import os
@@ -33,7 +33,7 @@ SCENES = {
     "stress": ("run", XML / "stress_170m.xml"),
     "bha_motor_1500m": ("bha", XML / "bha_motor_1500m.xml"),
 }
-# Picture -> (folder, size of the window, its sections; without any the top of the page)
+# Picture -> (folder, size of the window, sections; None: the top of the page)
 REPORTS = {
     "tutorial_report.png": ("string", TALL, None),
     "tutorial_parts.png": ("parts", TALL, None),
@@ -42,7 +42,7 @@ REPORTS = {
     "report_motion.png": ("stress", WIDE, "#orbits, #spectra"),
     "report_bha.png": ("bha_motor_1500m", WIDE, None),
 }
-# Picture drilling_NAME.png -> (section of a report whose plots it shows, folder, command, deck,
+# Picture drilling_NAME.png -> (section of a report with the plots, folder, command, deck,
 # overrides)
 FRICTIONS = "Torque and Drag/Broomstick={0.1, 0.2, 0.3, 0.4}"
 SECTIONS = {
@@ -68,7 +68,7 @@ def run(*arguments):
 
 
 def small(path):
-    """The picture with a palette, which halves it and keeps the colours of lines apart."""
+    """The picture with a palette: half the size, and line colours remain distinct."""
     with Image.open(path) as shot:
         shot.convert("RGB").quantize(COLOURS).save(path, optimize=True)
 
@@ -79,7 +79,7 @@ def template(name, file):
 
 
 def with_response(scene, file):
-    """The scene with the list Response that docs/guide/critical-speeds.md shows."""
+    """The scene with the list Response of docs/guide/critical-speeds.md."""
     text = (FIGURES.parent / "guide/critical-speeds.md").read_text(encoding="utf-8")
     shown = next(block for block in re.findall(r"```xml\n(.*?)```", text, re.DOTALL)
                  if 'name="Response"' in block)
@@ -89,7 +89,7 @@ def with_response(scene, file):
 
 
 def scripts():
-    """The figures of the scripts of examples/python, not shortened."""
+    """The figures of the scripts of examples/python, with full settings."""
     folder = pathlib.Path(__file__).resolve().parents[2] / "examples/python"
     for name in SCRIPTS:
         subprocess.run([sys.executable, folder / f"{name}.py", "--output", WORK / "python"],
@@ -102,7 +102,7 @@ def scripts():
 
 
 def with_log(scene, weight, file):
-    """The scene beside the bit speed of a rig: that of the same string, full model, under another
+    """The scene with the bit speed of a rig: that of the same string, full model, under another
     weight on bit."""
     run("run", str(XML / scene), "--output", "rig", "--without", "Reduction", "--without",
         "Substructures", "--set", f"Loads/Weight On Bit={weight}")

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`tooljoint study` of a scene of parts: check_frame_study.py PROGRAM MPIEXEC DECK
 
-Compares rows of a study with what separate calls of `run`, `compare` and `modes` say of the same
-models; repeats it, on two ranks too, with other frequencies, with a reference that fails, and with
-lists that make no sense.
+Compares rows of a study with separate calls of `run`, `compare` and `modes` for the same models.
+Repeats the study, also on two ranks, with other frequencies, with a reference that fails, and with
+invalid lists.
 """
 import csv
 import json
@@ -101,7 +101,7 @@ def whole_study():
 
 
 def same_as_separate_calls():
-    """A row is what `run`, `compare` and `modes` give."""
+    """A row agrees with the results of `run`, `compare` and `modes`."""
     tooljoint("run", DECK, "--output", "alone_reference",
               *settings("!Reduction", "Transient/Step=1e-4"))
     found = rows("whole")

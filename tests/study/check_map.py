@@ -3,8 +3,9 @@
 """Maps over a grid of parameters: check_map.py PROGRAM MPIEXEC DECK
 
 DECK is xml/map_helical_170m.xml, here with half of its string, a short motion and a few points. A
-value of a map is that of a run with the overrides of its point, on any ranks; a map that is killed
-goes on; a point that fails is a missing cell; a plan of commands gives the same table.
+value of a map equals that of a run with the overrides of its point, on any number of ranks; a
+killed map can be continued; a failed point is a missing cell; a plan of commands gives the same
+table.
 """
 import csv
 import json
@@ -220,8 +221,8 @@ def refusals():
 
 
 def parts():
-    """A map of imported parts whose axes are files and a text; a part without a model is a missing
-    cell."""
+    """A map of imported parts whose axes are files and a text; a part without a model gives a
+    missing cell."""
     root = pathlib.Path(__file__).resolve().parents[1] / "decks" / "parts"
     imported = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" '
                        f'value="{root}/good"/></ParameterList>' for name in "ab")
@@ -280,8 +281,8 @@ def pictures():
 
 
 def inclined():
-    """The map of the inclined string, a third of its pipes and a short motion: steps fine enough,
-    and a reduced model whose points are those of runs."""
+    """The map of the inclined string with a third of its pipes and a short motion: the steps are
+    fine enough, and points of the reduced model are those of runs."""
     deck = str(XML.with_name("map_inclined_1000m.xml"))
     pipes = "{30*pipe, last pipe, 3*collar, stabiliser, 3*collar, stabiliser, 2*collar, bit}"
     short = [
@@ -306,7 +307,7 @@ def inclined():
 
 
 def unsettled():
-    """A point with growing stick-slip is safe by its index; the map names it as not settled."""
+    """A point with growing stick-slip is safe by its index; the map marks it as not settled."""
     deck = pathlib.Path(__file__).resolve().parent / "unsettled.xml"
     done = tooljoint("map", deck, "--output", "unsettled")
     growth = []
@@ -315,7 +316,7 @@ def unsettled():
                         f"Rotary Speed/Constant/Speed={speed}")
         expect(f"{speed}: runs", ran.returncode == 0, ran.stderr)
         growth.append(number("unsettled_run", "transient.figures.bit_speed_growth")
-                      or 0.0)  # null where nothing vibrates
+                      or 0.0)  # null without vibration
     expect("under 45 klb the vibration grows at 60 rpm alone", growth[0] > 5 > growth[1], growth)
     found = summary("unsettled")["map"]["unsettled"]
     expect("the map counts that point", found == 1, found)

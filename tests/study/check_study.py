@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results of `tooljoint study`: check_study.py PROGRAM MPIEXEC DECK
 
-Runs a study of a few seconds and looks at its rows; compares an error with that of two separate
-runs; interrupts it and goes on; lets a method, and the reference, fail; changes one method and sees
-that the others are not run again; repeats it on two ranks.
+Runs a study of a few seconds and checks its rows; compares an error with that of two separate runs;
+interrupts and continues the study; makes a method, and the reference, fail; changes one method and
+checks that the others are not run again; repeats the study on two ranks.
 """
 import math
 import pathlib
@@ -90,7 +90,8 @@ def whole_study():
 
 
 def fitted_reference():
-    """Without the lists Reference and Check: a reference that fits the runs, with its cost."""
+    """Without the lists Reference and Check the program chooses a reference for the runs, and its
+    cost is known."""
     fitted = [
         "--without", "Study/Reference", "--without", "Study/Check", "--set", "Study/Repeats=1"
     ]
@@ -115,7 +116,7 @@ def fitted_reference():
     expect("its error is a fraction of that of every run", own < 0.2 * min(methods.values()),
            f"({own:.1e}, {min(methods.values()):.1e})")
     apart = max(abs(value - before[label]["vibration_error"]) for label, value in methods.items())
-    # Halving the step halves the error of the reference at least, so that it is at most twice the
+    # Halving the step at least halves the error of the reference, so the error is at most twice the
     # distance to its check.
     both = 2 * (own + summary("whole")["reference"]["self_error"]["vibration_error"])
     expect("errors are those against a much finer reference, within those of both", apart < both,
@@ -147,7 +148,7 @@ def step_limits():
 
 
 def same_as_separate_runs():
-    """The row is what two runs and `compare` give."""
+    """A row agrees with the results of two runs and `compare`."""
     common = [
         "--without", "Study", "--set", "Transient/End Time=0.15", "--without", "Reduction",
         "--without", "Substructures"

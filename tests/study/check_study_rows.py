@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Many rows of a study at a time: check_study_rows.py PROGRAM MPIEXEC DECK
+"""Rows of a study in parallel: check_study_rows.py PROGRAM MPIEXEC DECK
 
-Groups of ranks that take rows, and a plan of one command per row, run by GNU parallel and
-collected, leave the table of a study that runs row after row.
+The rows are divided among groups of ranks, or run as a plan of one command per row by GNU parallel
+and collected. Both give the same table as a study that runs its rows one after the other.
 """
 import pathlib
 import resource
@@ -25,7 +25,7 @@ def one_row_at_a_time():
 
 
 def same_errors(one, two):
-    """Labels of the rows of `two` whose outcome or error is not that of `one`."""
+    """Labels of the rows of `two` whose outcome or error differs from that of `one`."""
     return [
         label for label, row in two.items() if row["status"] != one[label]["status"] or (
             row["kind"] == "method" and row["vibration_error"] is not None
@@ -102,8 +102,8 @@ def planned():
 
 
 def many():
-    """A plan of a hundred rows more, and their table: in a tenth of what a thousand may take, 2 s
-    and 20 s, or the time of five starts."""
+    """A plan of a hundred more rows, and their table, in a tenth of the time allowed for a thousand
+    rows, 2 s and 20 s, or in the time of five starts."""
     steps = ", ".join(f"{0.5 + 0.0004 * i:.4f} ms" for i in range(100))
     deck = (DECK, "--set", "Study/Repeats=1", "--set", "Study/End Time=0.02", "--set",
             "Study/Window=0.02", "--set",
@@ -127,8 +127,8 @@ def many():
 
 
 def excluded():
-    """Options without effect beside others are refused; above all --fresh, which would forget the
-    rows to collect."""
+    """Options without effect in combination are refused, most importantly --fresh, which would
+    delete the rows to collect."""
     before = table("plan")
     for first, second in (
         (("--collect", "plan"), ("--fresh",)),

@@ -11,23 +11,23 @@ TIME_FACTOR = float(os.environ.get("TOOLJOINT_TIME_FACTOR",
 
 
 def of_ranks(ranks):
-    """Environment of a run: Open MPI needs no daemon and no folders for one rank that mpiexec does
-    not start, and starts faster without. Ranks that fail have met in MPI_Finalize: mpiexec need
-    not wait a second for them."""
+    """Environment of a run. A single rank without mpiexec starts faster if Open MPI makes no daemon
+    and no folders. Failed ranks have already met in MPI_Finalize, so mpiexec need not wait a second
+    for them."""
     single = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_orte_create_session_dirs": "0"}
     return {**os.environ, **(single if ranks == 1 else {"OMPI_MCA_odls_base_sigkill_timeout": "0"})}
 
 
-COLUMNS = 100  # of a line that is printed
+COLUMNS = 100  # width of a printed line
 
 
 def wide(text):
-    """Lines wider than COLUMNS. A word that is longer than a line, such as a path, may be whole."""
+    """Lines wider than COLUMNS. A single word may be longer than a line, for example a path."""
     return [line for line in text.splitlines() if len(line) > COLUMNS and " " in line.strip()]
 
 
 def unwrapped(text):
-    """Warnings and errors with what is wrapped joined to the line it belongs to."""
+    """Warnings and errors with their wrapped lines joined."""
     return re.sub(r"\n {2,}(?=\S)", " ", text)
 
 

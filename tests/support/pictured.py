@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Key figures of reports that are photographed for the documents, and whether they are still those
-of a report.
+"""Compares the key figures in pictures of reports in the documents with those of a current report.
 
-docs/figures/reports.json holds for each picture the command and the deck, the notes on top of the
-page and its cards. The target `docs-pictures` writes it beside the pictures; the tests that run the
+docs/figures/reports.json has for each picture the command and the deck, the notes at the top of the
+page and its cards. The target `docs-pictures` writes it with the pictures; the tests that run the
 same decks compare.
 """
 import html
@@ -15,8 +14,8 @@ from checks import expect
 
 FIGURES = pathlib.Path(__file__).resolve().parents[2] / "docs/figures"
 RECORD = FIGURES / "reports.json"
-CLOSE = 0.01  # of a number: another machine ends elsewhere in its last digits
-ROUNDING = ("Energy balance", "Worst check")  # cards of errors, which no page repeats
+CLOSE = 0.01  # relative difference of numbers; the last digits depend on the machine
+ROUNDING = ("Energy balance", "Worst check")  # cards of errors, which differ from run to run
 
 
 def figures_of(text):
@@ -36,7 +35,7 @@ def figures_of(text):
 
 
 def parted(value):
-    """A number and the text after it; (nan, text) for a text."""
+    """A number and the text after it; (nan, text) if there is no number."""
     found = re.fullmatch(r"(-?[\d.]+(?:e[-+]?\d+)?)(.*)", value)
     return (float(found.group(1)), found.group(2)) if found else (float("nan"), value)
 
@@ -47,8 +46,8 @@ def same(one, other):
 
 
 def compare(picture, text, motion=True):
-    """The figures in a picture are those of the report `text`; without `motion` those of the state
-    at rest."""
+    """Compares the figures in a picture with those of the report `text`; without `motion` those of
+    the state at rest."""
     kept = json.loads(RECORD.read_text(encoding="utf-8"))[picture]
     now = figures_of(text)
     names = [name for name in kept["figures"] if motion or name in now["figures"]]

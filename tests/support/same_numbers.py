@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether two results folders hold the same numbers."""
+"""Compares the numbers of two results folders."""
 import json
 import pathlib
 
 import h5py
 import numpy as np
 
-OWN = {"wall_s", "cpu_s", "real_time_factor"}  # seconds of a run are its own
+OWN = {"wall_s", "cpu_s", "real_time_factor"}  # times differ between runs
 
 
 def numbers(folder):

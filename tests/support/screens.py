@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Last screens of studies, maps and analyses: their numbers are those of summary.json."""
+"""Checks that the numbers on last screens of studies, maps and analyses are those of
+summary.json."""
 import json
 import math
 import pathlib
@@ -11,7 +12,7 @@ from checks import expect
 UNREAD = {
     "torque_drag": "Torque and Drag", "bha": "Bottom-Hole Assembly", "buckling": "Buckling",
     "campbell": "Campbell", "response": "Response", "map": "Map"
-}  # lists that the next command does not read
+}  # lists that are not read by the next command
 
 
 def _extreme(rows, key, choose, factor=1.0):
@@ -24,8 +25,8 @@ def _largest(values):
 
 
 def _numbers(analysis, summary):
-    """Name on the screen, or name and unit where a name stands there with several -> number in the
-    unit that is printed; None: the name is not there."""
+    """Name on the screen, or name and unit if a name has several -> number in the printed unit;
+    None: the name is not on the screen."""
     group = summary[analysis]
     if analysis == "torque_drag":
         rows = group["rows"]
@@ -80,7 +81,7 @@ def _numbers(analysis, summary):
 
 
 def _rounds(value, text):
-    """Whether a text is the value with three digits or more, or rounded to its last decimal."""
+    """Whether a text is the value with at least three digits, or rounded to its last decimal."""
     decimals = len(text.partition(".")[2]) if "e" not in text else 300
     return math.isclose(float(text), value, rel_tol=6e-3, abs_tol=0.501 * 10.0**-decimals)
 

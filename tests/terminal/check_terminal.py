@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Output for a user: the last screen of a run, the progress of a motion, colours on terminals only,
---quiet and --verbose.
+"""Output of the program: the last screen of a run, the progress of a motion, colours on terminals
+only, --quiet and --verbose.
 
     check_terminal.py PROGRAM
 """
@@ -23,13 +23,13 @@ from report import checks  # noqa: E402
 SCENE = str(ROOT / "tests/effects/scene.xml")
 TWO_PARTS = str(ROOT / "xml/templates/parts.xml")
 FRAME = str(ROOT / "xml/frame.xml")
-os.environ.pop("TOOLJOINT_REPORT", None)  # these runs end with a report
+os.environ.pop("TOOLJOINT_REPORT", None)  # these runs write a report
 COLOURS = re.compile(r"\x1b\[[0-9]+m")
 NAMES = ("hook load", "surface torque", "largest side force", "bit speed", "worst check", "speed")
 
 
 def on_terminal(*arguments, **environment):
-    """(exit code, text) of the program whose output and errors are a terminal."""
+    """(exit code, text) of the program with output and errors on a terminal."""
     outer, inner = pty.openpty()
     shown = []
 
@@ -62,7 +62,7 @@ def run(folder, *words, deck=SCENE):
 
 
 def value(text, name):
-    """The first number behind a name of the last screen."""
+    """The first number after a name of the last screen."""
     found = re.search(rf"^{name} +(-?[\d.e+-]+)", text, re.M)
     return float(found.group(1)) if found else None
 
@@ -133,7 +133,7 @@ def last_screen():
 
 
 def terminals():
-    """A bar with rate and remaining time, and colours where they are wanted."""
+    """A progress bar with rate and remaining time, and colours on terminals."""
     words = run("shown", "--set", "Transient/Progress=true", "--set", "Transient/End Time=60",
                 "--set", "Output/Report=false")
     code, text = on_terminal(*words)

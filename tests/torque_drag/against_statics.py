@@ -11,8 +11,8 @@ from runs import DECK, SOURCES, near, rows, run, static_state
 
 
 def beside():
-    """The stiff string of a build and hold well beside the soft one, at a depth where it is cut and
-    for a string of that length."""
+    """Stiff and soft string in a build-and-hold well, at a depth where the string is cut and for a
+    string of that length."""
     whole = {
         row["operation"]: row for row in run("beside", "Torque and Drag/Depths={950}",
                                              "Torque and Drag/Yield Strength=931 MPa")
@@ -59,12 +59,12 @@ def beside():
 
 def in_motion(table):
     """Friction along the hole in a run: static state and motion at the speeds of an operation have
-    the loads of the stiff string in torque-drag."""
+    the loads of the stiff string of torque-drag."""
     for operation, speed, ranks, turns in (
         ("Trip out", -0.3, 1, ("--without", "Rotary Speed")),
         ("Back-ream", -0.05, 2, ()),
     ):
-        # from 1 um/s on the coefficient is that of fast sliding
+        # above 1 um/s the coefficient is that of fast sliding
         settings = ("Contact/Friction/Axial=true", "Contact/Friction/Regularisation Velocity=1e-6",
                     "Static/Reference=Hanging", f"Top Drive/Block Speed={speed}",
                     "Transient/End Time=0.05")
@@ -88,8 +88,8 @@ def in_motion(table):
 
 
 def stiff(name, tension, torque):
-    """Axial force and torque at the top against the program's own static state of the same scene,
-    turning on bottom."""
+    """Axial force and torque at the top against the static state of the same scene, turning on
+    bottom."""
     deck = str(SOURCES / f"xml/{name}.xml")
     soft = {
         row["operation"]: row for row in run(f"soft_{name}", "Torque and Drag/Count=1",
@@ -99,8 +99,8 @@ def stiff(name, tension, torque):
     expect(f"{name}: the torque balances",
            abs(static["torque_balance_defect"]) < 5e-3 * static["torque_scale"],
            static["torque_balance_defect"])
-    # Drilling adds the drag of its axial speed, 5 mm/s against a metre per second around. The stiff
-    # string bridges the waves of a survey.
+    # Drilling adds the drag of its axial speed, 5 mm/s compared with a circumferential speed of one
+    # metre per second. The stiff string bridges the waves of a survey.
     near(f"{name}: tension at the top, soft against stiff", float(soft["hook_load"]),
          static["hook_load"], tension)
     near(f"{name}: torque at the top, soft against stiff", float(soft["surface_torque"]),
@@ -109,8 +109,8 @@ def stiff(name, tension, torque):
 
 
 def weight_on_bit():
-    """Weight on bit is that of the deck, whatever else acts on the bit: xml/first_run.xml has bit
-    bounce too."""
+    """Weight on bit is that of the deck, in spite of other loads on the bit: xml/first_run.xml also
+    has bit bounce."""
     scene = str(SOURCES / "xml/first_run.xml")
     found = run("first_run", "Torque and Drag/Count=1", deck=scene)
     table = {row["operation"]: row for row in found}
@@ -118,14 +118,14 @@ def weight_on_bit():
     near("weight on bit of first_run", float(off["hook_load"]) - float(on["hook_load"]), 40e3, 0.01)
     said = " ".join(
         json.loads(pathlib.Path("first_run/summary.json").read_text(encoding="utf-8"))["warnings"])
-    # pipe, stabilisers and bit have no grade, collars and heavy-weight pipe have
+    # pipe, stabilisers and bit have no grade; collars and heavy-weight pipe have one
     bare = 53 * 28.35 + 2 * 1.8 + 1.2 + 0.35
     expect("what has no margin to yield is said",
            f"{bare:.0f} m of the string's 1593 m have no yield strength" in said, said)
 
 
 def level():
-    """A string on the axis of a long level hole, where the stages of the static state begin, has
+    """A string on the axis of a long level hole, the start of the stages of the static state, has
     only its bending stiffness."""
     survey = pathlib.Path("level.csv").resolve()
     stations = "".join(f"{depth}, {min(90.0, max(0.0, (depth - 900) / 12)):.2f}, 45\n"
@@ -144,7 +144,7 @@ def level():
 
 
 def buckled():
-    """If its weight on bit buckles it, the stiff string slides to a stable state on the wall."""
+    """If the weight on bit buckles it, the stiff string slides to a stable state on the wall."""
     for weight, buckles, most in (("60 kN", False, 150), ("200 kN", True, 900)):
         done = tooljoint("torque-drag", str(SOURCES / "xml/vertical_1000m.xml"), "--output",
                          "buckled", "--without", "Torque and Drag", "--set",

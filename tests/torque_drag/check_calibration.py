@@ -43,8 +43,8 @@ def fitted(folder):
 
 
 def straight():
-    """In a straight hole hook load and torque are linear in mu and in the block weight: the fit is
-    that of numpy, its intervals those of Student's t."""
+    """In a straight hole hook load and torque are linear in mu and in the block weight: the fit
+    agrees with numpy, its intervals with Student's t."""
     survey = pathlib.Path("calibration_straight.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 50, 20\n2000, 50, 20\n", encoding="utf-8")
     inclination, joint = math.radians(50), 0.084
@@ -130,7 +130,8 @@ def straight():
 
 
 def intervals():
-    """Loads of a reach well computed with other coefficients give these back, by interval."""
+    """The calibration recovers, by interval, the coefficients used to compute the loads of a reach
+    well."""
     truth = {"Contact/Friction/Dynamic": 0.33, "Contact/Intervals/casing/Friction/Dynamic": 0.17}
     settings = [f"{name}={value}" for name, value in truth.items()] + [
         "Contact/Friction/Static=0.4", "Torque and Drag/Block Weight=150 kN",
@@ -165,7 +166,7 @@ def intervals():
 
 
 def bounds():
-    """Drag of a coefficient of 1.2, beyond the allowed range: the fit ends at 1, without an
+    """Loads of a coefficient of 1.2, beyond the allowed range: the fit ends at 1, without an
     interval, with a message."""
     table = pathlib.Path("measured_bound.csv").resolve()
     done = run(STRAIGHT, "bound_truth", "Contact/Friction/Static=0.4",

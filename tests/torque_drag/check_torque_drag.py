@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks `tooljoint torque-drag` through the program: closed forms, the stiff string's own static
-state, tables, refusals, ranks.
+"""Checks `tooljoint torque-drag` through the program: closed forms, the static state of the stiff
+string, tables, refusals, ranks.
 
     check_torque_drag.py PROGRAM MPIEXEC SOURCES
 """
@@ -39,8 +39,9 @@ def straight():
          4000 + mu * joint * across, 1e-4)
     near("drill sliding", float(full["Drill sliding"]["hook_load"]), along - mu * across - 5e4,
          1e-6)
-    # The stiff string lies on its joints. Turning, the wall carries the weight across the hole with
-    # N^2 + (mu N)^2 = (w sin)^2. The support at the top carries part of a pipe of it.
+    # The stiff string lies on its joints. During rotation the wall carries the weight across the
+    # hole with N^2 + (mu N)^2 = (w sin)^2. The support at the top carries the weight of part of a
+    # pipe.
     profile = rows("straight", "torque_drag_stiff_profile.csv")
     pressed = {
         name: sum(float(row["contact_force"]) for row in profile if row["operation"] == name)
@@ -93,8 +94,8 @@ def straight():
     near("which is the weight of a pipe where its neighbours bear theirs",
          sorted(joints)[len(joints) // 2],
          weight * math.sin(inclination) / 150, 0.01)
-    # tool joints with half the friction, in both strings and in the static state of a run; bodies
-    # that do not touch with ten times as much
+    # half the friction at tool joints, in both strings and in the static state of a run; ten times
+    # the friction at bodies, which do not touch
     factors = [
         "Drillstring/Components/joint/Friction Factor=0.5",
         "Drillstring/Components/body/Friction Factor=10"
@@ -115,10 +116,10 @@ def forms():
 
 
 def limits():
-    """The stiff string of a pipe without joints tends to the soft one.
-    Where its load changes the wall it crosses the hole without contact: with a load that changes by
-    q' per length over a way l ~ (T r/q')^(1/3), so that the torque lacks q' l^2 ~ r^(2/3). The
-    stretch by friction moves it along the bend, in proportion to 1/E."""
+    """The stiff string of a pipe without joints tends to the soft one. Where its load changes the
+    wall, it crosses the hole without contact: for a load that changes by q' per length the crossing
+    has a length l ~ (T r/q')^(1/3), so the torque lacks q' l^2 ~ r^(2/3). The stretch by friction
+    moves this place along the bend, in proportion to 1/E."""
     found = {(clearance, young): (torque, drag)
              for clearance, young, torque, drag in closed_forms.stiff(numbers, closed_forms.TESTED)}
     soft = closed_forms.YOUNG / 100
@@ -134,8 +135,8 @@ def limits():
 
 
 def backward():
-    """A string that turns backward under the mirrored torque is the same string.
-    Returns the table of the deck as it is."""
+    """A string that turns backward under the mirrored torque gives the same results. Returns the
+    table of the unchanged deck."""
     forward = run("forward", "Torque and Drag/Count=1")
     turned = run("backward", "Torque and Drag/Count=1", "Rotary Speed/Constant/Speed=-120 rpm",
                  "Loads/Torque On Bit=-4 kN m")
@@ -167,7 +168,7 @@ def documented(table):
 
 
 def pulled():
-    """Torque and drag ignores a force of the deck, with a message."""
+    """Torque and drag ignores a force of the deck and prints a message."""
     force = ('<ParameterList name="Loads"><ParameterList name="Forces"><ParameterList name="pull">'
              '<Parameter name="Node" type="int" value="20"/><Parameter name="Component" '
              'type="string" value="w"/><Parameter name="Value" type="double" value="-3e4"/>'
@@ -186,8 +187,8 @@ def pulled():
 
 
 def grouped():
-    """A group of stands with a stabiliser in one of them is the string of its stands: only that one
-    touches with the stabiliser."""
+    """A group of stands with a stabiliser in one of them equals a string of the single stands: only
+    that stand touches with the stabiliser."""
     gauge = ('<ParameterList name="wide"><Parameter name="Length" type="double" value="2"/>'
              '<Parameter name="Elements" type="int" value="2"/><Parameter name="Outer Radius" '
              'type="double" value="0.0635"/><Parameter name="Inner Radius" type="double" '
@@ -217,9 +218,9 @@ def grouped():
 
 
 def locked():
-    """Pushed so hard that it locks up, a string has no loads at the surface, and its profile ends
-    below the lock-up. With bending stiffness it locks up, too, if its elements resolve the waves;
-    else a message says so."""
+    """A string pushed so hard that it locks up has no loads at the surface, and its profile ends
+    below the lock-up. A string with bending stiffness locks up too, if its elements resolve the
+    waves; otherwise a message says so."""
     survey = pathlib.Path("horizontal.csv").resolve()
     survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 90, 0\n2000, 90, 0\n", encoding="utf-8")
     words = ["torque-drag", DECK]
@@ -285,7 +286,7 @@ neutral_point()
 grades()
 stiff("build_hold_1400m", 0.01, 0.03)
 stiff("extended_reach_5000m", 0.01, 0.05)
-# A vertical string hardly touches: the torque in addition to that of the bit is small.
+# A vertical string hardly touches the wall: the torque beyond that of the bit is small.
 alone = stiff("vertical_5000m", 0.005, 0.01)
 together = static_state("vertical_5000m", ranks=2)
 for key in ("hook_load", "top_torque_equilibrium"):
@@ -296,8 +297,8 @@ near("5 and 10 km have the same lower end: contact forces", long["total_normal_f
 expect("neither moves along a well that turns",
        not any("along the well" in w for w in alone["warnings"] + long["warnings"]),
        alone["warnings"] + long["warnings"])
-# From the nodes of the unloaded string it touches, with too large forces: the program gives a
-# warning.
+# With the nodes of the unloaded string as reference it touches with too large forces: the program
+# gives a warning.
 unloaded = static_state("vertical_5000m", 1, "Static/Reference=Unloaded")
 expect("vertical_5000m from unloaded nodes: contact forces are too large",
        unloaded["total_normal_force"] > 1.1 * alone["total_normal_force"],

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Closed forms of the soft string and its limit of the stiff string, each beside
+"""Closed forms of the soft string, and the stiff string that tends to it, compared with
 `tooljoint torque-drag`: rows of check_torque_drag.py and of docs/validation.md.
 
 Closed forms of straight holes, builds, drops and side bends are those of Sheppard, Wick and Burgess
 (1987) and of Aadnoy and Andersen (J. Petroleum Science and Engineering 32, 2001): solutions of
-dT/ds = w cos a + k abs(T/R -+ w sin a) upwards, k = mu to pull, -mu to lower. Bends in space by T
-exp(mu theta) and the weight along the chord are those of Aadnoy, Fazaelizadeh and Hareland (J.
-Canadian Petroleum Technology 49(10), 2010): an approximation.
+dT/ds = w cos a + k abs(T/R -+ w sin a) upwards, k = mu for pulling, -mu for lowering. Bends in
+space use T exp(mu theta) and the weight along the chord, an approximation of Aadnoy, Fazaelizadeh
+and Hareland (J. Canadian Petroleum Technology 49(10), 2010).
 """
 import math
 
@@ -41,10 +41,10 @@ def straight(below, length, inclination, k):
 
 
 def on_wall(below, start, end, k, weight=WEIGHT):
-    """Tension at `end` of an arc that is `below` at `start` (angles of the tangent from the
-    vertical, upwards), where the wall pushes with q = T/R - w sin a (build) or q = T/R + w sin a
-    (drop) in one sense. Integrals of dT/da = -w R cos a - k (T - w R sin a) and dT/da = w R cos a +
-    k (T + w R sin a)."""
+    """Tension at `end` of an arc with the tension `below` at `start` (angles of the tangent from
+    the vertical, upwards), if the wall force q = T/R - w sin a (build) or q = T/R + w sin a (drop)
+    keeps its sign. Integrals of dT/da = -w R cos a - k (T - w R sin a) and dT/da = w R cos a + k (T
+    + w R sin a)."""
     wr, build = weight * RADIUS, end < start
     if build:
         sine, cosine, rate = wr * (k * k - 1) / (1 + k * k), -2 * k * wr / (1 + k * k), -k
@@ -55,8 +55,8 @@ def on_wall(below, start, end, k, weight=WEIGHT):
 
 
 def bend(below, lower, upper, k):
-    """Tension at the upper end of an arc between these inclinations [deg], whose wall changes once
-    at most: in a build from the low side to the high side."""
+    """Tension at the upper end of an arc between these inclinations [deg], with at most one change
+    of the wall: in a build from the low side to the high side."""
     start, end = math.radians(lower), math.radians(upper)
     side = lambda tension, a: tension / RADIUS - WEIGHT * math.sin(
         a) if end < start else tension / RADIUS + WEIGHT * math.sin(a)
@@ -91,7 +91,7 @@ def in_space(k):
 
 def turning():
     """Torque off bottom in the same well: mu r times the integral of abs(T/R - w sin a), T = T1 + w
-    R (sin a1 - sin a), which changes its sign once."""
+    R (sin a1 - sin a); the argument changes its sign once."""
     tangent = LENGTH - 400 - RADIUS * math.radians(60)
     top = math.radians(60)
     total = WEIGHT * tangent * math.cos(top) + WEIGHT * RADIUS * math.sin(top)
@@ -103,8 +103,9 @@ def turning():
 
 
 def lock_up(wob, mu):
-    """Way above the bit, horizontal: F grows by mu w to F* = 2 sqrt(2) sqrt(E I w/r), then by mu (w
-    + r F^2/(4 E I)) to what the program calls locked, 1 % of E S."""
+    """Distance above the bit in a horizontal hole: F grows by mu w per length up to F* = 2 sqrt(2)
+    sqrt(E I w/r), then by mu (w + r F^2/(4 E I)) up to the lock-up criterion of the program, 1 % of
+    E S."""
     r = BORE - OUTER
     k, limit = math.sqrt(
         r / (4 * YOUNG * INERTIA * WEIGHT)), 2 * math.sqrt(2 * YOUNG * INERTIA * WEIGHT / r)
@@ -113,8 +114,8 @@ def lock_up(wob, mu):
 
 
 def soft(run):
-    """Rows (what, truth, found, unit, tolerance).
-    `run` gives the rows of torque_drag.csv by operation, as numbers, of a name and settings."""
+    """Rows (what, truth, found, unit, tolerance). `run` returns the rows of torque_drag.csv by
+    operation, as numbers, for a name and settings."""
     exact = 1e-6
     found = run("straight", [*SOFT, *inclined(50)])
     for operation, k in (("Trip out", MU), ("Trip in", -MU)):
@@ -130,7 +131,7 @@ def soft(run):
         -MU, 5e4), found["Drill sliding"]["hook_load"], "N", exact
     yield "the same, Rotate off bottom: torque", turning(
     ), found["Rotate off bottom"]["surface_torque"], "N m", exact
-    # the weight within the bend has no friction there, which is worth 0.4 % of this hook load
+    # the approximation neglects friction of the weight within the bend: 0.4 % of this hook load
     yield "the same, Trip out, by the approximation for bends in space", in_space(
         MU), found["Trip out"]["hook_load"], "N", 5e-3
     found = run("drop", [*SOFT, *arc(400, 60, 0, LENGTH)])
@@ -163,13 +164,13 @@ def soft(run):
         *SOFT, *inclined(90), "Loads/Weight On Bit=220 kN", "Contact/Friction/Static=0.4",
         "Contact/Friction/Dynamic=0.4"
     ])["Drill sliding"]
-    # the march has steps of 3 m
+    # the integration has steps of 3 m
     yield "horizontal hole, mu = 0.4, Drill sliding under 220 kN: lock-up above the bit", lock_up(
         220e3, 0.4), LENGTH - pushed["lock_up_depth"], "m", 3e-3
 
 
 LIMIT = 1 / math.sqrt(
-    1 + MU * MU)  # side force over load of a string that turns and climbs the wall
+    1 + MU * MU)  # side force divided by load for a rotating string that climbs the wall
 
 TESTED = ((1, YOUNG), (6, YOUNG / 100), (1, YOUNG / 10), (1, YOUNG / 100))
 STEEL_AND_SOFT = tuple(

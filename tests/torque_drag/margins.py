@@ -8,8 +8,8 @@ from runs import DECK, SOURCES, near, rows, run
 
 
 def pressure():
-    """Margins to yield with the pressure of the mud: von Mises of a thick wall from the loads of
-    the profile, friction losses of the flow, the pump pressure."""
+    """Margins to yield with mud pressure: von Mises stress of a thick wall from the loads of the
+    profile, friction losses of the flow, the pump pressure."""
     survey = pathlib.Path("straight.csv").resolve()
     density, flow, friction, hole = 1300.0, 0.03, 0.013, 0.108
     mud = [
@@ -18,18 +18,18 @@ def pressure():
         "Torque and Drag/Yield Strength=724 MPa", "Drillstring/Assembly={150*stand}"
     ]
 
-    def loss(outer, inner):  # of both flows per length
+    def loss(outer, inner):  # pressure loss of both flows per length
         inside, outside = (flow / (math.pi * area)
                            for area in (inner * inner, hole * hole - outer * outer))
         return friction * density / math.pi * (inside**2 / inner + outside**2 / (hole - outer))
 
-    def drag(outer, inner):  # of the mud in the annulus, per length
+    def drag(outer, inner):  # drag of the mud in the annulus per length
         return friction * density * outer * (flow / (math.pi * (hole * hole - outer * outer)))**2
 
     body, joint = (0.0635, 0.0543), (0.084, 0.0413)
     section = {pipe: math.pi * (pipe[0]**2 - pipe[1]**2) for pipe in (body, joint)}
 
-    def thrust(outer):  # of the pressure lost in the annulus on the area of the string
+    def thrust(outer):  # thrust of the pressure loss in the annulus on the area of the string
         speed = flow / (math.pi * (hole * hole - outer * outer))
         return math.pi * outer**2 * friction * density / math.pi * speed**2 / (hole - outer)
 
@@ -57,7 +57,7 @@ def pressure():
         bit_side = surface - through
         for row, difference in ((profile[-1], surface), (profile[0], bit_side)):
             tension, torque, depth = (float(row[name]) for name in ("tension", "torque", "depth"))
-            candidates = []  # the point is of the body or of the joint
+            candidates = []  # the point belongs to the body or to the joint
             for outer, inner in (body, joint):
                 area, polar = math.pi * (outer**2 - inner**2), math.pi / 2 * (outer**4 - inner**4)
                 outside = 1.4e7  # any
@@ -93,8 +93,8 @@ def pressure():
 
 
 def bends():
-    """Where a bend begins or ends the profile has a point of both sides, each with the stress and
-    the limits of its own side: bending in the bend alone, the clearance of its own bore."""
+    """At the start and end of a bend the profile has a point on both sides, each with the stress
+    and the limits of its own side: bending only in the bend, the clearance of its own bore."""
     radius = '<Parameter name="Bore Radius" type="double" value="0.108"/>'
     casing = "".join(f'<Parameter name="{name}" type="double" value="{value}"/>'
                      for name, value in (("From", 0), ("To", 1200), ("Radius", 0.2)))
@@ -106,7 +106,7 @@ def bends():
         "Torque and Drag/Operations={Trip out, Drill sliding}", deck="bends.xml")
     profile = rows("bends", "torque_drag_profile.csv")
 
-    def sides(operation, depth):  # of the piece below and of that above
+    def sides(operation, depth):  # rows of the piece below and of that above
         found = [
             row for row in profile
             if row["operation"] == operation and abs(float(row["depth"]) - depth) < 1e-6
@@ -131,7 +131,7 @@ def bends():
 
 
 def neutral_point():
-    """Of a string that hangs free: the weight below it is the weight on bit."""
+    """In a freely hanging string the weight below the neutral point is the weight on bit."""
     table = run("neutral", "Well/Trajectory=Vertical", "Well/Vertical/Length=1500",
                 "Supports/Bit=none", "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None",
                 "Torque and Drag/Operations={Trip out, Drill sliding}", "Loads/Weight On Bit=20 kN")
@@ -142,8 +142,8 @@ def neutral_point():
 
 
 def grades():
-    """A hanging string of two grades from the table of drill pipe: its margin to yield is the least
-    of strength over stress of both, by hand."""
+    """A hanging string of two grades from the table of drill pipe: its margin to yield is the
+    smaller of the two ratios of strength to stress, computed by hand."""
     table = run(
         "grades", "Well/Trajectory=Vertical", "Well/Vertical/Length=1300", "Supports/Bit=none",
         "Torque and Drag/Count=1", "Torque and Drag/Stiff String=None",

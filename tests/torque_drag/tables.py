@@ -115,8 +115,8 @@ def resumed():
 
 
 def files():
-    """torque_drag.h5 and summary.json have the numbers of the tables, and stand beside the results
-    of a run."""
+    """torque_drag.h5 and summary.json have the numbers of the tables, and may be in one folder with
+    the results of a run."""
     done = tooljoint("run", DECK, "--output", "files", "--without", "Transient")
     expect("the static state is found", done.returncode == 0, done.stderr)
     run_summary = json.loads(pathlib.Path("files/summary.json").read_text(encoding="utf-8"))

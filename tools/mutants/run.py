@@ -1,25 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mutation check: puts one small fault at a time into the product code and runs the test that has
-to notice it.
+"""Mutation check: makes one small fault at a time in the product code and runs the test that must
+detect it.
 
-    run.py                      all entries of mutants.json, in a copy of the sources with a build
-                                tree of its own
+    run.py                      all entries of mutants.json, in a copy of the sources with its own
+                                build tree
     run.py --only beam --only 'contact*'   entries whose name or file matches one of the patterns
                                            (shell style; a part of it is enough)
     run.py --list               names of the entries, their files and tests
-    run.py --check              every entry still applies exactly once and names a test that exists
-                                (seconds, builds nothing)
-    run.py --self-test          shows that --check finds what it is for
+    run.py --check              every entry still applies exactly once and names an existing test
+                                (takes seconds, builds nothing)
+    run.py --self-test          tests --check
 
 An entry of mutants.json has `name`, `file`, `old`, `new`, `test` (of CTest) and, for a GoogleTest
-program, `filter` (Suite.Test, several joined by a colon). `old` is found in the file without regard
-to white space.
+program, `filter` (Suite.Test, several joined by a colon). White space is ignored in the search for
+`old` in the file.
 
-A mutant is killed when its test fails, survives when the test passes. A mutant that does not
-compile or runs into the time limit of the test says nothing and counts as not killed. Exit code 0:
-at least --least percent are killed; 1: fewer; 2: wrong use, an entry that does not apply, or a test
-that fails without any fault.
+A mutant is killed if its test fails and survives if the test passes. A mutant that does not compile
+or exceeds the time limit of the test counts as not killed. Exit code 0: at least --least percent
+are killed; 1: fewer; 2: wrong use, an entry that does not apply, or a test that fails without a
+fault.
 """
 import argparse
 import fnmatch
@@ -36,19 +36,18 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 KEYS = {"name", "file", "old", "new", "test"}
-# Kinds of tests that are one program per room: tests/KIND/ROOM is the CTest test KIND.ROOM (mpi:
+# Kinds of tests with one program per folder: tests/KIND/ROOM is the CTest test KIND.ROOM (mpi:
 # KIND.ROOM.npN), target KIND_ROOM.
 PROGRAM = re.compile(r"(unit|verification|stability|mpi)\.(\w+?)(\.np\d+)?$")
 
 
 def pattern(text):
-    """`text` without regard to white space."""
+    """Regular expression for `text` that ignores white space."""
     return re.compile(r"\s*".join(re.escape(letter) for letter in "".join(text.split())))
 
 
 def apply(text, entry):
-    """The text of a file with the fault in it.
-    ValueError unless the old text stands there exactly once."""
+    """The text of a file with the fault. ValueError unless the old text occurs exactly once."""
     found = list(pattern(entry["old"]).finditer(text))
     if len(found) != 1:
         raise ValueError(f"the old text is found {len(found)} times in {entry['file']}, expected "
@@ -74,7 +73,7 @@ def tests_of_room(project, test):
 
 
 def complaints(project, entries):
-    """What is wrong with the entries, one line each."""
+    """Errors in the entries, one line each."""
     seen = set()
     for entry in entries:
         name = entry.get("name", "an entry without a name")
@@ -140,7 +139,7 @@ def self_test():
 
 
 class Tree:
-    """A copy of the sources with a build tree of its own."""
+    """A copy of the sources with a separate build tree."""
     def __init__(self, folder, preset, jobs):
         self.folder = folder
         self.preset = preset
@@ -175,7 +174,7 @@ class Tree:
             subprocess.run(["cmake", "--preset", self.preset], cwd=self.folder, check=True)
 
     def build(self, targets):
-        """The output of a build that failed, None when it succeeded."""
+        """The output of a failed build, None on success."""
         done = subprocess.run(
             ["cmake", "--build", self.build_folder, "-j",
              str(self.jobs), "--target", *targets], capture_output=True, text=True,
@@ -183,13 +182,13 @@ class Tree:
         return done.stdout + done.stderr if done.returncode else None
 
     def run(self, test, filters):
-        """Outcome of a test: passed, failed, timed out, not run (none of that name); and its
+        """Outcome of a test (passed, failed, timed out, not run: no test of that name), and its
         output."""
         environment = dict(os.environ)
         environment.pop("GTEST_FILTER", None)
         if filters:
             environment["GTEST_FILTER"] = filters
-        # analyses would continue with rows of another mutant
+        # otherwise analyses continue with rows of another mutant
         scratch = self.build_folder / "tests/scratch" / test
         if scratch.is_dir():
             shutil.rmtree(scratch)
@@ -284,7 +283,7 @@ def main():
     parser.add_argument("--list", action="store_true", help="print the entries and stop")
     parser.add_argument("--check", action="store_true",
                         help="check the entries against the sources and stop")
-    parser.add_argument("--self-test", action="store_true", help="check the checks and stop")
+    parser.add_argument("--self-test", action="store_true", help="test --check and stop")
     parser.add_argument("--tree", type=pathlib.Path, default=PROJECT / "build" / "mutants",
                         help="folder of the copy (default: build/mutants)")
     parser.add_argument("--preset", default="release",

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results of a run as files of ParaView: polydata (.vtp) and their times (.pvd)."""
+"""Converts results of a run to files of ParaView: polydata (.vtp) and their times (.pvd)."""

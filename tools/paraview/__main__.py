@@ -3,11 +3,11 @@
 """Writes the results of a run for ParaView: python3 tools/paraview DIR [--output FOLDER] [--magnify
 FACTOR] [--pictures COUNT]
 
-DIR is the folder of a run. FOLDER (DIR/paraview) gets string.pvd with a .vtp file for each picture
-and wall.vtp of a string in its well, or parts.pvd of parts. Points are moved by FACTOR times the
-displacement, and the wall stands at FACTOR times the clearance, so that contact stays contact; all
-fields keep their true values. Needs numpy, h5py and matplotlib. Exit codes: 0 done, 1 wrong usage,
-5 nothing to show, a file that cannot be read or written.
+DIR is the folder of a run. FOLDER (DIR/paraview) receives string.pvd with a .vtp file for each
+picture and wall.vtp for a string in its well, or parts.pvd for parts. Points are moved by FACTOR
+times the displacement, and the wall is drawn at FACTOR times the clearance, so that contact is
+shown as contact; all fields keep their true values. Needs numpy, h5py and matplotlib. Exit codes: 0
+done, 1 wrong usage, 5 nothing to show, or a file that cannot be read or written.
 """
 import argparse
 import math
@@ -18,7 +18,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[0] = str(HERE.parent)
 
 from report.files import (USAGE, Unreadable, fail, failing, reading, write,
-                          writing)  # noqa: E402: of the folder above
+                          writing)  # noqa: E402: from the parent folder
 
 MOST_PICTURES = 200
 
@@ -38,15 +38,15 @@ class Arguments(argparse.ArgumentParser):
 
 
 def pictures(scene, most):
-    """Samples that are shown: all, or `most` of them at equal distances, the first and the last
-    among them."""
+    """Samples that are shown: all, or at most `most` at equal distances, including the first and
+    the last."""
     return np.unique(
         np.linspace(0,
                     len(scene.times) - 1, min(len(scene.times), most)).round().astype(int))
 
 
 def write_all(scene, folder, magnification, most):
-    """All files of a scene; the largest displacement [m] and the number of pictures."""
+    """Writes all files of a scene; the largest displacement [m] and the number of pictures."""
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
         for old in (*folder.glob(f"{scene.name}_*.vtp"), *folder.glob(f"{scene.name}.pvd")):
@@ -74,8 +74,7 @@ def main():
     parser = Arguments(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
                        prog="paraview")
     parser.add_argument("folder", type=pathlib.Path, help="folder of a run")
-    parser.add_argument("--output", type=pathlib.Path,
-                        help="folder of the files (default: DIR/paraview)")
+    parser.add_argument("--output", type=pathlib.Path, help="output folder (default: DIR/paraview)")
     parser.add_argument("--magnify", type=float, default=1.0,
                         help="factor of the displacements (default 1)")
     parser.add_argument("--pictures", type=int, default=MOST_PICTURES,

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run in space: points, cells and fields of a string and its well, or of parts."""
+"""Points, cells and fields of a run in space: a string and its well, or parts."""
 import numpy as np
 
 from report import results
 from report.files import Unreadable
 
 SECTORS = 24  # points around the wall
-# of the size of a scene that the suggested magnification makes of the largest displacement
+# largest displacement at the suggested magnification, as a share of the size of the scene
 SIZE_SHARE = 0.1
 
 
@@ -41,14 +41,14 @@ class String(Scene):
         self.kinds = {"Lines": np.column_stack([np.arange(last), np.arange(1, last + 1)])}
 
     def turned(self, nodal):
-        """Vectors of the nodes from their frames into north, east, down."""
+        """Vectors of the nodes, transformed from nodal frames to north, east, down."""
         return np.einsum("nij,nj->ni", self.frames, nodal[:, :3])
 
     def displacement(self, sample):
         return self.turned(self.row("displacement", sample))
 
     def at_nodes(self, elements):
-        """The larger value of the elements beside a node."""
+        """The larger value of the elements adjacent to a node."""
         return np.maximum(np.append(elements, elements[-1]), np.insert(elements, 0, elements[0]))
 
     def point_fields(self, sample):
@@ -81,8 +81,8 @@ class String(Scene):
         return fields
 
     def wall(self, magnification):
-        """(points, quadrilaterals) of the bore, its clearance magnified like the displacements:
-        nodes in contact are drawn on the wall."""
+        """(points, quadrilaterals) of the bore. The clearance is magnified like the displacements,
+        so nodes in contact are drawn on the wall."""
         angle = 2 * np.pi * np.arange(SECTORS) / SECTORS
         contact, clearance = self.run.get("/model/contact_radius"), self.run.get("/model/clearance")
         radius = (contact + magnification * clearance)[:, None, None]
@@ -149,7 +149,7 @@ class Parts(Scene):
 
 
 def of_run(run):
-    """The scene of a run; Unreadable where it has none in space."""
+    """The scene of a run; Unreadable if its nodes have no positions in space."""
     if run.get("/static/displacement") is None:
         raise Unreadable(
             f"{run.folder} holds no static state: the run ended before it. Run the deck again.")
@@ -163,7 +163,7 @@ def of_run(run):
 
 
 def suggestion(scene, largest):
-    """The magnification that makes the largest displacement a tenth of the size of the scene."""
+    """The magnification at which the largest displacement is a tenth of the size of the scene."""
     size = float(np.ptp(scene.position, axis=0).max())
     return float(
         f"{max(1.0, SIZE_SHARE * size / largest):.1g}") if largest > 0 and size > 0 else 1.0

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes one HTML file of what is in a results folder: python3 tools/report DIR [--output FILE]
+"""Writes one HTML file with the contents of a results folder: python3 tools/report DIR [--output
+FILE]
 
 DIR is the folder of a run (results.h5, summary.json), of a study (study.csv, study.h5), of a map
-(map.csv), or of `torque-drag`, `bha`, `buckling`, `campbell`, `response` or `modes`. The file needs
-no network and nothing beside it. Needs numpy, h5py and matplotlib, and three.js (Debian:
-libjs-three) for the view in space. Exit codes: 0 done, 1 wrong usage, 5 nothing to report on, a
-file that cannot be read or written. Where one of several files is damaged the report shows the
+(map.csv), or of `torque-drag`, `bha`, `buckling`, `campbell`, `response` or `modes`. The file is
+self-contained and needs no network. Needs numpy, h5py and matplotlib, and three.js (Debian:
+libjs-three) for the view in space. Exit codes: 0 done, 1 wrong usage, 5 nothing to report on, or a
+file that cannot be read or written. If one of several files is damaged, the report shows the
 others, and the exit code is 5 as well.
 """
 import argparse
@@ -17,7 +18,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[0] = str(HERE.parent)
 
 from report.files import (USAGE, Unreadable, fail, failing, reading,
-                          write)  # noqa: E402: of the folder above
+                          write)  # noqa: E402: from the parent folder
 
 try:
     import h5py  # noqa: F401
@@ -70,8 +71,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, help="results folder")
     parser.add_argument("--output", type=pathlib.Path,
                         help="file to write (default: DIR/report.html)")
-    parser.add_argument("--quiet", action="store_true",
-                        help="say nothing of the file that was written")
+    parser.add_argument("--quiet", action="store_true", help="do not print the name of the file")
     options = parser.parse_args()
     plots.use_style()
     path = options.output or options.folder / "report.html"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks of a run, from its summary.json."""
 
-ENERGY = 1e-2  # share of the energy supplied that the integration may lose or make
-# A name, the value in a summary, the bound.
+ENERGY = 1e-2  # allowed numerical gain or loss, as a share of the energy supplied
+# name, key of the value in a summary, bound
 CHECKS = (
     ("balance of torque",
      lambda s: abs(s["static"]["torque_balance_defect"]) / s["static"]["torque_scale"], 1e-2),
@@ -15,8 +15,7 @@ CHECKS = (
 
 
 def measured(summary):
-    """(name, value, bound) of the checks that this run allows; a stage that did not run has
-    none."""
+    """(name, value, bound) of the checks of this run; stages that did not run have none."""
     found = []
     for name, measure, bound in CHECKS:
         try:
@@ -27,5 +26,5 @@ def measured(summary):
 
 
 def worst(summary):
-    """The check that comes closest to its bound, or None."""
+    """The check closest to its bound, or None."""
     return max(measured(summary), key=lambda check: check[1] / check[2], default=None)

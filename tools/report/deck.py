@@ -6,21 +6,21 @@ import re
 import xml.etree.ElementTree as xml
 
 RPM = 30 / math.pi
-# What a title says of a scene: path, words before, SI unit of a plain number with the factor to the
-# unit that is shown.
+# Conditions in a title: path, words before, unit shown, factor from the SI value of a plain number
+# to that unit.
 CONDITIONS = (
     ("Loads/Weight On Bit", "WOB ", "kN", 1e-3),
     ("Loads/Torque On Bit", "TOB ", "kN m", 1e-3),
     ("Mud/Density", "mud ", "kg/m3", 1.0),
 )
-OF_ANALYSES = (  # and of an analysis besides
+OF_ANALYSES = (  # further ones for analyses
     ("Well/Bore Diameter", "bore ", "mm", 1e3),
     ("Well/Bore Radius", "bore radius ", "mm", 1e3),
     ("Contact/Friction/Static", "static friction ", "", 1.0),
     ("Contact/Friction/Dynamic", "dynamic friction ", "", 1.0),
 )
 BLOCK = ("Torque and Drag/Block Weight", "block ", "kN", 1e-3)
-# The speed a law ends with or turns about: law, parameter, words before and after.
+# final or mean speed of a law: law, parameter, words before and after
 SPEEDS = (
     ("Constant", "Speed", "", ""),
     ("Exponential", "Final Speed", "up to ", ""),
@@ -42,7 +42,7 @@ def nested(element):
 
 
 def override(deck, edit):
-    """One override as results.h5 keeps it: PATH=VALUE, or !LIST."""
+    """Applies one override as stored in results.h5: PATH=VALUE, or !LIST."""
     path, _, value = (edit[1:] if edit.startswith("!") else edit).partition("=")
     *lists, name = path.strip().split("/")
     for one in lists:
@@ -56,7 +56,7 @@ def override(deck, edit):
 
 
 def read(text, overrides):
-    """Nested dicts of a deck; empty where the text is no deck."""
+    """Nested dicts of a deck; empty if the text is not a deck."""
     try:
         deck = nested(xml.fromstring(text))
     except xml.ParseError:
@@ -74,15 +74,15 @@ def value(deck, path):
 
 
 def shown(text, unit, factor):
-    """A quantity as the deck gives it, or in a unit of the field when it is a plain number."""
+    """A quantity as written in the deck, or in a unit of the field if it is a plain number."""
     if not re.fullmatch(r"[-+0-9.eE]+", text.strip()):
         return text
     return f"{float(text) * factor:.4g} {unit}".strip()
 
 
 def rotary_speed(deck, varied=()):
-    """"120 rpm", "up to 60 rpm", ... of the law of the rotary speed; "" where the deck gives none
-    or it varies."""
+    """"120 rpm", "up to 60 rpm", ... from the law of the rotary speed; "" if the deck has no such
+    law or varies it."""
     law = value(deck, "Rotary Speed/Law") or "Constant"
     for name, parameter, before, after in SPEEDS:
         path = f"Rotary Speed/{name}/{parameter}"
@@ -93,8 +93,8 @@ def rotary_speed(deck, varied=()):
 
 
 def conditions(deck, varied=(), more=()):
-    """"120 rpm, WOB 40 kN, ..." for the title of a page, without the paths that are `varied`;
-    `more`: further conditions."""
+    """"120 rpm, WOB 40 kN, ..." for the title of a page, without paths in `varied`; `more`: further
+    conditions."""
     words = [rotary_speed(deck, varied)]
     for path, before, unit, factor in (*CONDITIONS, *more):
         text = value(deck, path) if path not in varied else None
@@ -104,8 +104,8 @@ def conditions(deck, varied=(), more=()):
 
 
 def rows(deck, depth=0):
-    """(depth, name, value or None) of all lists and parameters, parameters of a list before its
-    lists."""
+    """(depth, name, value or None) of all lists and parameters; the parameters of a list precede
+    its sublists."""
     for name, entry in deck.items():
         if not isinstance(entry, dict):
             yield depth, name, entry

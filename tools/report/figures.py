@@ -8,19 +8,20 @@ from report import results
 from report.quantities import fixed
 
 BLUE, ORANGE, GREEN = COLOURS[:3]
-PICTURE_ROWS = 240  # of contact forces over time and depth
+PICTURE_ROWS = 240  # of the picture of contact forces over time and depth
 JOINT = 15.0  # [m]: longer than a joint of drill pipe (API range 3, with its tool joint)
-# rows of the picture for each joint of pipe, so that the pipe body between tool joints is visible
+# rows of the picture per joint of pipe, so that the pipe body between tool joints is visible
 RESOLVED = 8
-STRETCHES = 100  # of a profile that changes from element to element; longer than a joint of pipe
-MOST_BARS = 400  # of nodes along a profile
-FLOOR = 1e-8  # of the largest value of a spectrum, where its picture ends
+STRETCHES = 100  # intervals of a profile by elements; longer than a joint of pipe
+MOST_BARS = 400  # nodes of a profile drawn one by one, at most
+FLOOR = 1e-8  # lower limit of a plotted spectrum, as a share of its largest value
 DOWN_TO = f"drawn down to {plots.plain(FLOOR)} of the largest value"
-EVEN = 1e-3  # of its size: a quantity that changes less is a line, not a picture of rounding
+EVEN = 1e-3  # smaller relative changes are drawn as a constant, to hide rounding
 
 
 class Figure:
-    """An inline SVG with its caption; wide ones take two columns of the page, large ones a row."""
+    """An inline SVG with its caption. Wide figures take two columns of the page, large ones a
+    row."""
     def __init__(self, name, made, caption, wide=False, large=False):
         self.name, self.caption, self.size = (name, caption, "wide large"
                                               if large else "wide" if wide else "slender")
@@ -28,7 +29,7 @@ class Figure:
 
 
 def well(run):
-    """Vertical section and map of the well, of one scale."""
+    """Vertical section and map of the well, with the same scale."""
     north, east, down = run.get("/model/position").T
     away = np.hypot(north - north[0], east - east[0])
     depth = down - down[0]
@@ -102,8 +103,8 @@ def static_profiles(run):
 
 
 def draw_clearance(axes, s, clearance):
-    """The clearance [mm], pale; where it changes within a stretch of depth, as at tool joints, the
-    least of it darker."""
+    """The clearance [mm], pale; if it changes within an interval of depth, as at tool joints, its
+    minimum is darker."""
     depth, narrow, wide = plots.stretches(s, 1e3 * clearance, min(STRETCHES, len(s) - 1))
     changes = np.any(wide > 1.001 * narrow)
     axes.fill_betweenx(depth, 0, wide, step="mid", color="#ececec", linewidth=0,
@@ -114,16 +115,16 @@ def draw_clearance(axes, s, clearance):
 
 
 def bars(axes, depth, values, colour, width=1.1):
-    """A line from zero for each node; of many nodes the largest of each stretch, which is no wider
-    on the page than a line."""
+    """A line from zero for each node; for many nodes the largest value of each interval, which is
+    no wider on the page than a line."""
     if len(depth) > MOST_BARS:
         depth, _, values = plots.stretches(depth, values, MOST_BARS)
     axes.hlines(depth, 0, values, color=colour, linewidth=width)
 
 
 def banded(axes, values, depth, colour):
-    """Values along the depth; of many elements the largest of each stretch, and pale the range down
-    to the smallest."""
+    """Values along the depth; for many elements the largest value of each interval, and a pale band
+    down to the smallest."""
     if len(depth) > 4 * STRETCHES:
         depth, low, values = plots.stretches(depth, values, STRETCHES)
         axes.fill_betweenx(depth, low, values, color=colour, alpha=0.2, linewidth=0)
@@ -131,8 +132,8 @@ def banded(axes, values, depth, colour):
 
 
 def draw_bit_speed(axes, time, bit, rotary):
-    """Speeds [rad/s] of the bit and at the surface; a bit that turns evenly is a line, not a
-    picture of rounding."""
+    """Speeds [rad/s] of the bit and at the surface; the axis does not magnify the rounding of a
+    steady speed."""
     axes.plot(*plots.envelope(time, RPM * bit), color=BLUE, linewidth=0.8, label="bit")
     axes.plot(*plots.envelope(time, RPM * rotary), color=ORANGE, linewidth=1.4, label="surface")
     low, high = axes.get_ylim()
@@ -153,9 +154,9 @@ def bit_speed(run):
 def surface(run):
     """Torques and hook load over time, as far as they are recorded.
 
-    Torques have one sign, positive against the rotation: /transient/surface_torque is against the
-    rotation of each sample (to the right where nothing turns), /transient/torque_on_bit against a
-    rotation to the right."""
+    The plotted torques have one sign, positive against the rotation: /transient/surface_torque is
+    against the rotation of each sample (to the right if nothing turns), /transient/torque_on_bit
+    against a rotation to the right."""
     found = []
     sense = run.sense() or 1
     signs = {"surface_torque": sense * np.where(run.rotary() < 0, -1, 1), "torque_on_bit": sense}
@@ -189,20 +190,20 @@ def surface(run):
 
 
 def joint_length(s, radius):
-    """Largest distance [m] of neighbouring nodes that touch first, wider than the nodes beside
-    them; 0 without such a pattern of tool joints."""
+    """Largest distance [m] between adjacent nodes that touch first, being wider than their
+    neighbours; 0 without such a pattern of tool joints."""
     above, own, below = radius[:-2], radius[1:-1], radius[2:]
     apart = np.diff(s[1:-1][(own >= above) & (own >= below) & (own > np.minimum(above, below))])
     return max(apart[apart <= JOINT], default=0.0)
 
 
 def contact_picture(s, middles, radius, force):
-    """Contact force over depth (rows, equal stretches) and time: the largest of the nodes whose
-    stretch of the string is in a row.
+    """Contact force over depth (rows of equal intervals) and time: the largest force of the nodes
+    whose part of the string is in a row.
 
-    Pipe bodies between tool joints seldom touch. A row that is finer than a joint of pipe, but too
-    coarse to show it, would hold a pipe body here and a tool joint there: it is made as long as a
-    joint."""
+    Pipe bodies between tool joints seldom touch. Rows shorter than a joint of pipe, but too long to
+    resolve it, would contain a pipe body in one place and a tool joint in another; such rows are
+    made as long as a joint."""
     rows, joint = PICTURE_ROWS, joint_length(s, radius)
     if joint * rows < RESOLVED * (s[-1] - s[0]):
         rows = min(rows, int((s[-1] - s[0]) / joint)) if joint > 0 else rows
@@ -235,7 +236,7 @@ def contact(run, found):
 
 
 def contact_shares(run, found):
-    """Of the recorded nodes."""
+    """Share of time in contact of the recorded nodes."""
     s, limits = run.s[run.recorded], (run.s[0], run.s[-1])
     made, axes = plots.profile("share of time in contact [%]", limits)
     bars(axes, s, 100 * found.duty, BLUE)
@@ -268,7 +269,7 @@ def vibration(run, motion):
 
 def whirl(run, motion, number, turned):
     """Text of a caption on the mean precession of a chosen node: positive in the sense of the
-    rotation. `turned`: of results.sides."""
+    rotation. `turned`: result of results.sides."""
     half = slice(motion.first, None)
     time = run.time[half]
     a, b = turned @ motion.histories[half, number, :2].T
@@ -291,8 +292,8 @@ def whirl(run, motion, number, turned):
 
 
 def orbits(run, motion, chosen):
-    """The path of the axis of the string in the bore at those of the chosen nodes that vibrate, in
-    the second half of the motion, looking down the hole."""
+    """The path of the string axis in the bore at the chosen nodes that vibrate, in the second half
+    of the motion, looking down the hole."""
     found = []
     clearance = run.get("/model/clearance")
     half = slice(motion.first, None)
@@ -330,7 +331,8 @@ def frequency_axes(label):
 
 
 def draw_density(axes, frequency, power, **line):
-    """A line of a spectrum; the picture ends at FLOOR of the largest value of all lines."""
+    """A line of a spectrum; the vertical axis ends at FLOOR times the largest value of all
+    lines."""
     if len(frequency) > 2 and power[1:].max() > 0:
         axes.plot(frequency[1:], power[1:], linewidth=0.9, **line)
         top = max(drawn.get_ydata().max() for drawn in axes.lines)
@@ -343,7 +345,8 @@ def draw_spectrum(axes, values, interval, **line):
 
 
 def spectra(run, motion, chosen):
-    """Spectra of the lateral motion of the chosen nodes and of the bit speed, if they vibrate."""
+    """Spectra of the lateral motion of the chosen nodes and of the bit speed, where they
+    vibrate."""
     half = slice(motion.first, None)
     interval = float(np.median(np.diff(run.time)))
     found = []

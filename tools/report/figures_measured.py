@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measured signals beside the computed ones."""
+"""Compares measured and computed signals."""
 import math
 
 import plots
@@ -13,7 +13,7 @@ USUAL = {"rad/s": ("rpm", RPM), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3),
 
 
 def columns(run):
-    """Rows of the comparison in summary.json, of columns that are in results.h5."""
+    """Rows of the comparison in summary.json whose columns are in results.h5."""
     found = (run.value("measured") or {}).get("columns") or []
     return [row for row in found if f"/measured/{row['name']}/computed" in run.file]
 
@@ -44,7 +44,7 @@ def overview(run):
 
 
 def beside(run):
-    """In time and in frequency, two figures for each column."""
+    """Measured and computed signals against time and frequency, two figures for each column."""
     found = []
     for number, row in enumerate(columns(run), 1):
         group = f"/measured/{row['name']}/"

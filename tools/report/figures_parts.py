@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of a run of imported parts: displacements of all nodes, the nodes that move most, forces
-of point laws."""
+"""Figures of a run of imported parts: displacements of all nodes, the nodes with the largest
+motion, forces of point laws."""
 import h5py
 import numpy as np
 
@@ -27,7 +27,7 @@ def node_name(run, row):
 
 
 def start_of(run):
-    """Displacements at the start, of the recorded nodes where a motion is."""
+    """Displacements at the start; only of the recorded nodes if there is a motion."""
     start = run.get("/static/displacement")
     return start[run.recorded] if run.records else start
 
@@ -42,7 +42,7 @@ def range_of(run):
 
 
 def displacements(run):
-    """Of every node, part by part: at the start, and the range of the motion."""
+    """Displacements of every node, part by part: at the start, and the range of the motion."""
     part, names = run.get("/model/part"), results.texts(run.file["/model/part_names"])
     start = start_of(run)
     if run.records:
@@ -76,7 +76,8 @@ def displacements(run):
 
 
 def histories(run):
-    """(component, name, unit, node, values) of the node that moves most in each component."""
+    """(component, name, unit, node, values) of the node with the largest motion in each
+    component."""
     if not run.records:
         return
     low, high = range_of(run)
@@ -100,7 +101,7 @@ def movers(run):
 
 
 def forces(run):
-    """Recorded channels of point laws: the largest size over their points."""
+    """Recorded channels of point laws: the largest magnitude over their points."""
     moving = run.file.get("/transient")
     found = []
     for law in moving if moving is not None else []:

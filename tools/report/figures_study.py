@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of a study over time: errors, bit speed, statistics, where its runs start from and how
-far the reference can be trusted. `tools/plot_study.py` draws them."""
+"""Figures of a study over time: errors, bit speed, statistics, initial states of the runs and
+reliability of the reference. `tools/plot_study.py` draws them."""
 import numpy as np
 
 import plots
 from plots import COLOURS, GREY, RPM, headline, label, logarithmic, panels, percent, plt, shades
 
-PALE = "#d9d9d9"  # of what the curves are compared with
+PALE = "#d9d9d9"  # of the reference of the curves
 
 
 def short(value):
@@ -66,7 +66,7 @@ def draw_error_over_time(study):
 
 
 def representative(runs, enough=0.01):
-    """The fastest run of a line whose vibration error is at most 1 %, or else its most accurate
+    """The fastest run of a line with a vibration error of at most 1 %, or else its most accurate
     one."""
     good = [run for run in runs if run.number("vibration_error") <= enough]
     return min(good, key=lambda run: run.number("cpu_per_simulated_s")) if good else min(
@@ -74,7 +74,7 @@ def representative(runs, enough=0.01):
 
 
 def draw_bit_speed(study):
-    """Bit speed over time, one run of each line over the reference."""
+    """Bit speed over time: one run of each line and the reference."""
     reference = study.companion("reference")
     if reference is None or not study.lines or not len(reference.curve("bit_time")):
         return None

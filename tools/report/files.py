@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading and writing of files, and the messages for failures."""
+"""Reads and writes files, and makes the messages for failures."""
 import contextlib
 import csv
 import errno
@@ -19,11 +19,11 @@ REASONS = {
 
 
 class Unreadable(Exception):
-    """A message on missing or damaged data."""
+    """Data are missing or damaged."""
 
 
 class Unwritable(Exception):
-    """A sentence on why a file is not written."""
+    """A file could not be written; the message gives the reason."""
 
 
 def fail(sentence, code=FILES):
@@ -33,7 +33,7 @@ def fail(sentence, code=FILES):
 
 @contextlib.contextmanager
 def failing():
-    """Ends with the message on a file that cannot be read or written."""
+    """Ends with a message if a file cannot be read or written."""
     try:
         yield
     except (Unreadable, Unwritable) as fault:
@@ -41,7 +41,7 @@ def failing():
 
 
 def reason(error):
-    """Of an OSError in words, empty where the system gives none."""
+    """Reason of an OSError in words; empty if the system gives none."""
     return REASONS.get(error.errno) or (os.strerror(error.errno) if error.errno else "")
 
 
@@ -51,7 +51,7 @@ def unreadable(path, why):
 
 @contextlib.contextmanager
 def reading(path):
-    """Errors inside the block are attributed to this file: Unreadable."""
+    """Turns errors inside the block into Unreadable with the name of this file."""
     try:
         yield
     except DAMAGE as error:
@@ -63,7 +63,7 @@ def reading(path):
 
 @contextlib.contextmanager
 def writing(path):
-    """Unwritable where the system refuses to write this file or folder."""
+    """Turns errors inside the block into Unwritable with the name of this file or folder."""
     try:
         yield
     except OSError as error:
@@ -73,7 +73,7 @@ def writing(path):
 
 
 def write(path, text):
-    """The file is whole or as it was before. Unwritable."""
+    """Writes a file completely or leaves the old one. Unwritable."""
     part = path.with_name(path.name + ".part")
     with writing(path):
         try:
@@ -86,8 +86,8 @@ def write(path, text):
 
 
 def read_rows(path):
-    """Rows of a CSV file, its header first, as lists of texts.
-    Unreadable where a row is cut off or has another number of cells."""
+    """Rows of a CSV file as lists of texts, the header first. Unreadable if a row is cut off or has
+    another number of cells."""
     with reading(path):
         text = path.read_bytes().decode("utf-8")
         rows = list(csv.reader(io.StringIO(text, newline="")))
@@ -105,8 +105,7 @@ def read_rows(path):
 
 
 class Row(dict):
-    """A row of a table by the names of its columns: numbers, and texts where a cell holds no
-    number."""
+    """A row of a table by column name: numbers, or texts for cells that are not numbers."""
     def __init__(self, cells, path):
         super().__init__(cells)
         self.path = path
@@ -116,9 +115,8 @@ class Row(dict):
 
 
 def read_table(path, *needed):
-    """A Row for each row of a CSV file; names without their units.
-    Unreadable where a column with a unit holds a text, or where one of the columns `needed` is
-    missing."""
+    """A Row for each row of a CSV file; names without their units. Unreadable if a column with a
+    unit contains text, or if one of the columns `needed` is missing."""
     def value(text, title, number):
         try:
             return float(text)
@@ -141,7 +139,7 @@ def read_table(path, *needed):
 
 
 def numbers(rows, name):
-    """A column of a table; nan where a cell is empty. Unreadable where it holds a text."""
+    """A column of a table; nan for empty cells. Unreadable if it contains text."""
     for row in rows:
         if row[name] and not isinstance(row[name], float):
             raise unreadable(row.path,

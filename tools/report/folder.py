@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The main function of tools that draw the results of a command, and the titles of their
+"""Main function of the tools that draw the results of a command, and the titles of their
 figures."""
 import argparse
 import pathlib
@@ -12,7 +12,7 @@ from report.results import open_results
 
 
 def conditions(results):
-    """What the deck in an HDF5 file of results says of the scene, for the second line of a
+    """Conditions of the scene from the deck in an HDF5 file of results, for the second line of a
     title."""
     text, overrides = (results.attrs.get(name, "") for name in ("deck_text", "overrides"))
     lists = deck.read(text, overrides)
@@ -32,8 +32,8 @@ def parser(description, kind, files):
 
 
 def opened(folder, kind, files):
-    """(name, open file) of the first of `files` in the folder; ends with a sentence where none is
-    there."""
+    """(name, open file) of the first of `files` in the folder; ends with a message if there is
+    none."""
     found = next((name for name in files if (folder / name).is_file()), None)
     if found is None:
         missing = f"neither {' nor '.join(files)}" if len(files) > 1 else f"no {next(iter(files))}"
@@ -43,20 +43,19 @@ def opened(folder, kind, files):
 
 
 def save(made, path):
-    """Writes a figure and says so."""
+    """Writes a figure and prints its name."""
     with failing(), writing(path):
         plots.save(made, path)
     print(f"drawn {path}")
 
 
 def draw_folder(description, kind, files):
-    """The main of a tool: the first of `files` (name.h5 -> pictures) in the folder gives name.png
-    there, or the picture of --output. `kind`: the folder, in words.
+    """Main function of a tool: draws the first of `files` (name.h5 -> pictures) in the folder as
+    name.png there, or as the file of --output. `kind`: description of the folder.
 
-    Pictures are a function of the open file that makes a figure, or several with their titles,
-    {"": (title, function), "shapes": (title, function)}: the second is name_shapes.png. A function
-    may return None: there is nothing to draw.
-    """
+    Pictures are given as a function of the open file that makes a figure, or several with their
+    titles, {"": (title, function), "shapes": (title, function)}: the second is name_shapes.png. A
+    function returns None if there is nothing to draw."""
     options = parser(description, kind, files).parse_args()
     plots.use_style()
     found, results = opened(options.folder, kind, files)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The frame of every page: notes before the sections, the deck and the origin of the page after
+"""Common parts of every page: notes before the sections, the deck and the origin of the page after
 them."""
 from report import checks, deck, tables
 
@@ -25,12 +25,12 @@ def notes(page, results, what="run"):
 
 
 def scene_of(results):
-    """The deck as it was run."""
+    """The deck of the run, with its overrides."""
     return deck.read(results.attribute("deck_text"), results.attribute("overrides"))
 
 
 def close(page, results):
-    """Deck and origin of a page."""
+    """Adds deck and origin of a page."""
     rows = list(deck.rows(scene_of(results)))
     page.add(
         "deck", "Deck", f"<details open><summary>{len(rows)} lines, with the overrides of the "

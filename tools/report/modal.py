@@ -11,9 +11,9 @@ from report.page import cards
 from report.quantities import fixed, percent, plain
 from report.results import open_results
 
-BASIS_ROWS = 60  # of a page; basis.csv has all
-DIGITS = 4  # of the largest number of a column of frequencies
-# Columns as they are shown; those of undamped modes have no damping.
+BASIS_ROWS = 60  # rows on a page; basis.csv has all
+DIGITS = 4  # significant digits of the largest number in a column of frequencies
+# displayed columns; undamped modes have no damping
 TITLES = {
     "mode": "mode", "full": "full model [Hz]", "full_im": "in motion [Hz]",
     "full_damping": "damping ratio", "coupled_mode": "coupled mode",
@@ -47,14 +47,14 @@ def basis_table(folder):
 
 
 def whole_numbers(axes):
-    """Ticks of modes, and room for their marks."""
+    """Ticks at mode numbers, with space for the markers."""
     axes.xaxis.set_major_locator(plots.plt.MaxNLocator(integer=True))
     axes.margins(y=0.08)
 
 
 def modes_figure(name, rows, columns, label, caption, zero=False):
-    """Columns of a full and of a reduced model, a mark for each mode; none where all are missing or
-    0."""
+    """Columns of a full and of a reduced model, a marker for each mode; None if all values are
+    missing or 0."""
     made, axes = plots.figure(plots.WIDE, 2.4)
     for column, text, marker, colour in columns:
         if column in rows[0] and any(value
@@ -112,7 +112,7 @@ def shapes_figure(folder):
 
 
 def table_of(rows, damped):
-    """All modes, each column with as many decimals as its largest number needs."""
+    """All modes; the largest number of a column determines its decimals."""
     names = [
         name for name in TITLES
         if name in rows[0] and (damped or not name.endswith(("_damping", "_im")))
@@ -138,7 +138,7 @@ def table_of(rows, damped):
 
 
 def grows(rows):
-    """Modes with a negative damping ratio, of either model."""
+    """Modes of either model with a negative damping ratio."""
     return [
         row for row in rows if any(
             isinstance(row.get(name), float) and row[name] < 0
@@ -152,7 +152,7 @@ def growing(count):
 
 
 def headline(results):
-    """Cards of the lowest frequency, the least damping and the largest error."""
+    """Cards with the lowest frequency, the least damping and the largest error."""
     found = []
     for file, what in (("modes.csv", ""), ("damped_modes.csv", ", damped")):
         path = results.folder / file

@@ -11,13 +11,13 @@ from report.figures import Figure
 from report.page import Page, cards
 from report.quantities import plain
 
-MOST_PICTURES = 24  # of a page; the folder of the map has all
-MOST_NAMED = 12  # points of an axis
-MOST_ROWS = 2000  # of the table of a page; map.csv has all
+MOST_PICTURES = 24  # on a page; the folder of the map has all
+MOST_NAMED = 12  # longer axes are shown by their ends
+MOST_ROWS = 2000  # of the table on a page; map.csv has all
 
 
 def limit(value):
-    """"unsafe above 6.5" of a value; "" where it has no limit."""
+    """"unsafe above 6.5" for a value; "" without a limit."""
     words = [
         f"{side} {value[f'unsafe_{side}']:g}" for side in ("below", "above")
         if value[f"unsafe_{side}"] is not None
@@ -26,21 +26,21 @@ def limit(value):
 
 
 def counted(value):
-    """A limit with its unsafe points."""
+    """A limit and the number of unsafe points."""
     return f"{limit(value)}: {value['unsafe']} of {value['known']} points" if limit(value) else ""
 
 
 def point(made, row):
-    """"speed 60 rpm, weight on bit 5 kN" of a row of the table."""
+    """"speed 60 rpm, weight on bit 5 kN" for a row of the table."""
     return ", ".join(" ".join(
         filter(None, (axis["name"], pathlib.PurePath(row[axis["name"]]).name, axis["unit"])))
                      for axis in made.axes)
 
 
 def extremes(value, grid):
-    """(word, row of the table) of the best and the worst point of a value.
-    A limit on one side tells which is which; without one they are the least and the largest. Empty
-    where no point has the value."""
+    """(word, row of the table) of the best and the worst point of a value. A limit on one side
+    defines which is which; without one they are the smallest and the largest. Empty if no point has
+    the value."""
     if not np.isfinite(grid).any():
         return []
     least, largest = int(np.nanargmin(grid)), int(np.nanargmax(grid))
@@ -51,8 +51,7 @@ def extremes(value, grid):
 
 
 def safe(made):
-    """Points whose values are known and safe, as far as they have a limit; None for a map without
-    limits."""
+    """Points whose values are known and within their limits; None for a map without limits."""
     limited = [value for value in made.values if limit(value)]
     if not limited:
         return None
@@ -63,7 +62,7 @@ def safe(made):
 
 
 def headline(made, summary):
-    """Cards of the best and worst points, of the safe points and of the time."""
+    """Cards with the best and worst points, the safe points and the time."""
     total = len(made.rows)
     found = [("Points done", str(summary["done"]), f"of {total}", f"{summary['failed']} failed",
               summary["failed"] > 0)]
@@ -88,14 +87,14 @@ def headline(made, summary):
 
 
 def places(texts):
-    """Points of an axis; of a long axis the ends."""
+    """Points of an axis; only the ends of a long axis."""
     names = [pathlib.PurePath(text).name for text in texts]
     return ", ".join(names) if len(
         names) <= MOST_NAMED else f"{len(names)} points: {', '.join(names[:3])}, ..., {names[-1]}"
 
 
 def grid_tables(made):
-    """The parameters that vary, and the values that are mapped."""
+    """Tables of the varied parameters and of the mapped values."""
     axes = [(axis["name"], axis["parameter"], axis["unit"] or "-", places(axis["texts"]))
             for axis in made.axes]
     values = [(value["name"], value["key"], value.get("unit") or "-", limit(value)
@@ -128,13 +127,13 @@ def draw_all(made):
 
 
 def reason(row):
-    """The first sentence of why a point failed; map.csv has the whole."""
+    """The first sentence of the reason why a point failed; map.csv has all of it."""
     first, dot, _ = row["reason"].partition(". ")
     return first + dot.strip()
 
 
 def points_table(made):
-    """A row per point, with the values that are unsafe there."""
+    """One row per point, with the values that are unsafe there."""
     beyond = {
         value["name"]: plot_map.unsafe(value, made.grid[value["name"]]).ravel()
         for value in made.values

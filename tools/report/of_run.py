@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of a run: of a string in its well, or of imported parts."""
+"""The report of a run: a string in its well, or imported parts."""
 from report import (checks, deck, figures, figures_measured, figures_parts, frame, modal, results,
                     scene3d, tables, torque_drag)
 from report.page import Page, cards
@@ -7,7 +7,7 @@ from report.quantities import both, fixed, percent
 
 
 def headline(run):
-    """Cards of the headline figures."""
+    """Cards with the main results."""
     found = []
     whole = "the whole motion" + ("" if run.time is None or len(run.time) == 0 else
                                   f", {results.span(run.time[0], run.time[-1])}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of a study: its plots, its rows and what its reference is worth."""
+"""The report of a study: its plots, its rows and the reliability of its reference."""
 import plot_study
 from report import deck, files, results, tables
 from report.figures import Figure

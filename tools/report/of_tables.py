@@ -11,13 +11,13 @@ from report.files import numbers, read_table
 from report.page import Page, cards
 from report.quantities import POUND, both, fixed, percent
 
-ROUNDING = 1e-6  # [mm], [kN m] along an assembly: less is zero
-BUCKLING_ROWS = 40  # of a page; buckling.csv has all
-MOST_PEAKS = 4  # of the headline figures of a response
+ROUNDING = 1e-6  # [mm], [kN m]: smaller values along an assembly are zero
+BUCKLING_ROWS = 40  # rows on a page; buckling.csv has all
+MOST_PEAKS = 4  # among the headline figures of a response
 
 
 def state_name(row):
-    """Weight, hole and tool face of a row of bha.csv, and whether the string buckles."""
+    """Weight, hole and tool face of a row of bha.csv, and whether the string is buckled."""
     face = "rotating" if row[
         "mode"] == "rotating" else f"tool face {math.degrees(row['tool_face']):.0f} deg"
     return (f"{row['weight_on_bit'] / 1e3:.0f} kN ({1e-3 * row['weight_on_bit'] / POUND:.0f} "
@@ -26,7 +26,7 @@ def state_name(row):
 
 
 def along_assembly(name, label, caption, states, value):
-    """A line for each state; `value` of a row of bha_profile.csv."""
+    """A line for each state; `value` is a function of a row of bha_profile.csv."""
     made, axes = plots.figure(plots.WIDE, 2.4)
     for number, (state, own) in enumerate(states.items()):
         axes.plot(numbers(own, "from_bit"), [value(row) for row in own],
@@ -39,7 +39,7 @@ def along_assembly(name, label, caption, states, value):
 
 
 def without_common(states):
-    """What the names of all states begin with, for a caption, and the states by the rest of their
+    """The common start of the names of all states, for a caption, and the states with shortened
     names."""
     names = [name.split(", ") for name in states]
     count = len(os.path.commonprefix([parts[:-1] for parts in names])) if len(names) > 1 else 0
@@ -50,12 +50,12 @@ def without_common(states):
 
 
 def unstable(row):
-    return row.get("stable") == 0  # of bha.csv a number, of the summary a truth value
+    return row.get("stable") == 0  # a number in bha.csv, a boolean in the summary
 
 
 def bha_headline(results):
-    """Cards of the state of the largest weight under which the string is stable, and of those under
-    which it is not."""
+    """Cards of the state with the largest stable weight on bit, and the number of unstable
+    states."""
     rows = results.value("bha.rows") or []
     found = []
     lost = sum(map(unstable, rows))
@@ -134,7 +134,7 @@ def add_bha(page, folder):
 
 
 def against_weight(name, label, caption, rows, lines, scale):
-    """Columns of buckling.csv against the weight on bit; jumps are gaps."""
+    """Columns of buckling.csv against the weight on bit, with gaps at jumps."""
     made, axes = plots.figure(plots.WIDE, 2.4)
     for number, (column, legend) in enumerate(lines):
         for branch in sorted(set(numbers(rows, "branch"))):
@@ -149,7 +149,7 @@ def against_weight(name, label, caption, rows, lines, scale):
 
 
 def buckled_shape(rows):
-    """The last state to both sides of the hole."""
+    """The last state in both lateral directions of the hole."""
     made, axes = plots.figure(plots.WIDE, 2.4)
     for number, (column, legend) in enumerate(
         (("deflection_high", "to the high side"), ("deflection_right", "to the right side"))):
@@ -162,7 +162,7 @@ def buckled_shape(rows):
 
 
 def add_buckling(page, folder):
-    """Load and displacement, contact beside that of a helix, and the last state."""
+    """Load against displacement, contact compared with that of a helix, and the last state."""
     if not ((folder / "buckling.csv").is_file() and (folder / "buckling_profile.csv").is_file()):
         return
     rows = read_table(folder / "buckling.csv")
@@ -193,7 +193,7 @@ def add_buckling(page, folder):
 
 
 def buckling_headline(results):
-    """Cards of the weights on bit at which something happens."""
+    """Cards with the weights on bit of the buckling events."""
     found = [(name, *both(weight, "hook load"), remark, False) for name, weight, remark in (
         ("Last weight on bit", results.value("buckling.last_weight_on_bit"),
          results.value("buckling.explanation") or ""),
@@ -208,7 +208,7 @@ def buckling_headline(results):
 
 
 def of_rotation(results, pictures):
-    """Figures of functions of an open HDF5 file, name -> (function, caption)."""
+    """Figures made by functions of an open HDF5 file, name -> (function, caption)."""
     return [
         Figure(name, made, caption, True, large=True)
         for name, (function, caption) in pictures.items() if (made := function(results)) is not None
@@ -216,14 +216,14 @@ def of_rotation(results, pictures):
 
 
 def rotation_error(results, analysis):
-    """The card of the largest error of a reduced model, if there is one."""
+    """A card with the largest error of a reduced model, if there is one."""
     error = results.value(f"{analysis}.largest_error")
     return [] if error is None else [("Largest error", percent(error), "",
                                       "of the reduced model, by spot checks", False)]
 
 
 def campbell_headline(results):
-    """Cards of critical speeds and of damping."""
+    """Cards with critical speeds and damping."""
     crossings = results.value("campbell.crossings") or []
     found = [("Critical speeds", str(len(crossings)), "", "crossings with lines of excitations",
               False)]
@@ -273,7 +273,7 @@ def add_campbell(page, folder):
 
 
 def response_headline(results):
-    """Cards of the largest amplitudes."""
+    """Cards with the largest amplitudes."""
     largest = {}
     for peak in results.value("response.peaks") or []:
         if peak["amplitude"] > largest.get(peak["output"],
@@ -314,7 +314,7 @@ def add_response(page, folder):
     page.plots("response", "Harmonic response", found)
 
 
-# Of a name: tables that tell of it, title, headline figures, sections.
+# name, its files (one must exist), title, headline figures, sections
 ANALYSES = (
     ("torque_drag", ("torque_drag.csv",), "Torque and drag", torque_drag.headline, torque_drag.add),
     ("bha", ("bha.csv",), "Bottom-hole assembly", bha_headline, add_bha),
@@ -326,7 +326,7 @@ ANALYSES = (
 
 
 def conditions(found, scene, names):
-    """The string and what the deck says of the case."""
+    """The string and the conditions of the case from the deck."""
     length = found.value("model.length")
     said = deck.conditions(
         scene, more=deck.OF_ANALYSES + ((deck.BLOCK,) if "torque_drag" in names else ()))
@@ -334,7 +334,7 @@ def conditions(found, scene, names):
 
 
 def page_of(folder):
-    """Of a folder that holds results of analyses alone."""
+    """The page of a folder with results of analyses only."""
     present = [one for one in ANALYSES if any((folder / file).is_file() for file in one[1])]
     page = Page(" and ".join(title for _, _, title, _, _ in present))
     summary, file = {}, None

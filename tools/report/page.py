@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Puts sections into one HTML file that needs nothing but itself."""
+"""Puts sections into one self-contained HTML file."""
 import contextlib
 import json
 import math
@@ -11,9 +11,9 @@ from html import escape
 from report.files import Unreadable, reading
 
 WEB = pathlib.Path(__file__).resolve().parent / "web"
-THREE = pathlib.Path("/usr/share/javascript/three")  # of the Debian package libjs-three
+THREE = pathlib.Path("/usr/share/javascript/three")  # from the Debian package libjs-three
 VIEWER = ("three.min.js", "examples/js/controls/OrbitControls.js")
-# [px] of a plot on a narrow screen, which scrolls a plot sideways that needs more room
+# [px] of a plot on a narrow screen; wider plots scroll horizontally
 LEAST_TEXT = 8.5
 LICENCE = """three.js, (c) 2010-2019 three.js authors. Permission is hereby granted, free of
 charge, to any person obtaining a copy of this software and associated documentation files (the
@@ -35,8 +35,7 @@ def template(name, **words):
 
 
 def without_addresses(script):
-    """JavaScript without the addresses that stand in its comments, and fit to stand inside a
-    page."""
+    """JavaScript without the addresses in its comments, escaped for use inside a page."""
     kept = [
         line for line in script.splitlines()
         if not ("//" in line and line.lstrip().startswith(("*", "//", "/*")))
@@ -45,7 +44,7 @@ def without_addresses(script):
 
 
 def viewer():
-    """three.js as the distribution installs it, or None."""
+    """three.js as installed by the distribution, or None."""
     try:
         return "\n".join(
             without_addresses((THREE / name).read_text(encoding="utf-8")) for name in VIEWER)
@@ -54,14 +53,14 @@ def viewer():
 
 
 class Page:
-    """Sections in the order they are added; what is empty is left out."""
+    """Sections in the order in which they are added; empty ones are left out."""
     def __init__(self, title, conditions=""):
         self.title, self.conditions = title, conditions
         self.damaged, self.notes, self.sections, self.scripts, self.footer = [], [], [], [], ""
 
     @contextlib.contextmanager
     def section(self, path):
-        """What this file does not give is left out of the page, which says so first."""
+        """Errors in this file leave its section out of the page; the page lists them at its top."""
         try:
             with reading(path):
                 yield
@@ -107,9 +106,8 @@ class Page:
             template("view.html", scale=scale, forces=forces, turn=escape(turn),
                      note=escape(f"{what} {note}".strip())))
         scene = json.dumps(data,
-                           separators=(",",
-                                       ":")).replace("<",
-                                                     "\\u003c")  # no name in it ends the script
+                           separators=(",", ":")).replace("<",
+                                                          "\\u003c")  # a name cannot end the script
         self.scripts += [
             f"<script>/* {LICENCE} */\n{library}</script>",
             f"<script>const SCENE = {scene};</script>",
@@ -134,7 +132,7 @@ class Page:
 
 
 def least_width(svg):
-    """Width [px] at which the smallest text of a plot has LEAST_TEXT."""
+    """Width [px] at which the smallest text of a plot has the size LEAST_TEXT."""
     width = float(re.search(r'viewBox="\S+ \S+ (\S+) ', svg).group(1))
     sizes = [float(size) for size in re.findall(r"font(?:-size)?: ([\d.]+)px", svg)]
     return math.ceil(LEAST_TEXT / min(sizes) * width) if sizes else 0

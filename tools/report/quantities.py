@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers as texts, in SI units and in those of the field."""
+"""Numbers as texts, in SI units and in field units."""
 import math
 
 FOOT, POUND = 0.3048, 4.4482216152605  # [m], [N] (exact)
-# quantity -> (SI unit, factor to it, decimals), (unit of the field, factor to it, decimals)
+# quantity -> (SI unit, factor to it, decimals), (field unit, factor to it, decimals)
 UNITS = {
     "length": (("m", 1.0, 1), ("ft", 1 / FOOT, 0)),
     "side force": (("kN", 1e-3, 2), ("lbf", 1 / POUND, 0)),
@@ -12,11 +12,11 @@ UNITS = {
     "penetration": (("m/h", 3600.0, 2), ("ft/h", 3600 / FOOT, 1)),
     "torque": (("kN m", 1e-3, 2), ("kft lbf", 1e-3 / (FOOT * POUND), 2)),
 }
-SMALLEST = 1e-6  # share that is printed in numbers
+SMALLEST = 1e-6  # smallest share printed as a number
 
 
 def fixed(value, decimals):
-    """A number with so many decimals; what rounds to zero has no sign.
+    """A number with so many decimals; numbers that round to zero have no sign.
 
     >>> fixed(-0.04, 1), fixed(-1.26, 1)
     ('0.0', '-1.3')
@@ -25,7 +25,7 @@ def fixed(value, decimals):
 
 
 def both(value, quantity):
-    """("442.7 kN", "99.5 klbf"); dashes where there is no value."""
+    """("442.7 kN", "99.5 klbf"); dashes without a value."""
     if value is None or not math.isfinite(value):
         return "-", ""
     return tuple(
@@ -33,7 +33,7 @@ def both(value, quantity):
 
 
 def plain(value, digits=4):
-    """A number of a table; - for none."""
+    """A number in a table; - without one."""
     if value is None or value == "":
         return "-"
     if isinstance(value, bool):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run left in its folder, read once and in pieces that fit into memory."""
+"""Reads the results of a run once, in blocks that fit into memory."""
 import json
 import math
 import pathlib
@@ -10,19 +10,18 @@ import numpy as np
 from report.files import Unreadable, reading, unreadable
 from report.quantities import both, fixed
 
-BLOCK = 8_000_000  # numbers of a time series that are in memory at once
-SECOND_HALF = 0.5  # statistics begin after this share of the motion, when its start has died away
-# [m], [rad], [rad/s], rms: less is no vibration. Solvers leave 1e-10 to 1e-7 of it, a wall is rough
-# by more.
+BLOCK = 8_000_000  # numbers of a time series in memory at once
+SECOND_HALF = 0.5  # statistics begin after this share of the motion, when its start has decayed
+# [m], [rad], [rad/s], rms: smaller values are not vibration. Solver errors are 1e-10 to 1e-7, the
+# roughness of a wall is larger.
 VIBRATES = 1e-6
-STEEP = math.sin(
-    math.radians(3))  # a hole that is nearer to the vertical has no high side worth the name
+STEEP = math.sin(math.radians(3))  # holes closer to the vertical have no useful high side
 AGAINST = {
     1: "positive against the rotation", -1: "positive against the rotation",
     0: "positive against a rotation to the right"
 }  # torques, by the sense of the rotation
 NONE, STILL = "none", f"less than {1e6 * VIBRATES:g} micrometre rms: rounding"
-# Without these datasets of a string there is nothing to draw.
+# datasets of a string that a report needs
 NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius",
           "/model/path_curvature", "/model/curvature_of_rotations", "/static/displacement",
           "/static/normal_force", "/static/axial_force", "/static/torque")
@@ -51,8 +50,7 @@ def texts(dataset):
 
 
 class Folder:
-    """What a command left in its folder: summary.json and an HDF5 file, {} and None where there is
-    none."""
+    """Results of a command: summary.json and an HDF5 file, {} and None if they are missing."""
     def __init__(self, folder, summary, file):
         self.folder, self.summary, self.file = folder, summary, file
 
@@ -61,7 +59,7 @@ class Folder:
         return value.decode() if isinstance(value, bytes) else value
 
     def value(self, path):
-        """Of the summary by keys joined by dots; None where a stage did not run."""
+        """Value of the summary for keys joined by dots; None if the stage did not run."""
         found = self.summary
         for key in path.split("."):
             found = found.get(key) if isinstance(found, dict) else None
@@ -69,15 +67,15 @@ class Folder:
 
     @property
     def name(self):
-        """Of the deck."""
+        """Name of the deck."""
         return pathlib.Path(
             self.value("deck.file") or self.attribute("deck_file")
             or self.folder.resolve().name).stem
 
 
 class Run(Folder):
-    """results.h5 and summary.json of a run.
-    Arrays have the shapes of docs/file-formats.md; None for what is not there."""
+    """results.h5 and summary.json of a run. Arrays have the shapes of docs/file-formats.md; None
+    for missing ones."""
     def __init__(self, folder):
         self.path = folder / "results.h5"
         super().__init__(folder, read_summary(folder), open_results(self.path))
@@ -94,7 +92,7 @@ class Run(Folder):
         self.records = self.time is not None and len(
             self.time) > 1 and "/transient/displacement" in self.file
         chosen = self.get("/transient/node")
-        self.moves = self.records and chosen is None  # the motion of all nodes is there
+        self.moves = self.records and chosen is None  # the motion of all nodes is recorded
         self.recorded = np.arange(
             self.file["/static/displacement"].shape[0]
         ) if chosen is None and self.records else None if chosen is None else chosen - 1
@@ -116,7 +114,7 @@ class Run(Folder):
         ]
 
     def component_at(self, node):
-        """Entry of the assembly a node (from 0) belongs to: the upper one where two meet."""
+        """Entry of the assembly that contains a node (from 0); the upper one where two meet."""
         names = self.components()
         return "" if names is None else names[max(0, node - 1)]
 
@@ -128,11 +126,11 @@ class Run(Folder):
             yield first, data[first:first + rows]
 
     def column(self, node):
-        """Place of a node (from 0) in the motion, which may be that of chosen nodes alone."""
+        """Index of a node (from 0) in the motion, which may contain only chosen nodes."""
         return int(np.searchsorted(self.recorded, node))
 
     def frames(self, most):
-        """Numbers of at most `most` samples in equal distances."""
+        """Numbers of at most `most` samples at equal distances."""
         return np.arange(0, len(self.time), max(1, -(-len(self.time) // most)))
 
     def rotary(self):
@@ -142,7 +140,7 @@ class Run(Folder):
 
     def sense(self, samples=slice(None)):
         """Sense of the rotation in the samples: 1 to the right (clockwise looking down the hole),
-        -1 to the left, 0 where it changes or nothing turns."""
+        -1 to the left, 0 if it changes or nothing turns."""
         speed = self.rotary()[samples]
         return int(np.any(speed > VIBRATES)) - int(np.any(speed < -VIBRATES))
 
@@ -158,8 +156,8 @@ class Run(Folder):
 
 
 def beside_releases(run, values):
-    """`values` (... x elements) with those of the next element where a joint above is released:
-    results have the motion of the part above the joint."""
+    """`values` (... x elements), with those of the next element for elements directly below
+    released joints: the recorded motion of a released node is that of the part above the joint."""
     below = run.get("/model/elements_below_releases")
     if below is not None:
         values = values.copy()
@@ -168,8 +166,8 @@ def beside_releases(run, values):
 
 
 def curvature(run, displacement):
-    """Curvature of the bent string in its elements [1/m]: turn of the axes of the cross sections
-    from node to node, a' = a + theta x a, over the length. `displacement` is ... x nodes x 6 in
+    """Curvature of the bent string in its elements [1/m]: change of the cross-section axes from
+    node to node, a' = a + theta x a, divided by the length. `displacement` is ... x nodes x 6 in
     nodal frames."""
     rotations = displacement[..., 3:6]
     both = np.concatenate((rotations[..., :-1, :], rotations[..., 1:, :]), axis=-1)
@@ -199,7 +197,7 @@ def internal_forces(run, displacement):
 
 
 def von_mises(run, displacement):
-    """Largest von Mises stress of the elements [Pa] in a displacement (... x nodes x 6); None for
+    """Largest von Mises stress of the elements [Pa] for a displacement (... x nodes x 6); None for
     results without sections.
 
         sigma^2 = (|T|/S + E kappa R)^2 + 3 (M R/J)^2
@@ -217,14 +215,14 @@ def von_mises(run, displacement):
 
 
 def static_sense(run):
-    """Sense of the rotation of the state at rest: -1 where the surface torque of the summary has
-    the sign of the torque in the first element, to the left."""
+    """Sense of the rotation at rest: -1 (to the left) if the surface torque in the summary has the
+    sign of the torque in the first element."""
     surface, top = run.value("static.surface_torque"), run.value("static.top_torque")
     return -1 if surface and top and surface * top > 0 else 1
 
 
 def static_torque(run, sense):
-    """Torque of the elements at rest [N m], positive against the rotation, as the surface
+    """Torque of the elements at rest [N m], positive against the rotation, like the surface
     torque."""
     return -sense * run.get("/static/torque")
 
@@ -235,8 +233,8 @@ def lateral(run, displacement):
 
 
 class Motion:
-    """Statistics of the second half of a motion, of the recorded nodes, and the histories of a few
-    of them."""
+    """Statistics of the recorded nodes over the second half of a motion, and time histories of a
+    few of them."""
     def __init__(self, run, chosen=()):
         self.run = run
         self.first = run.second_half()
@@ -257,12 +255,12 @@ class Motion:
         self.rms = np.sqrt(np.maximum(square / count - self.mean**2, 0.0))
         self.vibrates = self.lateral_rms()[self.chosen] > VIBRATES  # of the chosen nodes
         velocity = run.file.get("/transient/velocity") if self.chosen else None
-        # (u', v') of the chosen nodes in the second half, None where a run did not record them
+        # (u', v') of the chosen nodes in the second half, None if they are not recorded
         self.velocities = None if velocity is None else velocity[self.first:, self.chosen, :2]
 
     def lateral_rms(self):
-        """Root mean square of the lateral vibration about the mean position [m], of the nodes of a
-        string."""
+        """Root mean square of the lateral vibration of the nodes of a string about the mean
+        position [m]."""
         return np.hypot(self.rms[:, 0], self.rms[:, 1])
 
 
@@ -287,8 +285,8 @@ class Contact:
 
 
 def differences(values, time):
-    """Central differences.
-    Those of a circle of n samples a turn are its velocity times sin(2 pi/n)/(2 pi/n)."""
+    """Central differences. For a circle with n samples per turn they are its velocity times sin(2
+    pi/n)/(2 pi/n)."""
     return np.gradient(values, time) if len(time) > 1 else np.zeros_like(values)
 
 
@@ -301,9 +299,9 @@ def precession(u, v, u_rate, v_rate):
 
 
 def sides(run, node):
-    """((a, b), matrix that turns (u, v) of a node into them): the high side of the hole and its
-    right side, looking down the hole; north and east in a hole that is all but vertical. Both turn
-    clockwise from a to b, as the rotation does."""
+    """((a, b), matrix that transforms (u, v) of a node to them): the high side of the hole and its
+    right side, looking down the hole; north and east in a nearly vertical hole. Both turn clockwise
+    from a to b, like the rotation."""
     x, y, tangent = run.get("/model/frame")[node].T
     names, up = (("high side", "right side"),
                  [0, 0, -1]) if np.hypot(*tangent[:2]) > STEEP else (("north", "east"), [1, 0, 0])
@@ -314,9 +312,9 @@ def sides(run, node):
 
 
 def chosen_nodes(run, rms, most=4):
-    """At most `most` recorded nodes (from 0) worth a look, by depth, with why: the largest lateral
-    vibration, the largest static side force, above the bit, then quarters of the length; of chosen
-    nodes those that vibrate most."""
+    """At most `most` recorded nodes (from 0) to show, by depth, each with the reason: the largest
+    lateral vibration, the largest static side force, above the bit, then quarters of the length; if
+    only some nodes are recorded, those with the largest vibration."""
     found = {}
     if not run.moves:
         places = sorted(np.argsort(-rms)[:most])
@@ -339,8 +337,8 @@ def chosen_nodes(run, rms, most=4):
 
 
 def merits(run, motion=None):
-    """Figures of merit: rows of (name, value, what it is).
-    `motion`: None where no displacements are recorded."""
+    """Figures of merit: rows of (name, value, remark). `motion`: None if no displacements are
+    recorded."""
     if motion is None:
         return [*figures_of_bit(run), *figures_along(run, accelerates(run))]
     rms = motion.lateral_rms()
@@ -365,7 +363,7 @@ def span(first, last):
 
 
 def times_of_merits(run, motion=None):
-    """Of which time the rows of merits() are."""
+    """The time windows of the rows of merits()."""
     found = run.value("transient.figures") or {}
     said = [] if found.get("begin") is None else [
         f"Figures of {span(found['begin'], found['end'])} (transient.figures; Output/Figures "
@@ -379,19 +377,19 @@ def times_of_merits(run, motion=None):
 
 
 def accelerates(run):
-    """Whether a motion without recorded displacements vibrates across the axis: more than VIBRATES
-    of lateral acceleration [m/s2]."""
+    """Whether a motion without recorded displacements vibrates laterally: more than VIBRATES of
+    lateral acceleration [m/s2]."""
     return ((run.value("transient.figures.lateral_acceleration") or {}).get("worst_rms")
             or 0.0) > VIBRATES
 
 
 def sense_of_figures(run, found):
-    """Sense of the rotation in the window of figures."""
+    """Sense of the rotation in the window of the figures of merit."""
     return run.sense((run.time >= found["begin"]) & (run.time <= found["end"]))
 
 
 def figures_of_bit(run):
-    """Bit speed, weight, torque and penetration from summary.json, over the window it names."""
+    """Bit speed, weight, torque and penetration from summary.json, over its window."""
     found = run.value("transient.figures") or {}
     rows = []
     speed = found.get("bit_speed_rpm") or {}
@@ -428,8 +426,8 @@ def figures_of_bit(run):
 
 
 def figures_along(run, vibrates):
-    """Of the nodes and elements, from summary.json; without a lateral vibration no figures of
-    one."""
+    """Figures of merit of nodes and elements from summary.json; those of the lateral vibration only
+    if `vibrates`."""
     found = run.value("transient.figures") or {}
     rows = []
     lateral, whirl, bending = (found.get(key) or {}

@@ -2,9 +2,9 @@
 """The data of the 3-D view: positions, displacements and fields of a thinned motion, as numbers of
 16 and 32 bits in base64.
 
-Axes of the view are east, up, south (right-handed, up is y); of parts their x, z, -y. Displacements
-are lateral and axial in nodal frames of a string, x, y, z of parts. What moves is thinned to
-NUMBERS node-samples, so that a page stays below 5 MB.
+Axes of the view are east, up, south (right-handed, up is y); for parts x, z, -y of the parts.
+Displacements are lateral and axial in nodal frames of a string, x, y, z of parts. The motion is
+thinned to NUMBERS node-samples, so that a page stays below 5 MB.
 """
 import base64
 
@@ -13,14 +13,14 @@ import numpy as np
 import plots
 from report import results
 
-NODES = 500  # of a string; more are not seen
+NODES = 500  # of a string; more are not visible
 SAMPLES = 600
 NUMBERS = 150_000  # nodes times samples: each takes 8 to 10 bytes, 11 to 14 characters
-LARGEST = 32767  # of 16 bits
+LARGEST = 32767  # largest integer of 16 bits
 
 
 def packed(values, kind):
-    """Base64 text of an array: "f4", "u4", or "i2" with the scale that gives back the values."""
+    """Base64 text of an array: "f4", "u4", or "i2" with the scale that restores the values."""
     values = np.ascontiguousarray(values)
     entry = {"kind": kind, "shape": list(values.shape)}
     if kind == "i2":
@@ -31,12 +31,12 @@ def packed(values, kind):
 
 
 def to_view(vectors):
-    """North, east, down to east, up, south."""
+    """Converts north, east, down to east, up, south."""
     return np.stack([vectors[..., 1], -vectors[..., 2], -vectors[..., 0]], axis=-1)
 
 
 def kept_nodes(run):
-    """At most NODES nodes: both ends, those around gauges and large side forces, and the others in
+    """At most NODES nodes: both ends, those around gauges and large side forces, and others at
     equal distances."""
     count = len(run.s)
     if count <= NODES:
@@ -57,18 +57,17 @@ def samples_of(run, nodes):
 
 
 def taken(dataset, at):
-    """Rows `at` (in equal distances) of a dataset."""
+    """Rows `at` (at equal distances) of a dataset."""
     return dataset[::at[1] - at[0]] if len(at) > 1 else dataset[:1]
 
 
 def colours():
-    """64 colours of the map, red, green, blue from 0 to 1."""
+    """64 colours of the colour map, red, green, blue from 0 to 1."""
     return plots.plt.get_cmap(plots.MAP)(np.linspace(0, 1, 64))[:, :3].round(3).tolist()
 
 
 def field(name, label, unit, static, motion=None):
-    """A coloured quantity of nodes: at rest and over the samples; the scale of colours spans
-    both."""
+    """A coloured quantity of nodes: at rest and over the samples; the colour scale covers both."""
     largest = max(float(np.max(static)), float(np.max(motion)) if motion is not None else 0.0)
     if not largest > 0:
         return None
@@ -82,13 +81,13 @@ def field(name, label, unit, static, motion=None):
 
 
 def at_nodes(elements):
-    """Values of elements at nodes: the larger one of the elements beside."""
+    """Values of elements at nodes: the larger one of the adjacent elements."""
     padded = np.concatenate([elements[..., :1], elements, elements[..., -1:]], axis=-1)
     return np.maximum(padded[..., 1:], padded[..., :-1])
 
 
 def of_string(run):
-    """The well and the string in it."""
+    """The scene of a string in its well."""
     kept = kept_nodes(run)
     position = run.get("/model/position")
     frames = np.stack([to_view(run.get("/model/frame")[:, :, axis]) for axis in range(3)], axis=1)
@@ -133,7 +132,7 @@ def of_string(run):
 
 
 def entries(names):
-    """Components where they begin, a row of equal ones once."""
+    """Components with their start; adjacent equal ones are merged."""
     return [(name, element) for element, name in enumerate(names)
             if element == 0 or names[element - 1] != name]
 
@@ -151,7 +150,7 @@ def describe(run, at, shown, nodes):
 
 
 def translations(run):
-    """Columns of the components u, v, w of imported parts; -1 where a part has none."""
+    """Columns of the components u, v, w of imported parts; -1 for a missing one."""
     names = results.texts(run.file["/model/components"])
     return [names.index(name) if name in names else -1 for name in ("u", "v", "w")]
 
@@ -163,8 +162,8 @@ def in_space(displacement, columns):
 
 
 def held_edges(position, part, edges):
-    """Edges from nodes without any, which are held, to the nearest node of their part that has
-    some."""
+    """Edges from nodes without edges, which are supports, to the nearest connected node of their
+    part."""
     linked = np.unique(np.array(edges, int))
     found = []
     for node in np.setdiff1d(np.arange(len(part)), linked):
@@ -177,7 +176,7 @@ def held_edges(position, part, edges):
 
 
 def of_parts(run):
-    """Nodes of imported parts whose positions are known; (None, why) otherwise."""
+    """Nodes of imported parts with known positions; otherwise (None, reason)."""
     if "/model/located" not in run.file:
         return None, "The part files give no positions: there is no view in space."
     rows = run.get("/model/located") - 1

@@ -24,7 +24,7 @@ def table(titles, rows, numbers=(), caption="", kind=""):
 
 
 def pairs(rows, caption=""):
-    """Names and values, with a remark where there is one."""
+    """A table of names and values, with optional remarks."""
     if not rows:
         return ""
     above = f"<caption>{escape(caption)}</caption>" if caption else ""
@@ -54,7 +54,7 @@ def of_checks(checks):
 
 
 def of_reduction(run):
-    """The parts of a reduction, what was kept of their bases, and estimated errors; "" for a full
+    """The parts of a reduction, the sizes of their bases, and estimated errors; "" for a full
     model."""
     reduction = run.summary.get("reduction") or {}
     parts = reduction.get("substructures") or []
@@ -88,7 +88,7 @@ def of_reduction(run):
 
 
 def grouped(parts):
-    """Rows of parts; neighbours of the same numbers of dofs become one."""
+    """Rows of parts; adjacent parts with equal numbers of dofs share a row."""
     groups = []
     for part in parts:
         if groups and all(groups[-1][-1][key] == part[key] for key in COUNTS):
@@ -107,7 +107,7 @@ def grouped(parts):
 
 
 def of_numerics(run):
-    """How the run was computed."""
+    """Computational data of the run."""
     t = run.summary.get("transient") or {}
     rows = [
         ("Program", f"{run.value('program.version')} ({run.value('program.git')})", ""),

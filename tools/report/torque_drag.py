@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Section of torque and drag: hook loads, torques, tension with the loads at which the string
-buckles."""
+"""Section of torque and drag: hook loads, torques, tension with the buckling limits."""
 import math
 import shlex
 from html import escape
@@ -14,8 +13,8 @@ from report.page import cards
 from report.quantities import FOOT, POUND, both, fixed, plain
 
 DASHES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1))
-          )  # of the friction coefficients of a broomstick
-SAME = 1e-2  # of the largest: limits that differ less are one
+          )  # line styles of the friction coefficients of a broomstick plot
+SAME = 1e-2  # limits with a smaller relative difference are equal
 MARGINS = (
     ("yield", "yield"),
     ("sinusoidal", "sinusoidal buckling"),
@@ -61,8 +60,8 @@ def against_depth(value, label, title, rows):
 
 
 def least_around(values, reach=7):
-    """The least of each value and its `reach` neighbours on both sides: of tool joint and pipe body
-    in turn, that of the one that buckles first."""
+    """The least of each value and its `reach` neighbours on both sides: where tool joints and pipe
+    bodies alternate, the one that buckles first."""
     return [min(values[max(0, i - reach):i + reach + 1]) for i in range(len(values))]
 
 
@@ -74,8 +73,8 @@ def limits_of(rows):
 
 
 def alike(one, other):
-    """Whether two operations buckle under the same compressions; a limit that is not known is like
-    none."""
+    """Whether two operations have the same buckling limits; unknown limits are equal to each other
+    only."""
     return all(
         len(one[name]) == len(other[name]) and all(
             abs(a - b) <= SAME * max(abs(a), abs(b))
@@ -84,8 +83,8 @@ def alike(one, other):
 
 
 def tensions(profiles):
-    """Tension along the string of all operations that buckle under the same compressions, with
-    these; one figure in most wells."""
+    """Tension along the string of all operations with the same buckling limits, and these limits; a
+    single figure in most wells."""
     groups = []
     for number, (operation, rows) in enumerate(profiles.items()):
         limits = limits_of(rows)
@@ -116,7 +115,7 @@ def tensions(profiles):
 
 
 def broomsticks(folder, rows):
-    """Curves of one friction coefficient each and what was measured, where the folder has them."""
+    """Curves for one friction coefficient each, and measurements if the folder has them."""
     broom, measured = (read_table(folder / f"torque_drag_{name}.csv") if
                        (folder / f"torque_drag_{name}.csv").is_file() else []
                        for name in ("broomstick", "measured"))
@@ -156,7 +155,7 @@ def broomsticks(folder, rows):
 
 
 def table_of(rows):
-    """Operations with the bit at its greatest depth."""
+    """Operations with the bit at its largest depth."""
     deepest = max(numbers(rows, "bit_depth"))
 
     def scaled(row, name, *factors):
@@ -177,7 +176,7 @@ def table_of(rows):
 
 
 def headline(results):
-    """Cards of the operations with the bit at its greatest depth."""
+    """Cards with the operations with the bit at its largest depth."""
     rows = results.value("torque_drag.rows") or []
     found = []
     loads = [row for row in rows if row["hook_load"] is not None]
@@ -206,7 +205,7 @@ def headline(results):
 
 def invitation(run, scene):
     """The command that adds torque, drag and buckling limits to the page of a run without them; ""
-    where the deck lacks what they need."""
+    if the deck lacks the data for them."""
     if (run.folder / "torque_drag.csv").is_file() or deck.value(
             scene, "Contact/Friction/Dynamic") is None or "Loads" not in scene:
         return ""
@@ -226,8 +225,8 @@ def invitation(run, scene):
 
 
 def add(page, folder):
-    """Hook load and surface torque against the depth of the bit, and tension with buckling limits
-    at the deepest bit."""
+    """Adds hook load and surface torque against the depth of the bit, and tension with buckling
+    limits at the largest depth."""
     rows = read_table(folder / "torque_drag.csv") if (folder / "torque_drag.csv").is_file() else []
     if not rows:
         return

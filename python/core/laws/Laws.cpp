@@ -96,7 +96,7 @@ Vector evaluate(const PointLaw& law, double t, const Vector& d, const Vector& v)
 
 void bindLaws(py::module_& module) {
   py::class_<PointLaw, std::shared_ptr<PointLaw>>(module, "PointLaw",
-                                                  "Forces of points f(t, d, v), all of one law.")
+                                                  "Forces f(t, d, v) of points with a common law.")
       .def_property_readonly("size", &PointLaw::size, "Number of points.")
       .def_property_readonly("width", &PointLaw::width, "Coordinates of a point.")
       .def("force", &evaluate, py::arg("t"), py::arg("d"), py::arg("v"),
@@ -108,14 +108,14 @@ void bindLaws(py::module_& module) {
             name, *list, model::PointLawPlace{points, coordinates}));
       },
       py::arg("name"), py::arg("parameters"), py::arg("points"), py::arg("coordinates"),
-      "A law of the registry.");
+      "A point law from the registry.");
   module.def("register_point_law", &registerLaw, py::arg("name"), py::arg("doc"),
              py::arg("parameters"), py::arg("keywords"), py::arg("width"), py::arg("states"),
              py::arg("force"), py::arg("tangent"), py::arg("power"), py::arg("start"),
              "Register a law written in Python.");
   module.def(
       "point_law_names", [] { return model::PointLawRegistry::instance().names(); },
-      "Names of the laws there are.");
+      "Names of the available laws.");
 }
 
 }  // namespace tooljoint::python

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The one style of all plots: of the tools, the reports, the documents, and of scripts that import
+"""The style of all plots: in the tools, the reports, the documents, and in scripts that import
 `tooljoint.plots`.
 
 Every axis has a label with its unit, depth points downwards, maps have north up and east to the
-right, axes of lengths in space have one scale, no text lies on another one, and a figure says under
-which conditions it holds. The module needs numpy and matplotlib; the program brings a copy of it
-for its own tools, so that reports need no compiled module.
+right, axes of lengths in space have one scale, texts do not overlap, and a figure states its
+conditions. The module needs numpy and matplotlib. The program ships with a copy for its own tools,
+so that reports need no compiled module.
 
 >>> made, axes = figure()
 >>> axes.set_xlabel(label("time", "s"))  # doctest: +ELLIPSIS

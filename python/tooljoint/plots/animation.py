@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures that move."""
+"""Animated figures."""
 from __future__ import annotations
 
 import os
@@ -8,17 +8,16 @@ from typing import Any, Callable
 
 from matplotlib import animation
 
-RATE = 25  # pictures of a second
+RATE = 25  # pictures per second
 DPI = 100
 
 
 def animate(path: str | os.PathLike, made: Any, draw: Callable[[int], None], count: int,
             rate: int = RATE) -> None:
     """Writes `count` pictures of a figure as a GIF (by Pillow) or an MP4 (by the program ffmpeg),
-    by the ending of `path`; draw(i) brings the figure into the state of picture i.
+    depending on the extension of `path`; draw(i) sets the figure to picture i.
 
-    ValueError for another ending, no pictures, or an MP4 where ffmpeg is not installed.
-    """
+    ValueError for another extension, no pictures, or an MP4 without ffmpeg."""
     ending = pathlib.Path(path).suffix.lower()
     if count < 1:
         raise ValueError(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Texts in plots that lie on nothing else."""
+"""Texts in plots that do not overlap anything."""
 from __future__ import annotations
 
 import itertools
@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.text import Text
 
 NEAR = (7, 16, 28, 44, 62)  # distances of a text from its point, tried in this order [pixels]
-CLEAR = 24.0  # cost of a text that covers nothing, at the largest distance
+CLEAR = 24.0  # cost of a text at the largest distance that covers nothing
 LONGEST = 56  # characters of a line in a legend of two columns
 ROW = 0.28  # height of a row of that legend [inch]
-SHARED = 1.0  # of two boxes that touch and do not overlap [pixels]
+SHARED = 1.0  # two boxes with a smaller overlap only touch [pixels]
 
 
 class Place(NamedTuple):
@@ -39,7 +39,7 @@ class Labels:
         self.renderer = axes.figure.canvas.get_renderer()
 
     def occupy(self, x: Any, y: Any) -> None:
-        """A line through these points: later texts keep off it."""
+        """A line through these points: later texts avoid it."""
         pixels = self.axes.transData.transform(np.column_stack([x, y]).astype(float))
         self.points.extend(pixels)
         for a, b in zip(pixels[:-1], pixels[1:]):
@@ -71,7 +71,7 @@ class Labels:
 
     def draw(self, text: str, place: Place, colour: str, size: float = 9,
              weight: str = "normal") -> None:
-        """The text at its place, with a thin line to its point where that is far."""
+        """Draws the text at its place, with a thin line to its point if that is far."""
         left, low = place.left, place.low
         inverse = self.axes.transData.inverted()
         self.axes.text(*inverse.transform(
@@ -85,8 +85,8 @@ class Labels:
 
     def put(self, text: str, anchors: Iterable[Any], colour: str, size: float = 9,
             weight: str = "normal", reach: Iterable[float] = NEAR) -> bool:
-        """The text around one of the anchors; False, and no text, where it would cover something
-        everywhere."""
+        """Draws the text around one of the anchors. False, without a text, if every place would
+        cover something."""
         place = self.find(text, anchors, size, weight, reach)
         if place.cost > CLEAR:
             return False
@@ -148,9 +148,9 @@ def wrapped(name: str, width: int = 24) -> str:
 
 
 def overlaps(made: Any) -> list[str]:
-    """Texts of a figure that lie on one another or are cut off at its edge, each a line.
-    Left out: turned texts, whose boxes are larger than themselves, and texts for which another one
-    keeps the room (a title for its conditions)."""
+    """Texts of a figure that overlap or are cut off at its edge, one line each. Not checked:
+    rotated texts, whose boxes are larger than the texts, and texts whose place is reserved by
+    another one (a title for its conditions)."""
     made.canvas.draw()
     renderer, hidden, faults = made.canvas.get_renderer(), undrawn(made), []
     seen = [
@@ -170,7 +170,7 @@ def overlaps(made: Any) -> list[str]:
 
 
 def undrawn(made: Any) -> set[Any]:
-    """Texts that are there and not drawn: of hidden axes, and of ticks beyond the limits of an
+    """Texts that exist but are not drawn: of hidden axes, and of ticks beyond the limits of an
     axis."""
     hidden: set[Any] = set()
     for axes in made.axes:

@@ -12,10 +12,10 @@ from .style import (COLOURS, GREY, MAP, PALE, RPM, depth_axis, label, legend_abo
 
 FORWARD, BACKWARD = COLOURS[:2]
 UNSTABLE = "#B00020"  # of modes that grow
-CLEAR_WHIRL = 0.1  # of a circle; less is drawn grey
-MOST_SHAPES = 8  # of a picture
-ROUNDING = 1e-9  # of a damping ratio
-NO_LATERAL = 1e-3  # of the largest displacement: less across the axis is no lateral motion
+CLEAR_WHIRL = 0.1  # as a share of a circular orbit; smaller values are drawn grey
+MOST_SHAPES = 8  # per picture
+ROUNDING = 1e-9  # a smaller damping ratio is zero
+NO_LATERAL = 1e-3  # smaller lateral shares of the largest displacement are not lateral motion
 
 
 def columns(results: Any, group: str) -> dict[str, Any] | None:
@@ -32,7 +32,7 @@ def whirl_colour(whirl: float) -> str:
 
 
 def whirl_word(whirl: float) -> str:
-    """The words for a mode beside its frequency."""
+    """The word for the whirl of a mode, printed beside its frequency."""
     return "forward" if whirl > CLEAR_WHIRL else "backward" if whirl < -CLEAR_WHIRL else "in a line"
 
 
@@ -62,7 +62,7 @@ def campbell_figure(results: Any) -> Any:
     low, top = rows["frequency"].min(), rows["frequency"].max()
     room = 0.05 * (top - low if top > low else top)
     low, top = (0.0 if low < 0.5 * top else low -
-                room), top + 2 * room  # the names of the excitations stand above the modes
+                room), top + 2 * room  # space for the names of the excitations above the modes
     frequencies.set_xlim(first, last), frequencies.set_ylim(low, top)
     for name, order, offset in zip(texts(results["excitations"]), results["orders"][:],
                                    results["offsets"][:]):
@@ -71,7 +71,7 @@ def campbell_figure(results: Any) -> Any:
                          linestyle="--")
         at = min(last, 60 * (top - offset) / order) if order > 0 else last
         if at > first and low < order * at / 60 + offset <= top * (
-                1 + 1e-9):  # upright beside a line that leaves through the top, else above its end
+                1 + 1e-9):  # vertical beside a line that leaves through the top, else above its end
             frequencies.annotate(
                 name, (at, order * at / 60 + offset), fontsize=8, color="0.4", ha="right",
                 **({"rotation": 90, "va": "top"} if at < last else {"va": "bottom"}))
@@ -91,7 +91,7 @@ def campbell_figure(results: Any) -> Any:
     legend_above(frequencies)
     damping.axhline(0, color="0.7", linewidth=0.6)
     damping.set_ylim(bottom=min(-1e-4, 1.1 * rows["damping"].min()),
-                     top=max(1e-3, 1.1 * rows["damping"].max()))  # no picture of rounding
+                     top=max(1e-3, 1.1 * rows["damping"].max()))  # wide enough not to show rounding
     damping.set_ylabel("damping ratio"), damping.set_xlabel(label("rotary speed", "rpm"))
     return made
 
@@ -106,8 +106,8 @@ def semi_axis(u: Any, v: Any) -> Any:
 
 
 def shape_places(group: Any, most: int = MOST_SHAPES) -> list[int]:
-    """The shapes to draw: those at critical speeds, then those of the one speed, lateral shapes
-    first; by frequency."""
+    """The shapes to draw: those at critical speeds, then those of a single speed, lateral shapes
+    first; sorted by frequency."""
     at_speed = np.flatnonzero(group["excitation"][:] == 0)
     critical = np.flatnonzero(group["excitation"][:] > 0)
     chosen = list(critical[:most]) + list(at_speed[:max(0, most - len(critical))])
@@ -115,7 +115,7 @@ def shape_places(group: Any, most: int = MOST_SHAPES) -> list[int]:
 
 
 def in_hole(axes: Any, depth: Any, closed: Any, first: bool) -> None:
-    """Axes of a shape against depth, with ticks for nodes on the wall; the first ones have the
+    """Axes of a shape against depth, with ticks for nodes on the wall; only the first ones show the
     depths."""
     axes.plot(np.full(len(closed), -1.12), closed, "_", color="0.3", markersize=3)
     axes.set_xlim(-1.2, 1.2)
@@ -279,7 +279,8 @@ def profile_figure(results: Any) -> Any:
 
 
 def over(rows: dict[str, Any]) -> tuple[Any, str]:
-    """The abscissa of a response and its label: the rotary speed, or the frequency at one speed."""
+    """The abscissa of a response and its label: the rotary speed, or the frequency if the speed is
+    constant."""
     if np.ptp(rows["speed"]) > 0:
         return RPM * rows["speed"], label("rotary speed", "rpm")
     return rows["frequency"], label("frequency", "Hz")

@@ -8,13 +8,13 @@ import numpy as np
 
 
 def thinned(values: Any, most: int = 1500) -> Any:
-    """Every k-th row, so that at most `most` are left; for curves that no screen resolves."""
+    """Every k-th row, so that at most `most` remain; for curves finer than a screen resolves."""
     step = max(1, -(-len(values) // most))
     return values[::step]
 
 
 def envelope(times: Any, values: Any, most: int = 1200) -> tuple[Any, Any]:
-    """Curve of at most `most` points that keeps the extremes of every stretch."""
+    """Curve of at most `most` points that keeps the extremes of every interval."""
     if len(times) <= most:
         return times, values
     size = -(-2 * len(times) // most)
@@ -28,9 +28,9 @@ def envelope(times: Any, values: Any, most: int = 1200) -> tuple[Any, Any]:
 
 
 def stretches(depth: Any, values: Any, most: int = 240) -> tuple[Any, Any, Any]:
-    """Values along an increasing depth in at most `most` equal stretches of it: middle, smallest
-    and largest value of each that holds some. If values change from element to element, a line
-    through all of them is unreadable."""
+    """Values along an increasing depth in at most `most` equal intervals: middle, smallest and
+    largest value of each interval that is not empty. If values change from element to element, a
+    line through all of them is unreadable."""
     depth, values = np.asarray(depth, float), np.asarray(values, float)
     edges = np.linspace(depth[0], depth[-1], most + 1)
     first = np.unique(np.searchsorted(depth, edges[:-1]))
@@ -41,7 +41,7 @@ def stretches(depth: Any, values: Any, most: int = 240) -> tuple[Any, Any, Any]:
 
 def spectrum(values: Any, interval: float) -> tuple[Any, Any]:
     """One-sided power spectral density by Welch's method (1967): Hann windows of a quarter of the
-    samples (at least 64), half overlapping, the mean of each taken out. Frequencies [Hz], density
+    samples (at least 64), half overlapping, each without its mean. Frequencies [Hz], density
     [unit^2/Hz]; its integral is the variance."""
     values = np.asarray(values, float)
     length = min(len(values), max(64, len(values) // 4))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Axes in space: north, east, depth, of one scale."""
+"""Axes in space with one scale: north, east, depth."""
 from __future__ import annotations
 
 from typing import Any
@@ -9,9 +9,9 @@ from matplotlib import ticker
 
 from .style import label
 
-# of the longest axis that each axis has, so that a vertical well has room for its numbers
+# shortest axis as a share of the longest, so that a vertical well has space for its numbers
 LEAST_SHARE = 0.25
-FEWEST = 2  # numbers of a short axis
+FEWEST = 2  # fewest numbers of a short axis
 ZOOM = 0.8  # leaves room for the labels
 
 
@@ -29,7 +29,7 @@ def space_axes(made: Any, place: Any, names: tuple[str, str,
         (axes.xaxis, 0, 10),
         (axes.yaxis, 0, 10),
         (axes.zaxis, 90, 24),
-    ):  # pads [pt] that leave room for numbers of four digits
+    ):  # pads [pt] for numbers of four digits
         axis.set_rotate_label(False)
         axis.label.set_rotation(turn)
         axis.labelpad = pad
@@ -37,7 +37,7 @@ def space_axes(made: Any, place: Any, names: tuple[str, str,
 
 
 def equal_axes(axes: Any, points: Any) -> None:
-    """Limits around `points` (n x 3) in which a metre has one length along all three axes."""
+    """Sets limits around `points` (n x 3) with the same scale on all three axes."""
     points = np.asarray(points, float)
     low, high = points.min(axis=0), points.max(axis=0)
     middle, span = 0.5 * (low + high), high - low

@@ -18,13 +18,13 @@ COLOURS = [
     "#0072B2", "#C24E00", "#009E73", "#B8860B", "#CC4C99", "#3F9BD4", "#7A3E9D", "#4D4D4D",
     "#8C2D04", "#5C7A00", "#E69F00", "#117733", "#882255", "#1B9E9E", "#6B4C2A", "#9A6FB0"
 ]
-# their number has no divisor in common with that of the colours, so that no pair comes twice
+# 13 markers and 16 colours have no common divisor, so that no pair occurs twice
 MARKERS = "osD^vPX*hp<>d"
 GREY = "#8a8a8a"
 PALE = "#d9d9d9"
 SUPERSCRIPTS = str.maketrans("-0123456789",
                              "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")  # as text: matplotlib takes 10 ms for a formula
-MAP = "cividis"  # of forces and stresses: the same for all eyes, and in grey
+MAP = "cividis"  # of forces and stresses: safe for colour blindness and in grey
 STYLE = {
     "font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 10,
     "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.edgecolor": "#555555",
@@ -35,16 +35,16 @@ STYLE = {
 }
 SLENDER = 2.9  # width of a plot of one column in a report [inch]
 WIDE = 4.8
-PAD = 3.0  # of matplotlib's constrained layout, above a title [pt]
+PAD = 3.0  # of matplotlib's constrained layout [pt], above a title
 
 
 def use_style() -> None:
-    """Draws all figures of the process in this style from now on."""
+    """Draws all later figures of the process in this style."""
     plt.rcParams.update(STYLE)
 
 
 def label(quantity: str, unit: str = "") -> str:
-    """Of an axis: "torque [kN m]"; a quantity without unit stands alone."""
+    """Label of an axis: "torque [kN m]"; only the name for a quantity without unit."""
     return f"{quantity} [{unit}]" if unit and unit != "1" else quantity
 
 
@@ -53,25 +53,22 @@ def tick(value: float, _: Any = None) -> str:
 
 
 def figure(width: float = WIDE, height: float = 3.0) -> tuple[Any, Any]:
-    """A figure and its axes, without overlaps.
-    The number of ticks is fixed: if it depended on the size of the axes, it would change that
-    size."""
+    """A figure and its axes, without overlaps. The number of ticks is fixed: if it depended on the
+    size of the axes, it would change that size."""
     made, axes = plt.subplots(figsize=(width, height), constrained_layout=True)
     whole_ticks(axes, 8 if width > SLENDER else 4, 8 if height > 2.9 else 5)
     return made, axes
 
 
 def whole_ticks(axes: Any, across: int, up: int) -> None:
-    """At most so many ticks; each has its number whole, without a factor or an offset in a
-    corner."""
+    """At most so many ticks, with full numbers, without a common factor or offset."""
     for axis, most in ((axes.xaxis, across), (axes.yaxis, up)):
         axis.set_major_locator(ticker.MaxNLocator(most))
         axis.set_major_formatter(ticker.FuncFormatter(tick))
 
 
 def headline(made: Any, what: str, conditions: str = "") -> None:
-    """Title of a figure with constrained layout: its content, and below, smaller, its
-    conditions."""
+    """Title of a figure with constrained layout: its content, and its conditions smaller below."""
     lines = textwrap.wrap(conditions, int(17 * made.get_figwidth()))
     made.suptitle("\n".join([what, *(" " for _ in lines)]), x=0.01, ha="left", fontsize=10,
                   fontweight="bold")
@@ -81,13 +78,13 @@ def headline(made: Any, what: str, conditions: str = "") -> None:
 
 
 def depth_axis(axes: Any, limits: tuple[float, float], name: str = "measured depth") -> None:
-    """The vertical axis is a depth between `limits` [m], downwards."""
+    """Makes the vertical axis a depth between `limits` [m], downwards."""
     axes.set_ylabel(label(name, "m"))
     axes.set_ylim(max(limits), min(limits))
 
 
 def profile(text: str, limits: tuple[float, float], height: float = 4.2) -> tuple[Any, Any]:
-    """Slender axes with the measured depth downwards between `limits` [m]."""
+    """Narrow axes with the measured depth downwards between `limits` [m]."""
     made, axes = figure(SLENDER, height)
     axes.set_xlabel(text)
     depth_axis(axes, limits)
@@ -95,8 +92,7 @@ def profile(text: str, limits: tuple[float, float], height: float = 4.2) -> tupl
 
 
 def profiles(row: Sequence[Any], labels: Sequence[str], limits: tuple[float, float]) -> None:
-    """Axes side by side as profiles along one measured depth, which has its numbers at the first of
-    them."""
+    """Narrow axes side by side with a common measured depth, numbered on the first of them."""
     for number, (axes, text) in enumerate(zip(row, labels)):
         whole_ticks(axes, 3, 8)
         axes.set_xlabel(text)
@@ -119,8 +115,8 @@ def in_time(text: str, times: Sequence[float], height: float = 2.5,
 
 def panels(count: int, height: float = 2.3, width: float = 4.0,
            **options: Any) -> tuple[Any, list[Any], int]:
-    """A grid of small plots with the same axes; as many columns as make it about square: the
-    figure, its axes, the number of columns."""
+    """A grid of small plots with shared axes, about square: the figure, its axes, the number of
+    columns."""
     columns = min(3, count)
     rows = -(-count // columns)
     made, grid = plt.subplots(rows, columns, figsize=(width * columns + 0.6, height * rows + 0.7),
@@ -132,21 +128,21 @@ def panels(count: int, height: float = 2.3, width: float = 4.0,
 
 
 def shades(colour: str, count: int) -> list[tuple[float, ...]]:
-    """From pale to the full colour."""
+    """Colours from pale to full."""
     base = np.array(matplotlib.colors.to_rgb(colour))
     shares: Any = np.linspace(0.35, 1, count) if count > 1 else [1.0]
     return [tuple(1 - (1 - base) * f) for f in shares]
 
 
 def legend_above(axes: Any, columns: int = 4, left: float = 0.0) -> None:
-    """A legend that covers no data: in rows above the axes, from `left` (in widths of the axes)
-    on."""
+    """A legend that covers no data: in rows above the axes, starting at `left` (in widths of the
+    axes)."""
     axes.legend(loc="lower left", bbox_to_anchor=(left, 1.0), ncol=columns, fontsize=8,
                 borderaxespad=0.2, handlelength=1.4, columnspacing=1.0)
 
 
 def square(axes: Any, reach: float) -> None:
-    """Axes of two lengths of one scale around zero."""
+    """Axes of two lengths with the same scale around zero."""
     axes.set_xlim(-reach, reach), axes.set_ylim(-reach, reach)
     axes.set_aspect("equal")
 
@@ -187,8 +183,8 @@ def percent(value: float, low: float | None = None, high: float | None = None) -
 
 def logarithmic(axis: Any, formatter: Callable[..., str] = plain) -> None:
     """Ticks of a logarithmic axis with final limits: decades, minor ticks unless there are many,
-    and numbered ticks at 2, 3, 5 below one and a half decades. `formatter` writes a number, given
-    the least and largest decade of the axis."""
+    and numbered ticks at 2, 3, 5 if the axis is shorter than one and a half decades. `formatter`
+    writes a number, given the least and largest decade of the axis."""
     def text(value: float, _: Any = None) -> str:
         low, high = sorted(axis.get_view_interval())
         return formatter(
@@ -207,7 +203,7 @@ def logarithmic(axis: Any, formatter: Callable[..., str] = plain) -> None:
 
 
 def log_log(axes: Any, x: Callable[..., str] = plain, y: Callable[..., str] = plain) -> None:
-    """Logarithmic axes with the limits of the data; `x`, `y` write the ticks."""
+    """Logarithmic axes with the limits of the data; `x` and `y` format the ticks."""
     axes.set_xscale("log"), axes.set_yscale("log")
     logarithmic(axes.xaxis, x)
     logarithmic(axes.yaxis, y)
@@ -215,7 +211,7 @@ def log_log(axes: Any, x: Callable[..., str] = plain, y: Callable[..., str] = pl
 
 def error_band(axes: Any, x: Any, low: Any, high: Any, colour: str = GREY, text: str | None = None,
                sideways: bool = False) -> None:
-    """The uncertainty of a curve, pale behind it: between `low` and `high` at each `x`; `sideways`:
-    at each y, where the abscissa is uncertain."""
+    """Draws the uncertainty of a curve as a pale band between `low` and `high` at each `x`;
+    `sideways`: at each y, for an uncertain abscissa."""
     fill = axes.fill_betweenx if sideways else axes.fill_between
     fill(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=0, label=text)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures in files and in pages."""
+"""Figures as files and for pages."""
 from __future__ import annotations
 
 import io
@@ -11,16 +11,16 @@ import matplotlib.pyplot as plt
 
 
 def save(made: Any, path: str | os.PathLike) -> None:
-    """Writes a figure by the ending of `path` and closes it.
-    An SVG is the same file from the same numbers: it has no date."""
+    """Writes a figure in the format of the extension of `path` and closes it. An SVG contains no
+    date: equal data give equal files."""
     made.savefig(path, metadata={"Date": None} if str(path).endswith(".svg") else None)
     plt.close(made)
 
 
 def inline_svg(made: Any, name: str, tight: bool = False) -> str:
-    """The figure as <svg> text for a page; `name` keeps its ids apart from those of others.
-    `tight`: cut or widened to what is drawn, which takes twice the time and which figures of
-    figure() do not need. The figure is closed."""
+    """The figure as <svg> text for a page; `name` makes its ids unique in the page. `tight`:
+    cropped or extended to the drawing, which takes twice the time and is not needed for figures of
+    figure(). The figure is closed."""
     out = io.StringIO()
     made.savefig(out, format="svg", bbox_inches="tight" if tight else None,
                  metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
@@ -29,7 +29,7 @@ def inline_svg(made: Any, name: str, tight: bool = False) -> str:
     text = text[text.index("<svg"):]
     text = re.sub(r"<metadata>.*?</metadata>\s*|<!--.*?-->\s*", "", text, flags=re.S)
     text = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{name}-", text)
-    # Coordinates to a hundredth of a point; texts between the tags stay as they are.
+    # rounds coordinates to a hundredth of a point; texts between the tags are kept
     text = re.sub(r"<[^>]*>", lambda tag: re.sub(r"(\d\.\d\d)\d+", r"\1", tag.group()), text)
     return re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1",
                   re.sub(r'(<svg[^>]*?) height="[^"]*"', r"\1", text, count=1), count=1)

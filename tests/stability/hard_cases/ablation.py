@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What each strategy of an implicit step wins: hard cases and scenes with one left out at a time.
+"""Measures the benefit of each strategy of an implicit step: hard cases and scenes with one
+strategy left out at a time.
 
     ablation.py PROGRAM --short                     two cases (CTest)
     ablation.py PROGRAM --write docs/strategies.md  all of them; writes the table and draws its
                                                     figure
 
-A strategy earns its place where a case is refused or changed without it, or takes 5 % longer. With
---short the exit code is 1 when one that is left out is used, or none that is there is.
+A strategy is worth keeping if without it a case is refused, changes, or takes 5 % longer. With
+--short the exit code is 1 if a strategy that is left out is used, or if no active one is used.
 """
 import argparse
 import dataclasses
@@ -37,12 +38,12 @@ STRATEGIES |= {
     "Impacts resolved": {OWN + "Resolve Impacts": False},
     "Phase correction": {OWN + "Phase Correction": False},
 }
-WINS = 0.05  # of the time, below which a strategy does not earn its place
-# vibration error that counts as the same motion, and how often that of a run with half the
-# tolerance
+WINS = 0.05  # least gain in time of a strategy worth keeping
+# largest vibration error of the same motion, absolute and as a multiple of that of a run with half
+# the tolerance
 SAME, NOISE = 0.01, 3.0
 JUDGED_ELSEWHERE = {"Transient/Energy Residual Limit": 1e9,
-                    "Transient/Step Error Limit": 1e9}  # errors of a case without any change
+                    "Transient/Step Error Limit": 1e9}  # limits exceeded without a change, too
 HEAD = """# Strategies of a step
 
 A step of `Generalized-alpha` has strategies for hard contact; [theory](theory.md) describes each.
@@ -153,7 +154,7 @@ def run(program, case, more):
 
 
 def noise(program, case, whole):
-    """Vibration error of a run whose iterations stop at half the tolerance."""
+    """Vibration error of a run whose iterations use half the tolerance."""
     return program.vibration_error(run(program, case, {OWN + "Tolerance": 5e-6}), whole, end(case))
 
 
@@ -162,30 +163,30 @@ def end(case):
 
 
 def used(one, strategy):
-    """Uses of a strategy in a run, infinite for those that are not counted."""
+    """Number of uses of a strategy in a run; infinite if it is not counted."""
     if strategy in ("Impacts resolved", "Halving"):
         return one.motion.get("rejected" if strategy ==
-                              "Impacts resolved" else "halved") or 0  # a refused run has none
+                              "Impacts resolved" else "halved") or 0  # a refused run has no summary
     return (one.motion.get("strategies") or {}).get(strategy.lower().replace(" ", "_"), math.inf)
 
 
 def least(program, case, more, repeats):
-    """The run, with the least CPU time of all repeats; its folder stays until the next one of that
-    name."""
+    """The run, with the least CPU time of all repeats; its folder is kept until the next run of
+    that name."""
     found = [run(program, case, more) for _ in range(repeats)]
     return found[-1], min(one.work() for one in found)
 
 
 def set_aside(one):
-    """Keeps the results of a run from the next one."""
+    """Moves the results of a run, so that the next run does not overwrite them."""
     aside = one.folder.with_name("ablation_whole")
     shutil.rmtree(aside, ignore_errors=True)
     one.folder = one.folder.rename(aside)
 
 
 def compared(program, case, strategy, whole, cost, same, repeats):
-    """Cell of the table, what the strategy wins in time (infinite where the motion needs it), and
-    the run."""
+    """Cell of the table, gain in time from the strategy (infinite if the motion needs it), and the
+    run."""
     if used(whole, strategy) == 0:
         return "-", 0.0, None
     one, own = least(program, case, STRATEGIES[strategy], repeats)
@@ -239,7 +240,7 @@ def main():
     parser.add_argument("--work", default="ablation", help="folder of the runs")
     parser.add_argument("--repeats", type=int, default=2)
     parser.add_argument("--short", action="store_true")
-    parser.add_argument("--only", default="", help="cases whose name holds this text")
+    parser.add_argument("--only", default="", help="cases whose name contains this text")
     parser.add_argument("--write", help="file of the table")
     options = parser.parse_args()
     program = Program(options.program, options.work)

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reduced models beyond their basis: impacts shorter than its modes, start states outside of it."""
+"""Reduced models beyond their basis: impacts shorter than the periods of its modes, initial states
+outside of it."""
 import math
 
 from rows import Plot, case, judged, statement
 from scenes import alpha, arkode, parts_deck, planar_beam, reduced, times
 
-FACTOR = 3.0  # of the true error to its estimate
-WARNED_FACTOR = 5.0  # where the run says that the estimate "can be a fifth of the error"
+FACTOR = 3.0  # ratio of the true error to its estimate
+WARNED_FACTOR = 5.0  # if the run prints that the estimate "can be a fifth of the error"
 
 
 def two_beams(program, name, elements):
-    """Two cantilever halves of one slender beam, joined in the middle: the files of a deck and its
-    joint."""
+    """Two cantilever halves of one slender beam, joined in the middle: the files for a deck and
+    their joint."""
     K, M = planar_beam(elements, 1.0, 1000.0, 2.0)
     file = program.part(name, ["v", "theta_z"], M, K, 0.2 * M + 2e-6 * K,
                         sets={"near": [1], "far": [elements + 1]})
@@ -119,7 +120,7 @@ def outside_basis(program, short):
             }
         }
         settings = {**times(end, 2e-4),
-                    **arkode(1e-8)}  # a node out of line excites all frequencies
+                    **arkode(1e-8)}  # a single displaced node excites all frequencies
         full = program.run("c31_full", parts_deck(program, "c31_full", files, settings,
                                                   Parts=lists))
         for vectors in (False, True):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Loss of stability: buckling with and without a wall, indefinite interiors, flutter, skew
+"""Loss of stability: buckling with and without a wall, indefinite interiors, flutter, unsymmetric
 stiffness."""
 import csv
 import math
@@ -14,7 +14,7 @@ from scenes import (AREA, BUCKLING, COLUMN, DENSITY, INERTIA, INNER, LENGTH, OUT
 
 ALONE = ("Contact",)
 WAVE = math.pi / LENGTH
-MODAL_MASS = DENSITY * (AREA + INERTIA * WAVE**2)  # of the half wave, per length [kg/m]
+MODAL_MASS = DENSITY * (AREA + INERTIA * WAVE**2)  # mass of the half wave per length [kg/m]
 PUSH = {
     f"Loads/Forces/push/{key}": value
     for key, value in (("Node", 13), ("Component", "u"), ("Value", 1.0), ("End Time", 0.01),
@@ -23,8 +23,8 @@ PUSH = {
 
 
 def rate(load):
-    """Signed: growth rate of the half wave beyond the buckling load, frequency [rad/s] below,
-    negative."""
+    """Positive beyond the buckling load: growth rate of the half wave; negative below: frequency
+    [rad/s]."""
     square = (load - 1) * BUCKLING * WAVE**2 / MODAL_MASS
     return math.copysign(math.sqrt(abs(square)), square)
 
@@ -149,7 +149,7 @@ def in_a_bore(program, short):
                 yield judged(run, f"clearance {1e3 * clearance:g} mm, wall {wall:.0e} N/m",
                              f"P/P_c {load:g}", rest, 0.0, easy=easy, required=load <= 4.0)
                 if load > 1.5 or wall != 1e8 or not run.done:
-                    continue  # beyond, more than one state is stable
+                    continue  # beyond this load several states are stable
                 moved = program.run(
                     "c12_motion", COLUMN, {
                         **settings, **PUSH, "Loads/Forces/push/Value": 100.0,
@@ -175,7 +175,7 @@ def thrust_beam(thrust, elements=8, length=2.0):
 
 
 def starts(displacement, elements):
-    """Lists that displace two joined beams; dofs (v, theta_z) node by node, the joined one by its
+    """Lists that displace two joined beams; dofs (v, theta_z) node by node; the joined node has its
     name on the left."""
     lists = {}
     for i, x in enumerate(displacement):
@@ -231,7 +231,7 @@ def indefinite_interior(program, short):
             listed = program.run("c13_modes", deck, command="modes", extra=("--count", "6"))
 
             def grows():
-                x = run.nodes(0)[:, int(np.abs(start[0::2]).argmax())]  # no node of the mode
+                x = run.nodes(0)[:, int(np.abs(start[0::2]).argmax())]  # not a node of the mode
                 return against(
                     float(truth),
                     float(growth(run.time(), x, 0.02 * np.abs(x).max(),
@@ -346,7 +346,7 @@ def greenhill(program, short):
 
 
 def mud(program, short):
-    """Divergence where the flow takes m_i U_i^2 + m_o U_o^2 = P_c."""
+    """Divergence at m_i U_i^2 + m_o U_o^2 = P_c."""
     bore, density = 0.108, 1500.0
     inside, outside = math.pi * INNER**2, math.pi * OUTER**2
     ratio = OUTER / bore

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the numbers of src/transient/Tuned.hpp do: short hard cases with one of them halved and
+"""Effects of the numbers of src/transient/Tuned.hpp: short hard cases with one number halved and
 doubled.
 
-    constants.py BUILD                builds the program in BUILD from a copy of the sources whose
-                                      numbers can be set, and runs all
-    constants.py BUILD --only NAME... these numbers
-    constants.py BUILD --built        with the program that is there, or the one named
+    constants.py BUILD                builds the program in BUILD from a copy of the sources with
+                                      adjustable numbers, and runs all
+    constants.py BUILD --only NAME... only these numbers
+    constants.py BUILD --built        with the existing program, or the one named
 
-Prints, for each number, value and case: refused, the vibration error against the values of
-Tuned.hpp, and the work (iterations, and factorisations at the price of Tuned::factorPrice) over
-theirs. docs/step-constants.md says what was found.
+Prints, for each number, value and case: refused, the vibration error against the run with the
+values of Tuned.hpp, and the work (iterations, and factorisations at the price of
+Tuned::factorPrice) divided by that of this run. docs/step-constants.md has the results.
 """
 import argparse
 import os
@@ -26,7 +26,7 @@ from scenes import HELICAL, STRESS, alpha, times
 
 HEADER = "src/transient/Tuned.hpp"
 NUMBER = re.compile(
-    r"static constexpr (double|int) (?!colours)(\w+) = ([^;]+);")  # colours sizes other constants
+    r"static constexpr (double|int) (?!colours)(\w+) = ([^;]+);")  # other constants use `colours`
 READS = """#pragma once
 #include <cstdlib>
 inline double variation(const char* name, double usual) {
@@ -53,7 +53,7 @@ CASES = {
 
 
 def build(folder):
-    """A program whose numbers come from the environment, from a copy of the sources."""
+    """Builds a program that reads its numbers from the environment, from a copy of the sources."""
     copy = folder / "sources"
     listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z"], stdout=subprocess.PIPE,
                             text=True, check=True).stdout

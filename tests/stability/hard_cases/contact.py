@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Walls: no clearance, sharp laws, impacts, grazing, adhesion, everything at once, the first
-touch."""
+"""Walls: no clearance, sharp laws, impacts, grazing, adhesion, combinations, the first contact."""
 import math
 
 import numpy as np
@@ -11,12 +10,12 @@ from scenes import (COLUMN, GRAVITY, LYING, OUTER, STRESS, U, V, alpha, arkode, 
                     relative_error, rk4, rk4_adaptive, times)
 from impacts import BALL, DROP, apexes, ball
 
-MIDDLE = 13  # node in the middle of column.xml
+MIDDLE = 13  # middle node of column.xml
 BORE = 0.108
 
 
 def gauge(clearance):
-    """Settings: a gauge in the middle of the column, the rest of the bore out of reach."""
+    """Settings: a gauge in the middle of the column; the rest of the bore is out of reach."""
     return {
         "Well/Bore Radius": BORE, "Drillstring/Components/pipe/Gauge Position": 6.0,
         "Drillstring/Components/pipe/Gauge Radius": BORE - clearance, "Loads/Weight On Bit": 0.0,
@@ -78,7 +77,7 @@ def no_clearance(program, short):
                         return float(np.abs(truth).max()), float(
                             np.abs(found).max()), relative_error(found, truth)
 
-                    # a step of 1 ms is too long for a wall of 1e8 N/m, as it is for the support
+                    # a step of 1 ms is too long for a wall of 1e8 N/m, and for the support
                     yield judged(run, f"{label}, {model}, {stiffness:.0e} N/m",
                                  f"clearance {clearance:g} m", measure,
                                  max(1e-3, 1.1 * (missed + changed[clearance])), required=easy.done
@@ -104,8 +103,8 @@ def sharp_laws(program, short):
             easy = program.run("c2_easy", STRESS, {**settings, **regularised(7e11)}, without)
             for value in (1e8,) if short else (1e6, 1e7, 1e8):
                 run = program.run("c2", STRESS, {**settings, **regularised(value)}, without)
-                # the laws themselves differ by the depth 2 / (pi^2 lambda), beside what points sink
-                # in at rest
+                # the laws themselves differ by the depth 2 / (pi^2 lambda), here relative to the
+                # penetration at rest
                 sink = easy.summary["static"]["total_normal_force"] / easy.summary["static"][
                     "contact_nodes"] / 1e7
                 yield judged(
@@ -232,7 +231,7 @@ def all_at_once(program, short):
     throw = {}
     nodes = 31
     for factor in (3.0,) if short else (1.5, 3.0, 10.0):
-        weight = 27.5 * GRAVITY * 2.0  # of the pipe of an element
+        weight = 27.5 * GRAVITY * 2.0  # weight of the pipe of an element
         throw = {
             f"Loads/Forces/n{i}/{key}": value for i in range(2, nodes)
             for key, value in (("Node", i), ("Component", "u"), ("Value", factor * weight),
@@ -268,7 +267,7 @@ def first_touch(program, short):
         ways += [("RK4", rk4()), ("ARKODE 1e-5", arkode(1e-5))]
     for model, more in (("full", {}), ("reduced", reduced(12))):
         settings = {**shaken, **more}
-        # the default step of RK4 in a reduced model is one more where a wall is in reach
+        # with a wall within reach the default step of RK4 in a reduced model is another one
         ways = [(label, rk4(2e-4) if (label, model) == ("RK4", "reduced") else way)
                 for label, way in ways]
         free = {

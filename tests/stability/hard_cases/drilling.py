@@ -25,11 +25,11 @@ def axial_loop():
     return models.Chatter(mass, DAMPING * mass, models.YOUNG * area / PIPE["Length"])
 
 
-TWISTING, FAST = 0.1, 2e-2  # damping [1/s] and block speed [m/s] where torsion decides
+TWISTING, FAST = 0.1, 2e-2  # damping [1/s] and block speed [m/s] of the cases governed by torsion
 
 
 def both_loops(speed):
-    """The same element free to twist below a drive that turns steadily."""
+    """The same element, free to twist below a drive that turns steadily."""
     area, polar, length = models.area(PIPE), models.polar(PIPE), PIPE["Length"]
     axial, inertia = models.DENSITY * area * length / 3, models.DENSITY * polar * length / 3
     return models.CoupledChatter((axial, TWISTING * axial, models.YOUNG * area / length),
@@ -39,8 +39,8 @@ def both_loops(speed):
 
 def deck(program, name, stiffness, speed, end, wear=0.0, sampling=0.005, feed=FEED, damping=DAMPING,
          held="theta_z"):
-    """A bit of cutting stiffness n a zeta eps on that element, kicked by half a sine of 10 N over
-    0.1 s."""
+    """A bit of cutting stiffness n a zeta eps on that element, disturbed by half a sine of 10 N
+    over 0.1 s."""
     bit = {
         "Blades": BLADES, "Radius": RADIUS, "Inclination": INCLINATION,
         "Specific Energy": stiffness / (BLADES * RADIUS * INCLINATION), "Wear Flat": wear
@@ -66,8 +66,8 @@ def deck(program, name, stiffness, speed, end, wear=0.0, sampling=0.005, feed=FE
 
 
 def torsion(program, ways, speeds, easy):
-    """The bit free to twist, where the torsional loop decides: the axial one alone has limits five
-    times as large. Growth is 2e-3 1/s, so that 40 s are looked at."""
+    """The bit free to twist, governed by the torsional loop: the axial loop alone has limits five
+    times as large. The growth rate is 2e-3 1/s, so the motion lasts 40 s."""
     for label, way in ways.items():
         for speed in speeds if label.endswith(" 1 ms") else speeds[:1]:
             delay, loops = 2 * math.pi / (BLADES * speed), both_loops(speed)
@@ -145,8 +145,8 @@ def bit_rock(program, short):
         what = f"three times the limit, wear flat {1e3 * wear:g} mm"
 
         def bounded():
-            # depths of cut of all passes add up to the advance: their mean over 50 s, 100 mm, errs
-            # by the range of U, some mm
+            # depths of cut of all passes add up to the advance: the error of their mean over 50 s,
+            # 100 mm, is the range of U, a few mm
             weight, late = run.data("transient/weight_on_bit"), run.time() > 10
             mean = 3 * limit * FEED * 2 * math.pi / (BLADES * 8.0) + BLADES * RADIUS * wear * 60e6
             off = float(np.mean(weight[late] == 0.0))

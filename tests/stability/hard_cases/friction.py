@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Friction: strong, at rest, sharp at low speed, reversed, and a front between stick and slip."""
+"""Friction: strong, at rest, sharp at low speed, reversed, and a moving boundary between stick and
+slip."""
 import math
 
 import numpy as np
@@ -14,7 +15,7 @@ from scenes import (AREA, DENSITY, GRAVITY, HELICAL, INERTIA, LYING, OUTER, QUAN
 
 def whirl(begin):
     """Measures of a run: quantiles of the bit speed [rpm], rms lateral speed [m/s], share of
-    backward whirl, depth in the wall [m]."""
+    backward whirl, penetration into the wall [m]."""
     def measure(run):
         u, v, du, dv = (run.nodes(c, what)[run.time() >= begin]
                         for what in ("displacement", "velocity") for c in (U, V))
@@ -44,8 +45,8 @@ def strong_friction(program, short):
             yield judged(refused[0], f"friction {static}/{dynamic}", "RK4 adaptive", None, 0.0,
                          required=True)
             continue
-        # over 2.5 s steps of 1 ms miss a fifth of the motion before that is chaotic, and are
-        # refused
+        # over 2.5 s steps of 1 ms have an error of a fifth of the motion before it becomes
+        # chaotic, and are refused
         ways = [("generalized-alpha 1 ms, full", alpha(1e-3), FULL, short)]
         if not short:
             ways += [(f"generalized-alpha {1e3 * step:g} ms, {model}", alpha(step), without,
@@ -53,8 +54,8 @@ def strong_friction(program, short):
                      for step in (1e-3, 5e-4, 2.5e-4) if (model, step) != ("full", 1e-3)]
             ways += [(f"ARKODE {tolerance:g}, full", arkode(tolerance), FULL, tolerance < 1e-3)
                      for tolerance in (1e-3, 1e-4)]
-            # steps that the verdict refuses, and schemes with all and with no numerical damping:
-            # what the tails come from
+            # steps that the verdict refuses, and schemes with full and without numerical damping:
+            # they show the cause of the tails
             ways += [
                 (f"generalized-alpha {1e3 * step:g} ms, radius {radius:g}, full, any step error", {
                     **alpha(step, radius), "Transient/Step Error Warning": 5.0,
@@ -145,7 +146,7 @@ def break_away(program, short):
 
 
 def twisted_string(program, short):
-    """A string at rest on the wall, twisted at its end by a part of its limit of friction."""
+    """A string at rest on the wall, twisted at its end by a share of its friction limit."""
     radius, length = OUTER, 60.0
     hold = 0.3 * DENSITY * AREA * GRAVITY * math.sin(math.radians(80)) * length * radius
     base = {
@@ -209,7 +210,7 @@ def low_speed(program, short):
                     def held():
                         turned = np.abs(run.nodes(THETA_Z) - run.nodes(THETA_Z)[0]).max()
                         unconverged = run.motion["unconverged_steps"]
-                        # twice the turn of the surface, and the twist it is let go from
+                        # twice the rotation of the surface, and the twist at its release
                         bound = 2 * speed * RPM * end + 0.5
                         return (
                             f"turn < {bound:.2g} rad, ledger closed",
@@ -322,8 +323,8 @@ def moving_front(program, short):
                     length = math.sqrt(2 * torsion * angle / friction_torque)
                     surface = np.cumsum(run.data("transient/speed")) * 0.005
                     turned = run.nodes(THETA_Z)[-1] + surface[-1]
-                    # in the slipping part the twist falls linearly: theta = t (l - s)^2 / 2GJ, so
-                    # sqrt(theta) is a line that ends at l
+                    # in the slipping part the twist rate decreases linearly: theta = t (l - s)^2 /
+                    # 2GJ, so sqrt(theta) is a line that ends at l
                     s = run.data("model/s")
                     part = (turned > 0.05 * angle) & (turned < 0.9 * angle)
                     slope, offset = np.polyfit(s[part], np.sqrt(turned[part]), 1)

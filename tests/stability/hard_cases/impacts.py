@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Impacts on walls: balls on stops, strings that strike, grazing."""
+"""Impacts on walls: balls on stops, impacts of strings, grazing."""
 import math
 
 import numpy as np
@@ -17,8 +17,8 @@ DROP = 0.02  # [m]
 
 
 def dissipation(restitution, speed):
-    """chi of Hunt and Crossley with that coefficient of restitution: P(v) = P(-e v),
-    P(v) = v/chi - ln(1 + chi v)/chi^2, from m v dv/dG = -k G (1 + chi v)."""
+    """chi of the Hunt-Crossley law for this coefficient of restitution: P(v) = P(-e v), P(v) =
+    v/chi - ln(1 + chi v)/chi^2, from m v dv/dG = -k G (1 + chi v)."""
     if restitution >= 1.0:
         return 0.0
     part = lambda x: x - math.log1p(x)
@@ -27,7 +27,7 @@ def dissipation(restitution, speed):
 
 
 def ball(program, stiffness, chi, height, settings, name="c8_ball", count=1, link=0.0):
-    """Balls that fall by `height` on stops; neighbours are linked by springs."""
+    """Balls that fall from `height` onto stops; adjacent ones are linked by springs."""
     K = link * (2 * np.eye(count) - np.eye(count, k=1) - np.eye(count, k=-1))
     K[0, 0], K[-1, -1] = (link, link) if count > 1 else (0.0, 0.0)
     file = program.part(name, ["v"], BALL * np.eye(count), K, loads=[-BALL * GRAVITY] * count)
@@ -47,13 +47,15 @@ def ball(program, stiffness, chi, height, settings, name="c8_ball", count=1, lin
 
 
 def apexes(run, when):
-    """Heights y + v^2/2g the balls reach, from the sample nearest to a time of free flight [m]."""
+    """Heights y + v^2/2g that the balls reach [m], from the sample nearest to a time of free
+    flight."""
     i = int(np.argmin(np.abs(run.time() - when)))
     return run.nodes(0)[i] + run.nodes(0, "velocity")[i]**2 / (2 * GRAVITY)
 
 
 def rebound(program, stiffness, restitution, settings, step, offset):
-    """Run of a ball whose impact falls at that part of a step, and the time of its next apex."""
+    """Run of a ball whose impact is at the share `offset` of a step, and the time of its next
+    apex."""
     height = 0.5 * GRAVITY * step**2 * (math.floor(math.sqrt(2 * DROP / GRAVITY) / step) +
                                         offset)**2
     speed = math.sqrt(2 * GRAVITY * height)
@@ -125,9 +127,10 @@ def static_walls(program, short):
                 "static"]["residual"]), 1e-9)
 
 
-# Truths of strings on stiff walls, by the wall's stiffness [N/m]: equal steps [s] without numerical
-# damping, of about a fifteenth of the impact of a node of 60 kg, pi sqrt(m / k), and runs of an
-# ensemble: 16 but for the stiffest wall, of which one takes half an hour.
+# References of strings on stiff walls, by the stiffness of the wall [N/m]: equal steps [s] without
+# numerical damping, about a fifteenth of the impact duration of a node of 60 kg, pi sqrt(m / k),
+# and the number of runs of an ensemble: 16, but 4 for the stiffest wall, where one takes half an
+# hour.
 TRUTHS = {1e8: (1e-4, 16), 3e9: (2e-5, 16), 2e10: (1e-5, 16), 5e11: (2e-6, 4)}
 TRUTH_SECONDS = 5400
 STRING_MEASURES = ("rms lateral speed [m/s]", "impulse per second [N]",
@@ -142,7 +145,8 @@ def striking(begin):
 
 
 def striking_strings(program, short):
-    """Ensembles: the motion is chaotic, and so are its means over a second or two."""
+    """Ensembles are compared, because the motion is chaotic, and so are its means over a second or
+    two."""
     end, begin = (0.15, 0.0) if short else (2.0, 0.5)
     easy = program.run("c8_easy", STRESS, {**times(end, 0.0025), **alpha(1e-3)}, FULL)
     for stiffness, (tight, runs) in TRUTHS.items():
@@ -155,9 +159,9 @@ def striking_strings(program, short):
                 **times(end, 0.0025), "Contact/Damping": 0.0 if damping == "none" else 1e4 *
                 math.sqrt(stiffness / 1e7)
             }
-            # of the same model, so that the error of the basis does not count
+            # references with the same model exclude the error of the basis
             models = (("full", FULL),) if short else (("full", FULL), ("reduced", ()))
-            # no shorter steps beside
+            # no limits that would shorten the steps
             way = {
                 **alpha(tight, 1.0), "Transient/Step Error Warning": 5.0,
                 "Transient/Step Error Limit": 5.0
@@ -177,7 +181,7 @@ def striking_strings(program, short):
                     for step in ((1e-3,) if short else (5e-4, 1e-3, 2.5e-3))]
             if not short:
                 ways.append(("1 ms", "radius 0.8, reduced", alpha(1e-3), ()))
-                if stiffness == 1e8:  # another integrator: RK4 follows walls that are no stiffer
+                if stiffness == 1e8:  # another integrator; RK4 resolves only this wall
                     ways.append(("tolerance 0.01", "RK4 adaptive, full", rk4_adaptive(1e-2), FULL))
             shares = {}
             for step, name, way, without in ways:

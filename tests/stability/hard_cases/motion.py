@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Long strings, fast spin-up, steps that are too large."""
+"""Long strings, fast spin-up, too large steps."""
 import math
 
 import numpy as np
@@ -123,7 +123,7 @@ def large_steps(program, short):
                 def wrong():
                     found = program.vibration_error(run, truth, end)
                     series.setdefault(f"{name}, {model}", []).append((1e3 * step, found))
-                    # impacts are followed in shorter steps than the deck asks for
+                    # impacts are integrated in shorter steps than those of the deck
                     return "0", f"vibration error, {run.motion['steps']} steps", found
 
                 yield judged(run, f"{name}, {model}", f"step {1e3 * step:g} ms", wrong, 0.05,
@@ -135,8 +135,8 @@ def large_steps(program, short):
 
 
 def orders(program, short):
-    """Two coupled oscillators of 8 and 30 rad/s in free vibration: error against exp(A t) by the
-    step, and its order."""
+    """Two coupled oscillators of 8 and 30 rad/s in free vibration: error against exp(A t) for
+    several steps, and its order."""
     K, c, end, sampling = np.array([[500.0, -430.0], [-430.0, 480.0]]), 0.5, 1.6, 0.032
     file = program.part("orders", ["u", "v"], np.eye(2), K, C=c * np.eye(2))
     start = {"pull": {"Part": "mass", "Node": 1, "Component": "u", "Displacement": 0.01}}

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes and parts: massless dofs, uneven elements, repeated modes, empty and single parts,
-floating ones."""
+"""Meshes and parts: massless dofs, uneven elements, repeated modes, empty, single and floating
+parts."""
 import math
 
 import numpy as np
@@ -60,7 +60,7 @@ def massless(program, short):
         ]
         for label, way, which in all_ways:
             if label == "RK4" and 0 < share < 1e-4:
-                continue  # its step falls as the root of the mass
+                continue  # its step decreases with the square root of the mass
             for model, more in (
                 ("full", {}),
                 ("reduced", reduced(4)),
@@ -95,8 +95,7 @@ def massless(program, short):
 
 
 def uneven(ratio):
-    """Settings: in the middle of the column a piece that short, as one element, between long
-    ones."""
+    """Settings: a short piece as one element in the middle of the column, between long elements."""
     size = 1.0
     short = size / ratio
     half = (LENGTH - short) / 2
@@ -112,8 +111,8 @@ def uneven(ratio):
 
 
 def square_of(waves, load=0.5):
-    """omega^2 of a half wave number of the column under that share of its buckling load, shear and
-    rotary inertia included."""
+    """omega^2 of the mode of the column with this number of half waves under this share of its
+    buckling load, with shear and rotary inertia."""
     q = waves * WAVE
     euler = YOUNG * INERTIA * q**2
     stiffness = euler / (1 + euler / (0.9 * SHEAR * AREA)) - load * BUCKLING
@@ -302,7 +301,7 @@ def extremes(program, short):
 
 
 def difference(run, reference):
-    """Norm of the difference of all displacements over that of the motion about its start."""
+    """Norm of the difference of all displacements divided by that of the motion about its start."""
     a, b = (one.data("transient/displacement") for one in (run, reference))
     return relative_error(a, b)
 

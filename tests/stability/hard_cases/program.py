@@ -14,14 +14,14 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 TIME_FACTOR = float(os.environ.get("TOOLJOINT_TIME_FACTOR",
                                    "1"))  # programs with sanitizers take longer
-FULL = ("Reduction", "Substructures")  # lists without which the full model runs
+FULL = ("Reduction", "Substructures")  # without these lists the full model runs
 NAMED = ("Loads/Forces/", "Loads/Unbalance/", "Coupling/Springs/", "Drillstring/Components/"
-         )  # lists of the user's names
+         )  # lists with names chosen by the user
 QUIET = {"Output/XDMF": "false", "Output/CSV": "false"}
 COUNTERS = (("steps", "steps"), ("newton_iterations", "iterations"),
             ("factorisations", "factorisations"), ("halved", "halved"), ("rejected", "rejected"),
             ("right_hand_sides", "right-hand sides"))
-# Beginnings of warnings unrelated to the accuracy of a motion or of its start.
+# first words of warnings unrelated to the accuracy of a motion or of its start
 OTHER_WARNINGS = ("The annulus", "No node of the string", "The output folder",
                   "The mass matrix is singular", "The checkpoint", "There are",
                   "The static state is unstable", "The bit has not settled", "The bit made",
@@ -50,22 +50,22 @@ class Run:
         if not text:
             lines = [line for line in self.output.splitlines() if line.strip()]
             begin = max((i for i, line in enumerate(lines) if not line.startswith("  ")), default=0)
-            text = " ".join(lines[begin:]) or "no word"  # with what is wrapped
+            text = " ".join(lines[begin:]) or "no word"  # with its wrapped lines
         return " ".join(text.split())
 
     def warnings(self):
-        """Warnings that tell of the accuracy of the result."""
+        """Warnings on the accuracy of the result."""
         return [
             " ".join(w.split()) for w in self.summary.get("warnings") or []
             if not w.startswith(OTHER_WARNINGS) and "has no stiffness" not in w
         ]
 
     def work(self):
-        """CPU time of the motion [s], or of the command where nothing moves."""
+        """CPU time of the motion [s], or of the command without a motion."""
         return self.motion.get("cpu_s") or self.cpu
 
     def counters(self):
-        """How often each strategy of the step was used."""
+        """Uses of each strategy of the step."""
         used = {label: self.motion[key] for key, label in COUNTERS if self.motion.get(key)}
         return {**used, **(self.motion.get("strategies") or {})}
 
@@ -84,7 +84,7 @@ class Run:
 
 
 class Program:
-    """The program under test; every run has a folder of its own in the work folder."""
+    """The program under test; every run has its own folder in the work folder."""
     def __init__(self, executable, work, mpiexec="mpiexec"):
         self.executable, self.mpiexec = str(pathlib.Path(executable).resolve()), mpiexec
         self.work = pathlib.Path(work).resolve()
@@ -100,8 +100,8 @@ class Program:
 
     def run(self, name, deck, settings=None, without=(), command="run", ranks=1, seconds=900,
             extra=()):
-        """Runs a command on a deck; `settings` are overrides, a run without an end within `seconds`
-        ends with code -1."""
+        """Runs a command on a deck; `settings` are overrides; a run that exceeds `seconds` has the
+        code -1."""
         folder = self.work / name
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
@@ -123,7 +123,7 @@ class Program:
         return Run(folder, code, output, after.ru_utime - before.ru_utime)
 
     def vibration_error(self, run, reference, end):
-        """`tooljoint compare` over 0 to `end`; infinite where there is nothing to compare."""
+        """`tooljoint compare` over 0 to `end`; infinite if there is nothing to compare."""
         done = subprocess.run(
             self.command("compare", run.folder, reference.folder, "--to", end, "--json"),
             stdout=subprocess.PIPE, text=True, check=False)
@@ -136,8 +136,8 @@ class Program:
         return path
 
     def with_lists(self, name, deck, settings):
-        """A copy of a deck with parameters in lists named by the user, which --set does not make;
-        the deck must not name files."""
+        """A copy of a deck with parameters in lists with names chosen by the user, which --set does
+        not make; the deck must not name files."""
         tree = ElementTree.parse(deck)
         for path, value in settings.items():
             *lists, last = path.split("/")
@@ -178,7 +178,7 @@ def rows(matrix):
 
 
 def text(value):
-    """A value as --set takes it."""
+    """A value in the form for --set."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float):

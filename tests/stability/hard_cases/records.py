@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Restarts anywhere, with other ranks; long runs at rest and of stationary motion."""
+"""Restarts at any time, with other numbers of ranks; long runs at rest and of stationary motion."""
 import contextlib
 import math
 import os
@@ -18,8 +18,8 @@ LIVELY = ROOT / "tests/effects/scene.xml"
 
 
 def interrupted(program, deck, settings, without, after, ranks):
-    """A run stopped by a signal some time after its first checkpoint, gone on with on other ranks;
-    None when it ended before."""
+    """A run stopped by a signal some time after its first checkpoint and continued on other ranks;
+    None if it ended before the signal."""
     folder = program.work / "c26"
     subprocess.run(["rm", "-rf", str(folder)], check=True)
     options = program.overrides({**QUIET, **settings}, without)
@@ -30,7 +30,7 @@ def interrupted(program, deck, settings, without, after, ranks):
         time.sleep(0.001)
     time.sleep(after)
     target = process.pid
-    if ranks[0] > 1:  # a rank: mpiexec takes seconds to pass a signal on
+    if ranks[0] > 1:  # a signal to a rank: mpiexec takes seconds to forward it
         children = subprocess.run(["pgrep", "-P", str(process.pid)], stdout=subprocess.PIPE,
                                   text=True, check=False).stdout.split()
         target = int(children[0]) if children else target
@@ -45,7 +45,7 @@ def interrupted(program, deck, settings, without, after, ranks):
 
 
 def farthest(run, whole):
-    """Largest difference of the samples over their largest value."""
+    """Largest difference of the samples divided by their largest value."""
     worst = 0.0
     own, other = (one.folder / "results.h5" for one in (run, whole))
     with h5py.File(own, "r") as a, h5py.File(other, "r") as b:
@@ -101,15 +101,15 @@ def restart(program, short):
                     required="ARKODE" not in label)
 
 
-# Scenes of `tolerances`; where the string whirls, steps are shorter, too, and tolerances fewer.
+# Scenes of `tolerances`; those with whirl also run with shorter steps, and with fewer tolerances.
 CALM = "helical_170m", "build_hold_1400m", "frame"
 WHIRLING = "stress_170m", "inclined_1000m", "vertical_1000m"
 
 
 def tolerances(program, short):
-    """20 s of shipped scenes for tolerances of Newton's method: what it leaves over makes no
-    energy. In a string that whirls, steps of 1 ms make some of their own, 0.1 to 1 % at any
-    tolerance; steps of 0.25 ms, 0.07 % at most, show the tolerance alone."""
+    """20 s of shipped scenes for several tolerances of Newton's method: its remaining error must
+    not generate energy. In whirling strings steps of 1 ms generate 0.1 to 1 % of energy at any
+    tolerance; steps of 0.25 ms, with 0.07 % at most, show the effect of the tolerance alone."""
     end = 1.0 if short else 20.0
 
     def motion(scene, tolerance, changes):
@@ -163,7 +163,7 @@ def long_runs(program, short):
                 at = run.data("transient/displacement")
                 return 0.0, float(np.abs(at - at[0]).max()), float(np.abs(at - at[0]).max())
 
-            # without numerical damping friction makes the fastest vibration of the contact grow
+            # without numerical damping friction amplifies the fastest vibration of the contact
             yield judged(run, f"at rest, {label}, {model}", f"{last:g} s: change of place [m, rad]",
                          drift, 1e-6, required="radius 1" not in label)
             if run.done:
@@ -171,10 +171,10 @@ def long_runs(program, short):
                 yield statement(f"at rest, {label}, {model}", f"{last:g} s: energy residual", "0",
                                 f"{residual:.2g}",
                                 abs(residual) < 1e-3)
-    # 25 kg m keep the string rubbing irregularly against this damping; with 2 kg m it settles on a
-    # periodic motion, of which three thirds are the same whatever a scheme loses. An irregular
-    # motion scatters by chance: quantiles of thirds of 18 s by up to 0.1 of the range, of 180 s by
-    # up to 0.05; the bounds are twice and more of that.
+    # With 25 kg m the string rubs irregularly in spite of this damping. With 2 kg m its motion
+    # becomes periodic, and its three thirds agree for any dissipation of the scheme. An irregular
+    # motion scatters at random: quantiles of thirds of 18 s by up to 0.1 of the range, of 180 s by
+    # up to 0.05; the bounds are at least twice that.
     shaken, end = {"Loads/Unbalance/collar/Moment": 25.0,
                    "Damping/Mass Coefficient": 0.5}, 60.0 if short else 600.0
     for model, more, without in models({**shaken, **alpha(1e-3),

@@ -18,7 +18,7 @@ PARTS = {
     "short": "This is the short version: a few points of the range, near its easy end.",
     "stopped": "The case was stopped before its end: the last points of the range are not there."
 }
-LONGEST_NOTE = 150  # characters of a sentence in the page
+LONGEST_NOTE = 150  # longest sentence in the page [characters]
 COLUMNS = ("variant", "parameter", "truth", "found", "deviation", "bound", "verdict", "cost",
            "what the program says")
 VERDICT = COLUMNS.index("verdict")
@@ -80,7 +80,7 @@ def overview_line(case, rows):
 
 
 def strategies(rows):
-    """A sentence: iterations, factorisations and what else happens, per step."""
+    """A sentence: iterations, factorisations and other events per step."""
     used = [row.counters for row in rows if row.counters.get("steps")]
     texts = []
     for name in dict.fromkeys(key for counters in used for key in counters):
@@ -104,8 +104,8 @@ def cells_of(row):
 
 
 def chapter(case, rows, drawn, part, counters):
-    """Of rows of texts: the figures, the rows that are not met, where all rows are, and the
-    sentence of the counters."""
+    """Chapter of a case from rows of texts: the figures, the rows that are not met, the link to all
+    rows, and the sentence of the counters."""
     unmet = [(*row[:-1], shortened(row[-1])) for row in rows if row[VERDICT] != "met"]
     keep = [i for i in range(len(COLUMNS)) if i < 2 or any(row[i] != "" for row in unmet)]
     pictures = "".join(f"\n![{title}](figures/hard_{name}.svg)\n" for name, title in drawn)
@@ -159,7 +159,7 @@ def draw(plot, path):
 
 
 def written(path):
-    """Case number -> (its line of the overview, its chapter) of a document."""
+    """Case number -> (its line of the overview, its chapter) in a document."""
     if not path.exists():
         return {}
     text = path.read_text(encoding="utf-8")
@@ -176,8 +176,8 @@ def written(path):
 
 
 def write(path, results):
-    """`results`: case number -> (rows, plots, which part of the case they are).
-    Other cases stay as the document has them."""
+    """Writes the page. `results`: case number -> (rows, plots, which part of the case they are).
+    Other cases in the document are not changed."""
     figures, tables = path.parent / "figures", path.parent / "tables"
     figures.mkdir(exist_ok=True)
     tables.mkdir(exist_ok=True)

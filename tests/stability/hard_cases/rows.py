@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows of the table of hard cases: what was set, what is true, what was found, and the verdict.
+"""Rows of the table of hard cases: settings, truth, result and verdict.
 
-A row ends as one of
+The verdict is one of
     met        the number is within its bound of the truth
-    warned     it is not, and a warning of the run says so; up to an error of 50 %
-    off        it is not, and nothing says so; errors of motions up to 20 % alone
-    refused    the run ended with exit code 2, 3 or 4 and a sentence, before a wrong number
-    WRONG      neither: a silent wrong number, an end without a sentence, or no end
+    warned     it is not, and the run gives a warning; for errors up to 50 %
+    off        it is not, and there is no warning; only for errors of motions up to 20 %
+    refused    the run ended with exit code 2, 3 or 4 and a message, without a wrong number
+    WRONG      a wrong number without a warning, an end without a message, or no end
     open       the case has no program yet
 """
 import dataclasses
@@ -14,8 +14,8 @@ import math
 
 from program import NoResult
 
-WARNED_UP_TO = 0.5  # largest relative error a warning excuses
-SILENT_UP_TO = 0.2  # largest error of a motion that may pass without a warning
+WARNED_UP_TO = 0.5  # largest relative error allowed with a warning
+SILENT_UP_TO = 0.2  # largest error of a motion allowed without a warning
 REFUSALS = {2: "deck", 3: "model", 4: "solver"}
 CASES = {}
 
@@ -31,7 +31,7 @@ class Row:
     bound: float = math.nan
     note: str = ""
     required: bool = False  # a refusal counts as a failure
-    cost: float = math.nan  # CPU time over that of the easy variant
+    cost: float = math.nan  # CPU time divided by that of the easy variant
     counters: dict = dataclasses.field(default_factory=dict)
 
     @property
@@ -61,7 +61,7 @@ class Case:
 
 
 def case(number, title, sweep, must, easy=""):
-    """Registers a generator of rows and plots; it takes the program and whether the run is
+    """Registers a generator of rows and plots; its arguments are the program and whether the run is
     short."""
     def register(function):
         if number in CASES:
@@ -78,8 +78,8 @@ def number(value, digits=4):
 
 def judged(run, variant, parameter, measure, bound, required=False, easy=None, note="",
            motion=False):
-    """The row of a run. measure(): (truth, found, deviation), called where the run is done; numbers
-    are printed, texts are taken as they are. `motion`: the deviation is an error of a motion."""
+    """The row of a run. measure(): (truth, found, deviation), called if the run is done; numbers
+    are formatted, texts are not changed. `motion`: the deviation is an error of a motion."""
     common = {"required": required, "counters": run.counters(), "bound": bound}
     if easy is not None and easy.work() > 0:
         common["cost"] = run.work() / easy.work()
@@ -121,6 +121,6 @@ def refusal(run, variant, parameter, words, codes=(3, 4)):
 
 
 def statement(variant, parameter, truth, found, good, note="", counters=None, cost=math.nan):
-    """The row of something that holds or does not."""
+    """The row of a statement that is true or false."""
     return Row(variant, parameter, truth, found, "met" if good else "WRONG", note=note,
                counters=counters or {}, cost=cost)

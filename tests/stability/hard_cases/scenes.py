@@ -60,18 +60,18 @@ def times(end, sampling):
 
 
 def reduced(modes):
-    """Settings of a reduction for decks that have none."""
+    """Settings of a reduction for decks without one."""
     return {"Reduction/Mode Selection/Modes": int(modes)}
 
 
 def models(settings):
-    """(name, settings, lists left out) of the full and the reduced model of a deck with a
+    """(name, settings, lists left out) of the full and the reduced model of a deck that has a
     reduction."""
     return (("full", settings, FULL), ("reduced", settings, ()))
 
 
 def transient(settings):
-    """Nested lists of settings written as paths, for decks made here."""
+    """Nested lists from settings written as paths, for decks made here."""
     lists = {}
     for path, value in settings.items():
         *names, last = path.split("/")
@@ -134,7 +134,7 @@ def growth(t, x, floor, ceiling):
 
 
 def growth_of_pair(t, x, pairs=1):
-    """Rate [1/s] of the fastest of the pairs that are left at the end of equal samples, by linear
+    """Rate [1/s] of the fastest-growing pairs remaining at the end of equal samples, by linear
     prediction: x_{k+1} = a x_k + b x_{k-1} ..., whose roots are exp(s dt) (Prony)."""
     late, order = x[len(x) // 2:], 2 * pairs
     prediction = np.linalg.lstsq(
@@ -144,7 +144,7 @@ def growth_of_pair(t, x, pairs=1):
 
 
 def relative_error(found, truth):
-    """Norm of the difference over the norm of the truth about its start."""
+    """Norm of the difference divided by the norm of the truth about its start."""
     return float(np.linalg.norm(found - truth) / np.linalg.norm(truth - truth[0]))
 
 
@@ -179,9 +179,9 @@ def mean_and_error(values):
 
 
 def ensemble(program, name, settings, without, runs, measure, seconds=900):
-    """Runs of stress_170m whose weights on bit are 10 N apart: measure(run) of those that are done,
-    in rows, and the refused ones. It ends with the second refusal where nothing is done before: the
-    others would be refused as well."""
+    """Runs of stress_170m whose weights on bit are 10 N apart: measure(run) of the completed ones
+    in rows, and the refused ones. It ends at the second refusal if no run has completed, since the
+    others would be refused too."""
     found, refused, last = [], [], None
     for i in range(runs):
         last = program.run(name, STRESS, {**settings, "Loads/Weight On Bit": 1e4 + 10.0 * i},

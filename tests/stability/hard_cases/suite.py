@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Hard cases of the statics, the reduction and the integration, each beside a truth of its own.
+"""Hard cases of the statics, the reduction and the integration, each with its own reference.
 
     suite.py PROGRAM --short                    a few points of every case (CTest)
     suite.py PROGRAM --write docs/hard-cases.md all of them; writes the table and its figures
 
-Cases whose rows are in the work folder are not run again unless --fresh is given. Exit code 1 when
-a row is silently wrong, or a row that must be met is refused.
+Cases whose rows are in the work folder are not run again unless --fresh is given. Exit code 1 if a
+row is wrong without a warning, or if a row that must be met is refused.
 """
 import argparse
 import dataclasses
@@ -42,14 +42,14 @@ def show(row):
 
 
 def stored(path):
-    """Rows and plots of a file, and whether the case came to its end."""
+    """Rows and plots in a file, and whether the case is complete."""
     content = json.loads(path.read_text(encoding="utf-8"))
     return ([table.Row(**row) for row in content["rows"]],
             [table.Plot(**plot) for plot in content["plots"]], content["complete"])
 
 
 def store(path, found, complete):
-    """Writes the present results of a case, so that an interrupted case keeps its rows."""
+    """Writes the rows of a case so far, so that an interrupted case keeps them."""
     kinds = {
         name: [dataclasses.asdict(item) for item in found if isinstance(item, kind)
                ] for name, kind in (("rows", table.Row), ("plots", table.Plot))
@@ -58,8 +58,8 @@ def store(path, found, complete):
 
 
 def results(case, options, program):
-    """Rows and plots of a case, from the work folder or by running it, and which part of it they
-    are: "", "short" or "stopped"."""
+    """Rows and plots of a case, from the work folder or by running it, and their extent: "",
+    "short" or "stopped"."""
     paths = {
         short: program.work / f"case_{case.number:02d}{'_short' if short else ''}.json"
         for short in (False, True)
@@ -93,14 +93,13 @@ def main():
     parser.add_argument("--only", default="", help="numbers of cases, separated by commas")
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--fresh", action="store_true",
-                        help="run cases again that are in the work folder")
+                        help="repeat cases that are in the work folder")
     parser.add_argument(
         "--no-run", action="store_true", help=
-        "run nothing: take what is in the work folder, short rows where the whole case is not there"
-    )
+        "run nothing: take the results of the work folder, short rows if the whole case is missing")
     parser.add_argument(
-        "--write", help="file of the table, renewed for the cases that are chosen; figures go into "
-        "figures/ beside it")
+        "--write", help="file of the table, renewed for the chosen cases; figures go into figures/ "
+        "in its folder")
     options = parser.parse_args()
     missing = sorted(set(NUMBERS) - set(table.CASES))
     if missing:
