@@ -58,6 +58,16 @@ TEST(StatefulLaw, AdaptiveRungeKuttaHoldsTheToleranceForMaxwell) {
   }
 }
 
+/// Steps of a tenth of the relaxation time h: interpolation leaves (h k/c)^4/384 = 2.6e-7 of the
+/// displacement of the dashpot, which reaches 4 cm.
+TEST(StatefulLaw, RatedStatesBetweenStepsAreInterpolated) {
+  const MaxwellMass mass;
+  Keep samples;
+  integrate(mass.model(), options("RK4", kEnd, 5e-3, 5e-4), samples);
+  for (std::size_t i = 0; i < samples.time.size(); ++i)
+    EXPECT_NEAR(samples.x[i][0], mass.exact(samples.time[i])[2], 3e-7) << samples.time[i];
+}
+
 /// The integrators of SUNDIALS in this build.
 std::vector<std::string> sundials() {
   std::vector<std::string> built;
