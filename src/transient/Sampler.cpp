@@ -31,16 +31,18 @@ void Sampler::step(const State& from, const State& to) {
   }
 }
 
-/// Cubic Hermite interpolation: q from (q, v), v from (v, a); a linear. x in (0, 1) is the position
-/// in the step.
+/// Cubic Hermite interpolation: q from (q, v), v from (v, a), rated states from (x, x'); a is the
+/// derivative of v. x in (0, 1) is the position in the step.
 const State& Sampler::between(const State& from, const State& to, double x) {
   const double h = to.t - from.t;
   const double h00 = (1 + 2 * x) * (1 - x) * (1 - x), h10 = x * (1 - x) * (1 - x) * h;
   const double h01 = x * x * (3 - 2 * x), h11 = x * x * (x - 1) * h;
   middle_.q = h00 * from.q + h10 * from.v + h01 * to.q + h11 * to.v;
   middle_.v = h00 * from.v + h10 * from.a + h01 * to.v + h11 * to.a;
-  middle_.a = (1 - x) * from.a + x * to.a;
-  model_.blendStates(from.x, to.x, x, from.x, middle_.x);
+  middle_.a = 6 * x * (1 - x) / h * (to.v - from.v) + (1 - x) * (1 - 3 * x) * from.a +
+              x * (3 * x - 2) * to.a;
+  x_ = h00 * from.x + h10 * from.xDot + h01 * to.x + h11 * to.xDot;
+  model_.blendStates(x_, x_, 0.0, from.x, middle_.x);
   return middle_;
 }
 

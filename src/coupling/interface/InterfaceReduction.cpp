@@ -71,7 +71,7 @@ class Reducer {
   }
 
   /// Interfaces: the sets of parts that a dof joins, in the order of their first dof.
-  std::vector<int> groups(int& count) const {
+  void findInterfaces(reduction::InterfaceProblem& problem) const {
     std::vector<std::vector<int>> partsOf(model_.dofs.size());
     for (std::size_t p = 0; p < coupling_.maps.size(); ++p)
       forEachEntry(coupling_.maps[p], [&](int row, int column, double) {
@@ -81,12 +81,15 @@ class Reducer {
           parts.push_back(static_cast<int>(p));
       });
     std::map<std::vector<int>, int> number;
-    std::vector<int> group;
     for (int i : reduced_)
-      group.push_back(
+      problem.interface.push_back(
           number.emplace(partsOf[at(i)], static_cast<int>(number.size())).first->second);
-    count = static_cast<int>(number.size());
-    return group;
+    problem.interfaces = static_cast<int>(number.size());
+    problem.within.resize(number.size());
+    for (const auto& [parts, whole] : number)
+      for (const auto& [some, own] : number)
+        if (own != whole && std::includes(parts.begin(), parts.end(), some.begin(), some.end()))
+          problem.within[at(whole)].push_back(own);
   }
 
   reduction::InterfaceProblem makeProblem() const {
@@ -95,7 +98,7 @@ class Reducer {
     problem.stiffness = reduction::block(K, reduced_, reduced_);
     problem.mass = reduction::symmetricPart(reduction::block(model_.mass, reduced_, reduced_));
     problem.coupling = reduction::block(K, reduced_, others_);
-    problem.interface = groups(problem.interfaces);
+    findInterfaces(problem);
     problem.loads.resize(sizeOf(reduced_), sizeOf(model_.loads));
     for (int j = 0; j < sizeOf(model_.loads); ++j)
       problem.loads.col(j) = model_.loads[at(j)].vector(reduced_);

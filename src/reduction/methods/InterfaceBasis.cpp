@@ -5,6 +5,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -35,20 +36,70 @@ linalg::EigenPairs modesOf(const Sparse& K, const Sparse& M, const InterfaceOpti
 
 /// K^-1 b. A model with rigid-body modes has no static response; it is then supported weakly in
 /// proportion to its mass.
-Matrix staticAnswer(const InterfaceProblem& problem, const Matrix& b) {
+Matrix staticAnswer(Sparse K, const Sparse& M, const Matrix& b, const linalg::DofNamer& name) {
   double scale = 0;
-  for (int i = 0; i < problem.stiffness.rows(); ++i)
-    if (problem.mass.coeff(i, i) > 0)
-      scale = std::max(scale, problem.stiffness.coeff(i, i) / problem.mass.coeff(i, i));
-  Sparse K = problem.stiffness;
-  if (linalg::eigenvaluesBelow(symmetricPart(K), problem.mass, rigid * rigid * scale) > 0)
-    K += rigid * scale * problem.mass;
-  const linalg::DirectSolver solver(K, problem.name);
+  for (int i = 0; i < K.rows(); ++i)
+    if (M.coeff(i, i) > 0) scale = std::max(scale, K.coeff(i, i) / M.coeff(i, i));
+  if (linalg::eigenvaluesBelow(symmetricPart(K), M, rigid * rigid * scale) > 0)
+    K += rigid * scale * M;
+  const linalg::DirectSolver solver(K, name);
   return solver.solve(b);
 }
 
+struct Members {
+  std::vector<std::vector<int>> dofs;    ///< per interface
+  std::vector<std::vector<int>> within;  ///< per interface, InterfaceProblem::within
+};
+
+/// An interface with those within it, which deform statically with it: u = E u_own.
+class Group {
+ public:
+  Group(const InterfaceProblem& problem, int interface, const Members& members)
+      : interface_(interface), own_(members.dofs[at(interface)]), dofs_(own_) {
+    std::vector<int> within;
+    for (int i : members.within[at(interface)])
+      within.insert(within.end(), members.dofs[at(i)].begin(), members.dofs[at(i)].end());
+    dofs_.insert(dofs_.end(), within.begin(), within.end());
+    const Sparse K = block(problem.stiffness, dofs_, dofs_), M = block(problem.mass, dofs_, dofs_);
+    isAlone_ = within.empty();
+    if (isAlone_) {
+      stiffness_ = K;
+      mass_ = M;
+      return;
+    }
+    shapes_.setIdentity(sizeOf(dofs_), sizeOf(own_));
+    shapes_.bottomRows(sizeOf(within)) =
+        -staticAnswer(block(problem.stiffness, within, within), block(problem.mass, within, within),
+                      Matrix(block(problem.stiffness, within, own_)),
+                      [&](int i) { return linalg::nameOf(problem.name, within[at(i)]); });
+    stiffness_ = Matrix(shapes_.transpose() * (K * shapes_)).sparseView();
+    mass_ = symmetricPart(Matrix(shapes_.transpose() * (M * shapes_)).sparseView());
+  }
+
+  int interface() const { return interface_; }
+  const std::vector<int>& own() const { return own_; }
+  /// own(), then the dofs of the interfaces within it.
+  const std::vector<int>& dofs() const { return dofs_; }
+  /// E'K E and E'M E.
+  const Sparse& stiffness() const { return stiffness_; }
+  const Sparse& mass() const { return mass_; }
+  /// E x
+  Matrix expanded(const Matrix& x) const { return isAlone_ ? x : Matrix(shapes_ * x); }
+  /// E'f
+  Matrix restricted(const Matrix& f) const {
+    return isAlone_ ? f : Matrix(shapes_.transpose() * f);
+  }
+
+ private:
+  int interface_;
+  std::vector<int> own_, dofs_;
+  Sparse stiffness_, mass_;
+  Matrix shapes_;  ///< E = [1; -K_ww^-1 K_wo]
+  bool isAlone_ = true;
+};
+
 /// Modes of groups of joined dofs with the other groups fixed: all dofs together, or each interface
-/// by itself.
+/// by itself, with those within it.
 class Characteristic final : public InterfaceBasis {
  public:
   Characteristic(const InterfaceOptions& options, bool keepPointLaws, bool together)
@@ -57,28 +108,42 @@ class Characteristic final : public InterfaceBasis {
 
   InterfaceVectors build(const InterfaceProblem& problem) const override {
     InterfaceVectors out;
-    const Matrix answers = loadAnswers(problem);
-    const Eigen::Index n = problem.stiffness.rows();
-    std::vector<std::vector<int>> groups(at(together_ ? 1 : problem.interfaces));
-    for (int i = 0; i < n; ++i) groups[at(together_ ? 0 : problem.interface[at(i)])].push_back(i);
+    Matrix answers = loadAnswers(problem);
     Triplets attached;
-    out.vectors.resize(n, 0);
-    for (int g = 0; g < sizeOf(groups); ++g) {
-      const auto& dofs = groups[at(g)];
-      const auto name = [&](int i) { return linalg::nameOf(problem.name, dofs[at(i)]); };
-      const Sparse K = block(problem.stiffness, dofs, dofs), M = block(problem.mass, dofs, dofs);
-      addModes(K, M, answers(dofs, Eigen::all), name, dofs, out);
-      out.interface.resize(at(out.vectors.cols()), g);
-      attach(K, problem, dofs, name, attached);
+    out.vectors.resize(problem.stiffness.rows(), 0);
+    for (const auto& group : groupsOf(problem)) {
+      const auto name = [&](int i) { return linalg::nameOf(problem.name, group.own()[at(i)]); };
+      const Matrix own = answers(group.own(), Eigen::all);
+      addModes(group, own, name, out);
+      out.interface.resize(at(out.vectors.cols()), group.interface());
+      answers(group.dofs(), Eigen::all) -= group.expanded(own);  // the rest is for those within it
+      attach(group, problem, name, attached);
     }
     out.attached = sparse(problem.coupling.rows(), problem.coupling.cols(), attached);
     return out;
   }
 
  private:
-  /// Adds modes of K, M on some dofs and the columns `more`, with their Rayleigh quotients.
-  void addModes(const Sparse& K, const Sparse& M, const Matrix& more, const linalg::DofNamer& name,
-                const std::vector<int>& dofs, InterfaceVectors& out) const {
+  /// Each interface comes before those within it.
+  std::vector<Group> groupsOf(const InterfaceProblem& problem) const {
+    Members members{{}, together_ ? std::vector<std::vector<int>>(1) : problem.within};
+    members.dofs.resize(members.within.size());
+    for (int i = 0; i < problem.stiffness.rows(); ++i)
+      members.dofs[at(together_ ? 0 : problem.interface[at(i)])].push_back(i);
+    std::vector<int> order(members.dofs.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      return members.within[at(a)].size() > members.within[at(b)].size();
+    });
+    std::vector<Group> groups;
+    for (int g : order) groups.emplace_back(problem, g, members);
+    return groups;
+  }
+
+  /// Adds modes of a group and the columns `more`, with their Rayleigh quotients.
+  void addModes(const Group& group, const Matrix& more, const linalg::DofNamer& name,
+                InterfaceVectors& out) const {
+    const Sparse &K = group.stiffness(), &M = group.mass();
     const auto pairs = modesOf(symmetricPart(K), M, options_, name);
     OrthonormalSet set(M, dependent, "Interface reduction: ");
     for (int j = 0; j < pairs.count(); ++j) set.add(pairs.vectors.col(j));
@@ -86,7 +151,7 @@ class Characteristic final : public InterfaceBasis {
     const Eigen::Index first = out.vectors.cols(), count = set.size();
     out.vectors.conservativeResize(Eigen::NoChange, first + count);
     out.vectors.rightCols(count).setZero();
-    out.vectors(dofs, Eigen::lastN(count)) = set.basis();
+    out.vectors(group.dofs(), Eigen::lastN(count)) = group.expanded(set.basis());
     out.eigenvalues.conservativeResize(first + count);
     for (int j = 0; j < count; ++j) {
       const auto shape = set.basis().col(j);
@@ -99,22 +164,25 @@ class Characteristic final : public InterfaceBasis {
     for (int j = 0; j < problem.loads.cols() && options_.loadVectors; ++j)
       if (!problem.loads.col(j).isZero(0.0)) acting.push_back(j);
     const Matrix loads = problem.loads(Eigen::all, acting);
-    return acting.empty() ? loads : staticAnswer(problem, loads);
+    return acting.empty() ? loads
+                          : staticAnswer(problem.stiffness, problem.mass, loads, problem.name);
   }
 
-  /// u_i = ... - K_ii^-1 K_iC u_C
-  static void attach(const Sparse& K, const InterfaceProblem& problem, const std::vector<int>& dofs,
+  /// u = ... - E (E'K E)^-1 E'K_C u_C
+  static void attach(const Group& group, const InterfaceProblem& problem,
                      const linalg::DofNamer& name, Triplets& entries) {
     std::vector<int> others;
-    for (int i : dofs)
+    for (int i : group.dofs())
       forEachInRow(problem.coupling, i, [&](int column, double) { others.push_back(column); });
     makeUnique(others);
     if (others.empty()) return;
-    const linalg::DirectSolver solver(K, name);
-    const Matrix answer = solver.solve(Matrix(block(problem.coupling, dofs, others)));
-    for (int i = 0; i < sizeOf(dofs); ++i)
+    const linalg::DirectSolver solver(group.stiffness(), name);
+    const Matrix forces = group.restricted(Matrix(block(problem.coupling, group.dofs(), others)));
+    const Matrix answer = group.expanded(solver.solve(forces));
+    for (int i = 0; i < answer.rows(); ++i)
       for (int j = 0; j < sizeOf(others); ++j)
-        if (answer(i, j) != 0.0) entries.emplace_back(dofs[at(i)], others[at(j)], -answer(i, j));
+        if (answer(i, j) != 0.0)
+          entries.emplace_back(group.dofs()[at(i)], others[at(j)], -answer(i, j));
   }
 
   InterfaceOptions options_;

@@ -25,6 +25,9 @@ struct InterfaceProblem {
   std::vector<int> interface;  ///< per dof its interface, 0-based: the dofs that join the same
                                ///< parts
   int interfaces = 0;
+  /// Per interface those that join some of its parts, and no others: for a corner the edges that
+  /// meet there.
+  std::vector<std::vector<int>> within;
   Sparse coupling;  ///< stiffness towards the other coordinates, dofs x others
   Matrix loads;     ///< constant load vectors, dofs x loads
   linalg::DofNamer name;
@@ -63,7 +66,8 @@ std::unique_ptr<InterfaceBasis> systemInterfaceModes(const InterfaceOptions& opt
                                                      bool keepPointLaws = true);
 /// The same for each interface by itself, with the others held, which keeps the model sparse (S.-K.
 /// Hong, B. I. Epureanu, M. P. Castanier, Mech. Syst. Signal Process. 37 (2013) 403-421; D.
-/// Krattiger et al., Mech. Syst. Signal Process. 114 (2019) 579-603).
+/// Krattiger et al., Mech. Syst. Signal Process. 114 (2019) 579-603). Interfaces within it
+/// (InterfaceProblem::within) deform statically with it: a corner takes its edges along.
 std::unique_ptr<InterfaceBasis> localInterfaceModes(const InterfaceOptions& options,
                                                     bool keepPointLaws = true);
 

@@ -20,10 +20,11 @@
 /// (Jansen, Whiting and Hulbert 2000 in the same form).
 ///
 /// A step in which a point meets a wall is halved until its rebound is that of the wall
-/// (ImpactResolution). Contact that comes to rest on a wall too stiff for the step stays there
-/// without rebound, because averaging its force over two steps would generate energy (up to eight
-/// times the incoming energy). The force acts in full over the step in which it arises, and not
-/// beyond, as in Kane, Repetto, Ortiz and Marsden (1999) and Chen, Acary, Virlez and Bruels (2013):
+/// (ImpactResolution), one across a peak of friction until it sees the peak (FrictionPeaks).
+/// Contact that comes to rest on a wall too stiff for the step stays there without rebound, because
+/// averaging its force over two steps would generate energy (up to eight times the incoming
+/// energy). The force acts in full over the step in which it arises, and not beyond, as in Kane,
+/// Repetto, Ortiz and Marsden (1999) and Chen, Acary, Virlez and Bruels (2013):
 ///
 ///     q_{n+1} = ... + h^2/2 M^-1 R'f,   v_{n+1} = ... + h M^-1 R'f   (with the v of the scheme for
 ///     that q),   A without f
@@ -50,6 +51,7 @@
 #include "common/report/Log.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/Tuned.hpp"
+#include "transient/accuracy/FrictionPeaks.hpp"
 #include "transient/accuracy/NumericalDamping.hpp"
 #include "transient/accuracy/StepControl.hpp"
 #include "transient/accuracy/StepGrid.hpp"
@@ -110,9 +112,10 @@ deck::ListSpec generalizedAlphaParameters() {
                "about a third more work per step.")
       .boolean(
           "Resolve Impacts", true,
-          "Halve steps in which a point meets a wall, until its rebound is that of the wall, also "
-          "where Step Tolerance would allow longer ones. Without, impacts on walls too stiff for "
-          "the step have no rebound.")
+          "Halve steps in which a point meets a wall, until its rebound is that of the wall, and "
+          "steps in which sliding reverses across a peak of friction, also where Step Tolerance "
+          "would allow longer ones. Without, impacts on walls too stiff for the step have no "
+          "rebound, and points slide on where friction should hold them.")
       .expert()
       .textArray("Leave Out", deck::Optional{}, strategyTitles(),
                  "Strategies of a step that are not used: what each wins is measured so.")
@@ -192,6 +195,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   void watchMotion(const State& to);
   bool isAccurate(const State& from, double h);
   bool resolvesImpacts(const State& from, const State& to, double h);
+  bool resolvesFriction(const State& from, const State& to, double h);
   int deepestLevel(double longest) const;
   [[noreturn]] void giveUp(const State& from, double h) const;
   [[noreturn]] void giveUpAccuracy(const State& from, double h);
@@ -210,6 +214,7 @@ class GeneralizedAlpha final : public Integrator, public NumericalDamping {
   StepGrid grid_;
   StepControl control_;
   ImpactResolution impacts_;
+  FrictionPeaks peaks_;
   MassNorm length_;
   double error_ = 0;              ///< in the current step [m]
   Vector start_, way_;            ///< controlled steps: initial displacement; motion since
@@ -253,6 +258,7 @@ void GeneralizedAlpha::bind(CompiledModel& model, const Window& window, double t
   if (!resolveImpacts_) return;
   scheme_->invertMass();
   impacts_.bind(model, scheme_->mass(), scheme_->parameters().radius);
+  peaks_.bind(model, scheme_->mass());
 }
 
 void GeneralizedAlpha::saveHistory(std::vector<double>& history) const {
@@ -298,7 +304,9 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
     h = grid_.nextLength(from.t);
     const bool last = grid_.level() >= grid_.deepest() || failures >= maxHalvings_;
     if (scheme_->take(from, to, h, last && acceptUnconverged_, counters_)) {
-      if ((!controlled_ || isAccurate(from, h)) && resolvesImpacts(from, to, h)) break;
+      if ((!controlled_ || isAccurate(from, h)) && resolvesImpacts(from, to, h) &&
+          resolvesFriction(from, to, h))
+        break;
       ++counters_.rejected;
       continue;
     }
@@ -356,6 +364,15 @@ bool GeneralizedAlpha::resolvesImpacts(const State& from, const State& to, doubl
   if (missing == 0) return true;
   if (grid_.level() + missing > grid_.deepest()) giveUpImpacts(from, std::ldexp(h, -missing));
   grid_.setLevel(grid_.level() + std::min(missing, Tuned::atATime));
+  control_.forget();
+  return false;
+}
+
+/// False, with a deeper level, if the last step passes over a peak of friction.
+bool GeneralizedAlpha::resolvesFriction(const State& from, const State& to, double h) {
+  if (!resolveImpacts_ || grid_.level() >= grid_.deepest() || peaks_.resolved(from, to, h))
+    return true;
+  grid_.setLevel(grid_.level() + 1);
   control_.forget();
   return false;
 }

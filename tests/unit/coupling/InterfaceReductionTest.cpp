@@ -288,6 +288,63 @@ TEST(LocalInterfaceModes, KeepAChainNarrow) {
   EXPECT_LT(local.model.stiffness.front().matrix.nonZeros(), system.model.mass.nonZeros());
 }
 
+/// A quarter of a net of 13 x 13 nodes on soft springs: nodes (i, j) from (i0, j0) on, each with
+/// the mass 1; neighbours are joined by springs of stiffness 1.
+model::Substructure quarter(int i0, int j0) {
+  constexpr int nodes = 7, whole = 13;
+  model::Substructure part;
+  part.name = "quarter " + std::to_string(i0) + " " + std::to_string(j0);
+  part.model.componentNames = {"w"};
+  Triplets stiffness, mass;
+  const auto spring = [&](int a, int b) {
+    samples::add(stiffness, (Matrix(2, 2) << 1, -1, -1, 1).finished(), {a, b});
+  };
+  std::vector<int> inner;
+  for (int i = 0; i < nodes; ++i)
+    for (int j = 0; j < nodes; ++j) {
+      const int row = nodes * i + j, number = whole * (i0 + i) + j0 + j + 1;
+      part.model.dofs.push_back(DofLabel::physical(number, 0));
+      mass.emplace_back(row, row, 1.0);
+      stiffness.emplace_back(row, row, 1e-3);
+      if (i > 0) spring(row, row - nodes);
+      if (j > 0) spring(row, row - 1);
+      if (i0 + i == nodes - 1 || j0 + j == nodes - 1) inner.push_back(number);
+    }
+  part.model.mass = samples::square(nodes * nodes, mass);
+  part.model.stiffness.push_back({"elastic", samples::square(nodes * nodes, stiffness), 0});
+  samples::complete(part);
+  samples::classify(part, inner);
+  return part;
+}
+
+std::vector<model::Substructure> netOfFour() {
+  return {quarter(0, 0), quarter(0, 6), quarter(6, 0), quarter(6, 6)};
+}
+
+/// Four edges of six nodes meet at a corner that joins all parts. The lowest mode is uniform, with
+/// omega^2 = 1e-3: edges that stay where they are while the corner moves cannot hold it. Of smooth
+/// shapes along six nodes the upper half of the modes has less than 1 %.
+TEST(LocalInterfaceModes, TakeTheEdgesOfACornerAlong) {
+  const Vector exact = lowestModes(synthesis(netOfFour(), -1, nullptr).coupled.model, 6).values;
+  EXPECT_NEAR(exact[0], 1e-3, 1e-9);
+  const auto coupled = synthesis(netOfFour(), 8, interfaceModes(Level::Local, 3)).coupled;
+  EXPECT_EQ(coupled.joinedDofs, 25);
+  EXPECT_EQ(coupled.interfaceModes, 4 * 3 + 1);
+  const Vector found = lowestModes(coupled.model, 6).values;
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(found[i] / exact[i], 1.0, 0.01) << "mode " << i + 1;
+}
+
+/// The static response to a load has shares of edges and corner, which add up to it.
+TEST(LocalInterfaceModes, AnswerLoadsAtACornerExactly) {
+  auto parts = netOfFour();
+  parts[2].model.loads.push_back({"push", Vector::LinSpaced(49, 0.0, 1.0), 0});
+  const auto plain = synthesis(parts, 0, nullptr).coupled.model,
+             reduced = synthesis(parts, 0, interfaceModes(Level::Local, 0)).coupled.model;
+  ASSERT_LT(reduced.size(), plain.size());
+  const Vector exact = recovered(plain, staticAnswer(plain));
+  EXPECT_LT((recovered(reduced, staticAnswer(reduced)) - exact).norm(), 1e-9 * exact.norm());
+}
+
 TEST(SystemInterfaceModes, OfAFloatingFrameHoldItsSixRigidMotions) {
   samples::FiveMembers frame{4};
   frame.feet.clear();

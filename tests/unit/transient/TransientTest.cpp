@@ -60,6 +60,8 @@ TEST(Transient, anEndBetweenSamplesIsReachedButNotSampled) {
   }
 }
 
+/// Interpolation leaves h^4/384 = 2.6e-7 of q and v and sqrt(3) h^3/216 = 8e-6 of a, beside the
+/// error of the steps.
 TEST(Transient, samplesBetweenLongStepsAreInterpolated) {
   const auto model = oscillator(1, 0, 1, 1.0, 0);
   Keep samples;
@@ -68,7 +70,7 @@ TEST(Transient, samplesBetweenLongStepsAreInterpolated) {
   for (std::size_t i = 0; i < samples.time.size(); ++i) {
     EXPECT_NEAR(samples.q[i][0], std::cos(samples.time[i]), 2e-6);
     EXPECT_NEAR(samples.v[i][0], -std::sin(samples.time[i]), 2e-6);
-    EXPECT_NEAR(samples.a[i][0], -std::cos(samples.time[i]), 2e-3);
+    EXPECT_NEAR(samples.a[i][0], -std::cos(samples.time[i]), 1e-5);
   }
 }
 

@@ -58,6 +58,16 @@ TEST(StatefulLaw, AdaptiveRungeKuttaHoldsTheToleranceForMaxwell) {
   }
 }
 
+/// Steps of a tenth of the relaxation time h: interpolation leaves (h k/c)^4/384 = 2.6e-7 of the
+/// displacement of the dashpot, which reaches 4 cm.
+TEST(StatefulLaw, RatedStatesBetweenStepsAreInterpolated) {
+  const MaxwellMass mass;
+  Keep samples;
+  integrate(mass.model(), options("RK4", kEnd, 5e-3, 5e-4), samples);
+  for (std::size_t i = 0; i < samples.time.size(); ++i)
+    EXPECT_NEAR(samples.x[i][0], mass.exact(samples.time[i])[2], 3e-7) << samples.time[i];
+}
+
 /// The integrators of SUNDIALS in this build.
 std::vector<std::string> sundials() {
   std::vector<std::string> built;
@@ -162,6 +172,46 @@ TEST(StatefulLaw, ElasticPlasticSpringSlidesAndSticks) {
     EXPECT_NEAR(report.energy.friction, mass.F * slid, 1e-3 * mass.F * slid) << integrator;
     EXPECT_LT(std::abs(report.energy.residual()), 2e-3) << integrator;
   }
+}
+
+/// A mass of 1 kg on a spring and on a belt of 0.02 m/s, whose friction of 30 N falls to 5 N over
+/// 0.02 m/s. After the first slip, at 0.42 s, the belt takes it along again: friction holds more
+/// than the 18 N of the spring. A step of 1 ms changes the velocity by 0.02 m/s there and would
+/// pass over the peak. Slips begin and end within a step, in which the mass moves by 0.4 mm at
+/// most.
+TEST(StatefulLaw, StepsAcrossThePeakOfFrictionAreHalved) {
+  const double belt = 0.02;
+  const auto end = [&](const std::string& integrator, double step,
+                       const Teuchos::ParameterList& more = Teuchos::ParameterList()) {
+    const auto diagonal = [](double mass, double ofBelt) {
+      return Matrix(Eigen::Vector2d(mass, ofBelt).asDiagonal());
+    };
+    auto model = denseModel(diagonal(1.0, 1e7), diagonal(2.0, 0.0), diagonal(4000.0, 0.0));
+    model.initialVelocity[1] = belt;
+    Teuchos::ParameterList own;
+    own.set("Static Force", 30.0).set("Dynamic Force", 5.0).set("Decay Velocity", 0.02);
+    own.set("Viscous Damping", 0.0).set("Slip Velocity", 1e-3);
+    model::PointSet set;
+    set.name = "belt";
+    set.law = model::PointLawRegistry::instance().make("Stribeck", own, {1, 1});
+    set.rows = Matrix((Matrix(1, 2) << 1.0, -1.0).finished()).sparseView();
+    set.offset = Vector::Zero(1);
+    set.entities = {1};
+    model.points.push_back(set);
+    auto o = options(integrator, 0.6, step, 0.1);
+    o.own.setParameters(more);
+    Keep samples;
+    integrate(model, o, samples);
+    return samples.q.back()[0];
+  };
+  const double exact = end("RK4", 1e-5);
+  EXPECT_NEAR(exact, -8.6e-4, 1e-4);
+  EXPECT_NEAR(end("Generalized-alpha", 1e-3), exact, 4e-4);
+  Teuchos::ParameterList controlled, without;
+  controlled.set("Step Tolerance", 1e-4);
+  without.set("Resolve Impacts", false);
+  EXPECT_NEAR(end("Generalized-alpha", 1e-3, controlled), exact, 4e-4);
+  EXPECT_GT(end("Generalized-alpha", 1e-3, without), exact + 2e-3);
 }
 
 /// A force on the displacement with a delay.
