@@ -162,3 +162,28 @@ def buckled():
         expect(f"{weight}: the table has it",
                float(rows("buckled")[0]["stiff_buckled"]) == buckles,
                rows("buckled")[0])
+
+
+def wound():
+    """A state that winds into a helix without a search for a buckled one is marked as well: the
+    pipe above a bend of short radius, under the friction of the pipe below."""
+    pipe = "Drillstring/Components/body/"
+    for operation, buckles in (("Drill sliding", True), ("Trip out", False)):
+        done = tooljoint("torque-drag", DECK, "--output", "wound", "--without",
+                         "Well/Arc/Build Rate", "--set", "Well/Arc/Kick-off Depth=200", "--set",
+                         "Well/Arc/Radius=40", "--set", "Well/Arc/End Inclination=90 deg", "--set",
+                         "Well/Arc/Tangent Length=150", "--set", "Well/Bore Radius=0.0762", "--set",
+                         pipe + "Length=10", "--set", pipe + "Elements=10", "--set",
+                         pipe + "Outer Radius=0.0365", "--set", pipe + "Inner Radius=0.0273",
+                         "--set", "Drillstring/Assembly={fill*body}", "--set",
+                         "Loads/Weight On Bit=5 kN", "--set", "Loads/Torque On Bit=800 N m",
+                         "--set", "Torque and Drag/Count=1", "--set",
+                         f"Torque and Drag/Operations={{{operation}}}", "--fresh")
+        expect(f"a bend of short radius, {operation}", done.returncode == 0, done.stderr)
+        row = rows("wound")[0]
+        expect(f"{operation}: beyond the helical limit above the bend is {buckles}",
+               (float(row["stiff_helical_margin"] or 9.0) < 1.0) == buckles, row)
+        expect(f"{operation}: marked as buckled is {buckles}",
+               float(row["stiff_buckled"]) == buckles, row)
+        expect(f"{operation}: and said", ("states of the stiff string are buckled"
+                                          in done.stdout) == buckles, done.stdout)

@@ -14,7 +14,8 @@ import closed_forms  # noqa: E402
 from checks import expect, finish, tooljoint  # noqa: E402
 from runs import DECK, SOURCES, near, numbers, rows, run, static_state  # noqa: E402
 from margins import bends, grades, neutral_point, pressure  # noqa: E402
-from against_statics import beside, buckled, in_motion, level, stiff, weight_on_bit  # noqa: E402
+from against_statics import (  # noqa: E402
+    beside, buckled, in_motion, level, stiff, weight_on_bit, wound)
 from tables import announced, files, resumed, tables_and_refusals  # noqa: E402
 
 
@@ -279,6 +280,7 @@ limits()
 as_it_is = backward()
 level()
 buckled()
+wound()
 pulled()
 pressure()
 bends()

@@ -25,6 +25,11 @@ namespace {
 /// value, or if it is below the second value and has not fallen to half of its value in a space
 /// four fifths the size.
 constexpr double converged = 1e-13, stagnant = 1e-7;
+/// A shift this many times below the wanted values is raised if a search does not settle within so
+/// many checks: nu of the middle of the spectrum, near 0, then look like wanted ones for long. The
+/// new shift is this part of the wanted values; a larger one would hide copies of the lowest ones.
+constexpr double lowShift = 6.0, raisedShift = 0.3;
+constexpr int unsettledChecks = 2, mostShifts = 4;
 /// Limit of the vectors of a space, or twelve times the number of modes: all vectors of a model of
 /// 750 dofs.
 constexpr int largestSpace = 1500;
@@ -159,6 +164,12 @@ struct Upper {
     if (s.size() < wanted) return std::numeric_limits<double>::infinity();
     return *std::max_element(residual.begin(),
                              residual.begin() + static_cast<std::ptrdiff_t>(wanted));
+  }
+  /// |s| of the `wanted`-th value that is accurate, whatever lies below it; 0 if there are fewer.
+  double accurate(std::size_t wanted) const {
+    for (std::size_t j = 0; j < s.size(); ++j)
+      if (residual[j] <= stagnant && --wanted == 0) return std::abs(s[j]);
+    return 0.0;
   }
   std::size_t below(double bound) const {
     return static_cast<std::size_t>(
@@ -355,19 +366,20 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
   return out;
 }
 
-/// The lowest `count` modes, fewer if there are fewer finite ones.
-DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& name) {
+/// The lowest `count` modes, fewer if there are fewer finite ones. With `better`, none if the shift
+/// is too far below the values for the search to settle; `better` is then the shift to take.
+std::optional<DampedModes> modesAbout(const ScaledPencil& pencil, const ShiftedInverse& inverse,
+                                      int count, int finite, const DofNamer& name, double* better) {
   const int all = 2 * static_cast<int>(pencil.size());
   auto wanted = static_cast<std::size_t>(count);
-  const int finite = finiteValues(pencil);
-  const auto inverse = goodInverse(pencil, wanted, finite, name);
-  GrowingKrylov<double> space([&](const Matrix& z) { return (*inverse)(z); }, all);
+  GrowingKrylov<double> space([&](const Matrix& z) { return inverse(z); }, all);
   if (all <= 2 * denseBelow)
     space.startWhole();
   else
     space.start(startColumns, 23);
   const int limit = std::min(all, std::max(largestSpace, 12 * static_cast<int>(wanted)));
   int columns = std::min(limit, 3 * static_cast<int>(wanted) + 4 * startColumns);
+  int unsettled = 0;          // checks with enough accurate values, but others below them
   std::size_t confirmed = 0;  // values below `bound` at the last check
   double bound = -1;
   double before = std::numeric_limits<double>::infinity();  // largest residual in the smaller space
@@ -375,13 +387,18 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
     if (wanted > longSearch) stopIfInterrupted();
     space.grow(columns);
     const RitzPairs ritz = space.ritz();
-    const Upper found(ritz, inverse->shift(), finite);
+    const Upper found(ritz, inverse.shift(), finite);
     const bool whole = space.invariant();
     const double worst = found.worst(wanted);
     const bool settled =
         worst <= converged || (worst <= stagnant && (worst > 0.5 * before || columns >= limit));
     if (!whole && !settled) {
       before = worst;
+      if (better != nullptr && bound < 0 && found.accurate(wanted) > lowShift * inverse.shift() &&
+          ++unsettled == unsettledChecks) {
+        *better = besideValues(found, raisedShift * found.accurate(wanted));
+        return std::nullopt;
+      }
       if (columns >= limit)
         throw ConvergenceError("The " + std::to_string(count) + " damped modes nearest zero of " +
                                std::to_string(pencil.size()) +
@@ -400,11 +417,24 @@ DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& 
       before = worst;
       continue;
     }
-    DampedModes modes = checkedModes(pencil, *inverse, space, found, ritz, wanted, name);
+    DampedModes modes = checkedModes(pencil, inverse, space, found, ritz, wanted, name);
     if (static_cast<int>(modes.values.size()) >= count || found.s.size() <= wanted) return modes;
     wanted +=
         static_cast<std::size_t>(count) - modes.values.size();  // chains at zero have been removed
     bound = -1;
+  }
+}
+
+/// The lowest `count` modes, fewer if there are fewer finite ones.
+DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& name) {
+  const int finite = finiteValues(pencil);
+  auto inverse = goodInverse(pencil, static_cast<std::size_t>(count), finite, name);
+  for (int shifts = 1;; ++shifts) {
+    double better = 0.0;
+    if (auto modes = modesAbout(pencil, *inverse, count, finite, name,
+                                shifts < mostShifts ? &better : nullptr))
+      return *modes;
+    inverse = inverseNear(pencil, better, name);
   }
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/analyses/StiffString.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "common/Constants.hpp"
 #include "common/Index.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/analyses/Hanging.hpp"
@@ -10,6 +14,38 @@
 namespace tooljoint::drillstring {
 
 using namespace beam::nodal;
+
+namespace {
+
+/// Points closer to the axis than this fraction of the clearance do not lie on the wall.
+constexpr double aside = 0.5;
+/// Angle between neighbours [rad] above which the string changes sides and does not wind.
+constexpr double changesSides = 0.5 * constants::pi;
+
+/// Largest number of turns about the hole that a compressed stretch makes along the wall.
+double turnsOnWall(const contact::ContactPoints& points, const equilibrium::StaticState& state) {
+  double turned = 0.0, most = 0.0, last = 0.0;
+  int before = -1;  // node of `last`
+  for (std::size_t p = 0; p < points.node.size(); ++p) {
+    const int node = points.node[p] - 1;
+    const double x = state.displacement(perNode * node + u),
+                 y = state.displacement(perNode * node + v);
+    const bool compressed = node > 0 && state.axialForce(node - 1) < 0.0;
+    if (!compressed || std::hypot(x, y) < aside * points.clearance[p]) {
+      before = -1;
+      continue;
+    }
+    const double angle = std::atan2(y, x), step = std::remainder(angle - last, constants::twoPi);
+    const bool winds = before == node - 1 && std::abs(step) < changesSides;
+    turned = winds ? turned + step : 0.0;
+    most = std::max(most, std::abs(turned));
+    before = node;
+    last = angle;
+  }
+  return most / constants::twoPi;
+}
+
+}  // namespace
 
 StiffString::StiffString(const Scene& scene, double bit)
     : scene_(hungAt(scene, bit)),
@@ -52,6 +88,7 @@ StiffLoads StiffString::under(const softstring::Operation& operation) const {
   loads.hookLoad = -reaction(w);
   loads.surfaceTorque = reaction(thetaZ);
   loads.twist = -state.displacement(perNode * (problemInput.nodes - 1) + thetaZ);
+  loads.turns = turnsOnWall(points_, state);
   loads.torqueDefect = state.relativeTorqueDefect();
   loads.depth = scene_.string.depths();
   loads.contactForce.assign(state.normalForce.data(),

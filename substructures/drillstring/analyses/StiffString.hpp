@@ -25,17 +25,19 @@ struct Margin {
 
 /// Loads of the stiff string in one operation. Forces and torques as those of softstring::Loads.
 struct StiffLoads {
-  std::string failure;                          ///< why there is no equilibrium; empty if there is
-                                                ///< one
-  bool locksUp = false;                         ///< the reason is lock-up
-  std::string unsettled;                        ///< why no buckled state was found; may be empty
-  std::string advice;                           ///< possible remedy, a sentence; may be empty
-  double hookLoad = 0.0, surfaceTorque = 0.0;   ///< without block weight [N, N m]
-  double twist = 0.0;                           ///< of the surface relative to the bit [rad]
-  double stretch = 0.0;                         ///< by effective tension [m]
-  double torqueDefect = 0.0;                    ///< StaticState::relativeTorqueDefect()
-  int iterations = 0;                           ///< Newton iterations, in total
-  bool buckled = false;                         ///< reached by sliding from an unstable state
+  std::string failure;                         ///< why there is no equilibrium; empty if there is
+                                               ///< one
+  bool locksUp = false;                        ///< the reason is lock-up
+  std::string unsettled;                       ///< why no buckled state was found; may be empty
+  std::string advice;                          ///< possible remedy, a sentence; may be empty
+  double hookLoad = 0.0, surfaceTorque = 0.0;  ///< without block weight [N, N m]
+  double twist = 0.0;                          ///< of the surface relative to the bit [rad]
+  double stretch = 0.0;                        ///< by effective tension [m]
+  double torqueDefect = 0.0;                   ///< StaticState::relativeTorqueDefect()
+  int iterations = 0;                          ///< Newton iterations, in total
+  bool buckled = false;  ///< reached by sliding from an unstable state, or, by torqueDrag(), wound
+                         ///< into a helix beyond the helical limit
+  double turns = 0.0;    ///< of a compressed stretch that lies on the wall, about the hole
   int negativePivots = 0;                       ///< of the tangent; 0: stable apart from friction
   std::vector<double> depth;                    ///< of the nodes, from the surface [m]
   std::vector<double> contactForce;             ///< of each node [N]
@@ -48,8 +50,9 @@ struct StiffLoads {
   bool found() const { return failure.empty(); }
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(failure, locksUp, unsettled, advice, buckled, hookLoad, surfaceTorque, twist, stretch,
-            torqueDefect, iterations, negativePivots, depth, contactForce, tension, torque, moment);
+    archive(failure, locksUp, unsettled, advice, buckled, turns, hookLoad, surfaceTorque, twist,
+            stretch, torqueDefect, iterations, negativePivots, depth, contactForce, tension, torque,
+            moment);
   }
 };
 

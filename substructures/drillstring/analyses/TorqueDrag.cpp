@@ -383,6 +383,7 @@ void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& s
     keepLeast(loads.sinusoidal, limits.sinusoidal / -loads.tension[e], middle);
     keepLeast(loads.helical, limits.helical / -loads.tension[e], middle);
   }
+  loads.buckled = loads.buckled || (loads.turns >= 1.0 && loads.helical.factor < 1.0);
 }
 
 /// Warns of weights outside the range of the bit law.

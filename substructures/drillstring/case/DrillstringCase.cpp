@@ -180,8 +180,8 @@ std::string DrillstringCase::describe() const { return describeScene(*scene_); }
 std::vector<std::string> DrillstringCase::remarks() const {
   auto found = unusualValues(deck());
   if (const auto remark = prestressRemark(*scene_); !remark.empty()) found.push_back(remark);
-  for (const auto& remark :
-       {bitFrictionRemark(*scene_), unbalanceRemark(*scene_), axialFrictionRemark(*scene_)})
+  for (const auto& remark : {bitFrictionRemark(*scene_), unbalanceRemark(*scene_),
+                             axialFrictionRemark(*scene_), torqueOnBitRemark(*scene_)})
     if (!remark.empty()) found.push_back(remark);
   return found;
 }

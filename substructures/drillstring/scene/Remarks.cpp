@@ -1,7 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/scene/Remarks.hpp"
 
+#include "deck/PrintedUnits.hpp"
+
 namespace tooljoint::drillstring {
+namespace {
+
+/// Number of evenly spaced times of a motion at which the sense of its rotation is evaluated.
+constexpr int timesOfSense = 1000;
+
+/// The rotary speed farthest in the sense of `sign` during the motion; at time 0 without one.
+double farthestSpeed(const Scene& scene, double sign) {
+  const auto& list = scene.list();
+  double begin = 0.0, end = 0.0;
+  if (list.isSublist("Transient")) {
+    begin = list.sublist("Transient").get<double>("Start Time");
+    end = list.sublist("Transient").get<double>("End Time");
+  }
+  double farthest = scene.rotary.speed(begin);
+  for (int i = 1; i <= timesOfSense; ++i) {
+    const double speed = scene.rotary.speed(begin + (end - begin) * i / timesOfSense);
+    if (sign * speed > sign * farthest) farthest = speed;
+  }
+  return farthest;
+}
+
+}  // namespace
 
 std::string prestressRemark(const Scene& scene) {
   if (scene.path.prestress != path::Prestress::AxialAndTorque) return "";
@@ -44,6 +68,19 @@ std::string axialFrictionRemark(const Scene& scene) {
          "\" may leave to the modes of the parts: the change of the hook load of a string that "
          "begins to turn was 10 % off with 4 to 8 modes in a part, 0.001 % with 24. Set Retained "
          "Nodes to \"Static contacts\".";
+}
+
+std::string torqueOnBitRemark(const Scene& scene) {
+  if (scene.bit || !scene.list().isSublist("Loads")) return "";
+  if (scene.topDrive.control == drilling::DriveControl::Torque) return "";
+  const double torque = scene.list().sublist("Loads").get<double>("Torque On Bit");
+  const double speed = farthestSpeed(scene, torque > 0.0 ? -1.0 : 1.0);
+  if (!(torque * speed < 0.0)) return "";
+  return "Loads/Torque On Bit, " + deck::printed(torque, "kN m", 4) +
+         ", has a fixed direction and drives the string where Rotary Speed has the other sign (" +
+         deck::printed(speed, "rpm", 4) +
+         "); the rock resists. Give the torque the sign of the speed, or, where the speed changes "
+         "its sign, a law of the list Bit.";
 }
 
 }  // namespace tooljoint::drillstring

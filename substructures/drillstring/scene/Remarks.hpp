@@ -24,4 +24,8 @@ std::string unbalanceRemark(const Scene& scene);
 /// "".
 std::string axialFrictionRemark(const Scene& scene);
 
+/// A sentence if a Torque On Bit of fixed direction drives a string that turns the other way; else
+/// "".
+std::string torqueOnBitRemark(const Scene& scene);
+
 }  // namespace tooljoint::drillstring

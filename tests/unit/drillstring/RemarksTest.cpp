@@ -39,6 +39,17 @@ TEST(Remarks, UnbalanceTurnsWithTheSetSpeed) {
             std::string::npos);
 }
 
+TEST(Remarks, ATorqueOnBitDrivesAStringThatTurnsTheOtherWay) {
+  const std::string deck = "build_hold_1400m.xml", back = "Rotary Speed/Constant/Speed=-90 rpm";
+  EXPECT_EQ(torqueOnBitRemark(scene(deck, {})), "");
+  EXPECT_NE(torqueOnBitRemark(scene(deck, {back})).find("4 kN m, has a fixed direction and drives"),
+            std::string::npos);
+  EXPECT_EQ(torqueOnBitRemark(scene(deck, {back, "Loads/Torque On Bit=-4 kN m"})), "");
+  EXPECT_EQ(torqueOnBitRemark(scene(deck, {back, "Loads/Torque On Bit=0"})), "");
+  const std::string reverses = "Rotary Speed/Exponential/Final Speed=-60 rpm";
+  EXPECT_NE(torqueOnBitRemark(scene("helical_170m.xml", {reverses})), "") << "during the motion";
+}
+
 TEST(Remarks, ThePublishedPreStressIsWrongInBends) {
   EXPECT_NE(prestressRemark(scene("helical_170m.xml", {})), "");
   EXPECT_EQ(prestressRemark(scene("helical_170m.xml", {"Path/Pre-stress=Full tangent"})), "");

@@ -262,6 +262,29 @@ TEST(LowestDampedModes, OverdampedDofsHaveTwoValuesEach) {
     EXPECT_LT(std::abs(found.values[j] - exact[static_cast<std::size_t>(j)]), 1e-7) << j;
 }
 
+/// A rod of many masses hangs from a flywheel on a soft spring and a damper: one mode is far below
+/// all others, and the damping is not proportional. The others are nearly those of a rod held at
+/// its top, with j - 1 to j half waves.
+TEST(LowestDampedModes, AreFoundAboveOneFarBelowTheOthers) {
+  constexpr int n = 1000, count = 12;
+  constexpr double flywheel = 5.0 * n, spring = 6e-8 * n, damper = 2e-4 * n;
+  Matrix M = Matrix::Identity(n, n), C = Matrix::Zero(n, n), K = Matrix::Zero(n, n);
+  for (int i = 1; i < n; ++i) {
+    K(i - 1, i - 1) += 1.0, K(i, i) += 1.0;
+    K(i - 1, i) -= 1.0, K(i, i - 1) -= 1.0;
+  }
+  M(0, 0) = flywheel, C(0, 0) = damper, K(0, 0) += spring;
+  const auto modes = lowestDampedModes(sparse(M), sparse(C), sparse(K), count);
+  ASSERT_EQ(modes.values.size(), count);
+  EXPECT_LT(std::abs(modes.values[0]), 0.1 * std::abs(modes.values[1]));
+  for (Eigen::Index j = 1; j < count; ++j) {
+    const double halfWaves = modes.values[j].imag() * static_cast<double>(n) / constants::pi;
+    EXPECT_GT(halfWaves, static_cast<double>(j) - 1.0) << j;
+    EXPECT_LT(halfWaves, static_cast<double>(j)) << j;
+    EXPECT_LE(modes.residuals[j], 1e-8) << j;
+  }
+}
+
 // Without damping the values are those of the undamped modes: s = i omega, and +-sqrt(-omega^2)
 // where omega^2 < 0.
 TEST(LowestDampedModes, WithoutDampingTheyAreTheSymmetricModes) {
