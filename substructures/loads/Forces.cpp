@@ -50,8 +50,7 @@ deck::ListSpec forceParameters() {
             "Phase of a harmonic load; has no effect on a steady one.")
       .real("Start Time", "s", 0.0, Range::nonNegative(),
             "Time from which it acts; one that is steady, acts from 0 on and has no End Time acts "
-            "in the "
-            "static state too.")
+            "in the static state too.")
       .expert()
       .real("End Time", "s", deck::Optional{}, Range::positive(),
             "Time from which it acts no more; never when not given.");

@@ -358,7 +358,8 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
 namespace {
 
 /// Stresses of the elements of the stiff string, their margins to yield and to buckling, and the
-/// largest force on a joint. The lower end of the stiff string is that of the soft one.
+/// largest force on a joint. The lower end of the stiff string is that of the soft one. A string
+/// that winds on the wall beyond its helical limit has buckled.
 void addStresses(const SoftModel& model, const softstring::TorqueDragSettings& settings, double bit,
                  StiffLoads& loads) {
   const softstring::PressureDifference pressure(model.string, model.hole, bit,

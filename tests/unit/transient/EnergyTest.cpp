@@ -109,8 +109,8 @@ TEST(Energy, bouncingBallsBalance) {
 }
 
 /// Dampers dissipate more than c v^2 at the mean speed of a step: (omega h)^2 / 12 more in a
-/// vibration. With a mass on a damped stop, omega = 500 1/s, booked every 0.5 ms, this is half a
-/// percent of its kinetic energy after the impact.
+/// vibration. With a mass on a damped stop, omega = 500 1/s, and two steps of 0.25 ms in a booking,
+/// this is half a percent of the energy that the impact takes.
 TEST(Energy, dampingOfAnImpactIsThatOfItsChangingSpeed) {
   const double m = 2, v = 0.4;
   auto model = denseModel(scalar(m), Matrix(), Matrix());
