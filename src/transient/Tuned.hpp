@@ -43,11 +43,11 @@ struct Tuned {
   static constexpr int calmSteps = 12;            ///< without motion, before steps grow
   static constexpr int lookStride = 8;            ///< between two sums of the energy [steps]
   static constexpr double quiet = 1e-4;           ///< speeds below count as rest [m/s]
-  static constexpr int mostHalvings = 20;         ///< allowed for impacts
   static constexpr int atATime = 3;               ///< halvings at once
 
   // Phase correction and broad phase
   static constexpr double mostPhase = 0.7;  ///< k [1]
+  static constexpr double mostTurn = 3e-3;  ///< of the normal of a corrected point, per step [rad]
   static constexpr double lookAhead = 32;   ///< points that may touch are measured [steps]
 };
 

@@ -13,6 +13,8 @@ namespace tooljoint::transient {
 
 class StepGrid {
  public:
+  static constexpr int mostHalvings = 30;  ///< of the longest step
+
   void set(const Window& window, double longest, int deepest) {
     begin_ = window.begin;
     end_ = window.end;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 #include "common/Index.hpp"
 
@@ -13,6 +14,8 @@ namespace {
 constexpr int widestPush = 6;
 using Square =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, widestPush, widestPush>;
+
+using Whole = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 Square symmetric(const Square& A) { return 0.5 * (A + A.transpose()); }
 
@@ -58,6 +61,17 @@ void FrozenTangent::takeOutPush() {
     if (tangent.diagonal().maxCoeff() > 0) tangent -= pushing(tangent, parts);
     ofPosition = symmetric(ofPosition);
     ofPosition -= pushing(ofPosition, parts);
+  }
+}
+
+/// Tangents A = k n n' and B with another k and n have |<A, B>| / (|A| |B|) = (n_A . n_B)^2.
+void FrozenTangent::leaveOutTurning(const double* then, double most) {
+  const double least = std::cos(most) * std::cos(most);
+  for (int p : points_) {
+    Eigen::Map<Whole> now(&ofPosition_[at(p * width_ * width_)], width_, width_);
+    const Eigen::Map<const Whole> later(then + p * width_ * width_, width_, width_);
+    const double product = std::sqrt(now.squaredNorm() * later.squaredNorm());
+    if (std::abs(now.cwiseProduct(later).sum()) < least * product) now.setZero();
   }
 }
 

@@ -24,6 +24,10 @@ class FrozenTangent {
   /// with this part may be indefinite. The part of P from df/dd alone keeps only its symmetric,
   /// restoring part.
   void takeOutPush();
+  /// Leaves out of the part from df/dd alone the points whose df/dd turns by more than `most` [rad]
+  /// to the given ones: the angle of two tangents is that of the normals of a wall. Before
+  /// takeOutPush(). \param then  df/dd of all points a moment later
+  void leaveOutTurning(const double* then, double most);
   void forget();
   /// Removes the tangent of a point.
   void drop(int point);

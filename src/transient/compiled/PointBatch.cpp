@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "common/Index.hpp"
 
@@ -48,7 +49,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   acted_.reserve(at(points_));
   scale_.assign(at(points_), 1.0);
   for (auto* array : {&d_, &v_, &f_, &dd_, &dv_}) array->assign(at(rows), 0.0);
-  for (auto* array : {&dfdd_, &dfdv_}) array->assign(at(rows) * at(width_), 0.0);
+  for (auto* array : {&dfdd_, &dfdv_, &ahead_}) array->assign(at(rows) * at(width_), 0.0);
   one_.assign(1, 0);
 }
 
@@ -169,6 +170,15 @@ void PointBatch::evaluateWithTangent(double t, const double* q, const double* v)
   if (active_.empty()) return;
   gatherThese(active_, q, v);
   evaluateHere(t, active_, true);
+}
+
+void PointBatch::lookAheadAlong(double t, double h, const double* q, const double* v) {
+  if (active_.empty()) return;
+  gatherThese(active_, q, v);
+  for (int p : active_)
+    for (int r = p * width_; r < (p + 1) * width_; ++r) d_[at(r)] += h * v_[at(r)];
+  evaluateHere(t, active_, true);
+  std::swap(ahead_, dfdd_);
 }
 
 void PointBatch::setScale(int point, double scale) {

@@ -109,6 +109,12 @@ class PointBatch {
     frozen_.freeze(active_, dfdd_.data(), dfdv_.data(), cd, cv);
   }
   void takeOutPush() { frozen_.takeOutPush(); }
+  /// Evaluates df/dd of the active points at q + h v (time t), for leaveOutTurning(). Before
+  /// evaluateWithTangent().
+  void lookAheadAlong(double t, double h, const double* q, const double* v);
+  /// Leaves points whose df/dd turns by more than `most` [rad] there out of
+  /// subtractPositionTangent(). Between freezeTangent() and takeOutPush().
+  void leaveOutTurning(double most) { frozen_.leaveOutTurning(ahead_.data(), most); }
   void dropTangent(int point) { frozen_.drop(point); }
   void subtractTangent(double* values) const { frozen_.subtract(rows_, values); }
   void subtractPositionTangent(double* values) const { frozen_.subtractOfPosition(rows_, values); }
@@ -180,7 +186,7 @@ class PointBatch {
   std::vector<char> hasActed_;  ///< active since the last bookPowers()
   std::vector<int> acted_, all_;
   PointClearances clearances_;
-  std::vector<double> d_, v_, f_, dfdd_, dfdv_;
+  std::vector<double> d_, v_, f_, dfdd_, dfdv_, ahead_;
   std::vector<double> scale_;
   int scaled_ = 0;  ///< number of scales other than 1
   FrozenTangent frozen_;

@@ -222,7 +222,7 @@ int ImpactResolution::halvingsOf(double h, const Points& visitPoints) {
   visitPoints([&](double reversal, double speed) {
     if (!isFast(met_, reversal, h)) return;
     met_.findOnset(h * speed);
-    for (int n = 0; n <= Tuned::mostHalvings; ++n) {
+    for (int n = 0; n <= StepGrid::mostHalvings; ++n) {
       const double shorter = std::ldexp(h, -n);
       if (!isFast(met_, reversal, shorter)) break;
       if (losesMuch(met_, reversal, shorter)) lossy = std::max(lossy, n + 1.0);
@@ -231,7 +231,7 @@ int ImpactResolution::halvingsOf(double h, const Points& visitPoints) {
   });
   model_->cut().reduce(&lossy, 1, sums_.data(), static_cast<int>(sums_.size()));
   int most = static_cast<int>(lossy);
-  while (most <= Tuned::mostHalvings && sums_[at(most)] > mostMisplaced()) ++most;
+  while (most <= StepGrid::mostHalvings && sums_[at(most)] > mostMisplaced()) ++most;
   if (most > 0) {
     recovering_ = true;
     calm_ = 0;

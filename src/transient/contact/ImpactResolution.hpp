@@ -111,7 +111,7 @@ class ImpactResolution {
   bool recovering_ = false;        ///< steps are short because of an impact
   double calm_ = 0;                ///< time for which closed contact has been without motion [s]
   MetWall met_;
-  std::array<double, Tuned::mostHalvings + 1>
+  std::array<double, StepGrid::mostHalvings + 1>
       sums_{};  ///< misplaced() after halvings, of all points
 };
 

@@ -15,8 +15,10 @@ void StepFactor::bind(CompiledModel& model) {
 
 bool StepFactor::renew(const StepScheme& scheme, const State& to, Counters& counters) {
   for (auto& batch : model_->points()) {
+    if (scheme.phase != 0.0) batch.lookAheadAlong(to.t, scheme.h, to.q.data(), to.v.data());
     batch.evaluateWithTangent(to.t, to.q.data(), to.v.data());
     batch.freezeTangent(1.0, scheme.velocity);
+    if (scheme.phase != 0.0) batch.leaveOutTurning(Tuned::mostTurn);
     batch.takeOutPush();
   }
   matrix_.refactor(scheme);

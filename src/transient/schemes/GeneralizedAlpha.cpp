@@ -252,7 +252,7 @@ void GeneralizedAlpha::bind(CompiledModel& model, const Window& window, double t
   scheme_->prepare(step, t);
   resolveImpacts_ = resolveImpacts_ && !model.points().empty() && scheme_->mass().regular();
   const int deepest = controlled_ ? deepestLevel(step) : maxHalvings_;
-  grid_.set(window, step, resolveImpacts_ ? std::max(deepest, Tuned::mostHalvings) : deepest);
+  grid_.set(window, step, resolveImpacts_ ? std::max(deepest, StepGrid::mostHalvings) : deepest);
   if (controlled_) control_.set(stepTolerance_, deepest, grid_.deepest());
   length_.bind(model);
   if (!resolveImpacts_) return;
@@ -291,10 +291,10 @@ void GeneralizedAlpha::checkParameters(double step) const {
 
 /// Halvings of the longest step down to the shortest allowed step.
 int GeneralizedAlpha::deepestLevel(double longest) const {
-  constexpr int defaultDeepest = 10, deepestOfAll = 30;
+  constexpr int defaultDeepest = 10;
   if (!(smallest_ > 0)) return defaultDeepest;
   return std::clamp(static_cast<int>(std::floor(std::log2(longest / smallest_) + Tuned::rounding)),
-                    0, deepestOfAll);
+                    0, StepGrid::mostHalvings);
 }
 
 void GeneralizedAlpha::advance(const State& from, State& to) {
@@ -421,7 +421,7 @@ void GeneralizedAlpha::giveUpAccuracy(const State& from, double h) {
 void GeneralizedAlpha::giveUpImpacts(const State& from, double h) const {
   std::ostringstream text;
   text << "An impact at t = " << from.t << " s needs steps of " << h << " s, "
-       << "shorter than Transient/Step / 2^" << Tuned::mostHalvings
+       << "shorter than Transient/Step / 2^" << StepGrid::mostHalvings
        << ". Reduce Transient/Step or the stiffness of the wall.";
   throw ConvergenceError(text.str());
 }

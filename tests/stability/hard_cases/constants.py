@@ -47,8 +47,8 @@ CASES = {
     "mostPointIterations": (FRICTION,), "mostPathSteps": (FRICTION,), "patience": (FRICTION,),
     "mostTroubled": (FRICTION,), "mostLost": (STIFF, BALLS), "mostMisplaced": (STIFF, BALLS),
     "resolved": (STIFF, BALLS), "calmSteps": (STIFF, BALLS), "lookStride": (STIFF, BALLS),
-    "quiet": (STIFF, BALLS), "mostHalvings": (STIFF, BALLS), "atATime": (STIFF, BALLS),
-    "mostPhase": (SMOOTH, PHASE), "lookAhead": (SMOOTH, STIFF)
+    "quiet": (STIFF, BALLS), "atATime": (STIFF, BALLS), "mostPhase": (SMOOTH, PHASE),
+    "mostTurn": (SMOOTH, STIFF), "lookAhead": (SMOOTH, STIFF)
 }
 
 
