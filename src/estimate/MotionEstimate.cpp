@@ -191,7 +191,7 @@ void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot,
 }
 
 void MotionEstimator::look(Impl& m, double t, const Vector& q, const Vector& qDot) {
-  if (m.pointStates.size() != m.compiled.stateSize())
+  if (m.pointStates.size() != m.compiled.states().size())
     throw Error(ExitCode::Internal, "The states of the point laws were not given to the estimate.");
   const bool first = m.sums.samples == 0;
   const double h = first ? 0.0 : t - m.time;

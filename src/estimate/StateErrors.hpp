@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "transient/compiled/PointBatch.hpp"
+#include "transient/points/PointBatch.hpp"
 
 namespace tooljoint::estimate {
 

@@ -23,7 +23,7 @@ struct State {
   Vector q;     ///< displacement
   Vector v;     ///< velocity
   Vector a;     ///< acceleration
-  Vector x;     ///< states of point laws, CompiledModel::stateSize()
+  Vector x;     ///< states of point laws, ModelStates::size()
   Vector xDot;  ///< their rates, 0 for held ones
   void resize(int n, int states = 0) {
     for (Vector* each : {&q, &v, &a}) each->setZero(n);

@@ -14,7 +14,7 @@ Sampler::Sampler(const CompiledModel& model, const TransientOptions& options, Sa
       count_(done) {
   if (share != nullptr) gathering_ = dynamic_cast<ShareSink*>(&sink);
   if (gathering_ != nullptr && !gathering_->gathers()) gathering_ = nullptr;
-  middle_.resize(model.size(), model.stateSize());
+  middle_.resize(model.size(), model.states().size());
   if (gathering_ != nullptr) return;
   for (Vector* x : {&q_, &v_, &a_}) x->setZero(model.wholeSize());
 }
@@ -42,14 +42,14 @@ const State& Sampler::between(const State& from, const State& to, double x) {
   middle_.a = 6 * x * (1 - x) / h * (to.v - from.v) + (1 - x) * (1 - 3 * x) * from.a +
               x * (3 * x - 2) * to.a;
   x_ = h00 * from.x + h10 * from.xDot + h01 * to.x + h11 * to.xDot;
-  model_.blendStates(x_, x_, 0.0, from.x, middle_.x);
+  model_.states().blend(x_, x_, 0.0, from.x, middle_.x);
   return middle_;
 }
 
 void Sampler::give(double t, const State& state) {
   ++count_;
   x_ = state.x;
-  model_.joinStates(x_);
+  model_.states().join(x_);
   if (gathering_ != nullptr)
     return guard([&] { gathering_->sampleShare({t, *share_, state.q, state.v, state.a, x_}); });
   model_.toDofs(state.q, q_);
@@ -70,7 +70,7 @@ void Sampler::guard(const Work& work) {
 }
 
 void Sampler::pass(double t) {
-  if (model_.stateSize() > 0) sink_.states(x_);
+  if (model_.states().size() > 0) sink_.states(x_);
   sink_.sample(t, q_, v_, a_);
 }
 

@@ -91,8 +91,8 @@ class Run {
       own.sampling = hooks.watchInterval;
       watcher_.emplace(model_, own, *hooks.watcher, 0, share_.get());
     }
-    state_.resize(model_.size(), model_.stateSize());
-    next_.resize(model_.size(), model_.stateSize());
+    state_.resize(model_.size(), model_.states().size());
+    next_.resize(model_.size(), model_.states().size());
   }
 
   TransientReport go() {
@@ -173,12 +173,12 @@ class Run {
     model_.toPositions(whole_.initialDisplacement, state.q);
     model_.toPositions(whole_.initialVelocity, state.v);
     model_.setTime(state.t);
-    if (model_.stateSize() == 0) return;
+    if (model_.states().size() == 0) return;
     if (!integrator_->carriesPointStates())
       throw ModelError("The integrator \"" + options_.integrator +
                        "\" does not carry the states of point laws, but the law of \"" +
                        firstWithStates() + "\" has states. Use \"Generalized-alpha\" or \"RK4\".");
-    model_.initialStates(state.t, state.q.data(), state.v.data(), state.x.data());
+    model_.states().initial(state.t, state.q.data(), state.v.data(), state.x.data());
   }
 
   std::string firstWithStates() const {
@@ -192,8 +192,8 @@ class Run {
       throw DeckError("The checkpoint was written by the integrator \"" + point.integrator +
                       "\", the deck names \"" + options_.integrator +
                       "\". Restart with the same deck.");
-    if (point.state.q.size() != model_.wholeSize() || point.state.x.size() != model_.stateSize() ||
-        !isOfThisModel(point))
+    if (point.state.q.size() != model_.wholeSize() ||
+        point.state.x.size() != model_.states().size() || !isOfThisModel(point))
       throw DeckError(
           "The model or the steps of the checkpoint differ from those of this deck. Restart with "
           "the same deck.");
@@ -242,7 +242,7 @@ class Run {
       end = first + point.shares[rank];
     }
     const double* memory = first;
-    model_.restore(memory);
+    model_.timed().restore(memory);
     for (auto& batch : model_.points()) batch.restore(memory);
     integrator_->restore(memory);
     if (options_.ledger) ledger_.restore(model_, integrator_->ledgerStride(), memory);
@@ -254,7 +254,7 @@ class Run {
           "The checkpoint holds another amount of memory than this program reads. Go on with the "
           "program that wrote it.");
     memory = first;
-    model_.restore(memory);  // the other restores have set other times
+    model_.timed().restore(memory);  // the other restores have set other times
     countOn(point);
   }
 
@@ -270,14 +270,14 @@ class Run {
     model_.toPositions(dofs.q, state_.q);
     model_.toPositions(dofs.v, state_.v);
     model_.toPositions(dofs.a, state_.a);
-    for (Vector* states : {&state_.x, &state_.xDot}) model_.keepOwnStates(*states);
+    for (Vector* states : {&state_.x, &state_.xDot}) model_.states().keepOwn(*states);
   }
   State stateInDofs() const {
     State dofs = state_;
     model_.toDofs(state_.q, dofs.q);
     model_.toDofs(state_.v, dofs.v);
     model_.toDofs(state_.a, dofs.a);
-    for (Vector* states : {&dofs.x, &dofs.xDot}) model_.joinStates(*states);
+    for (Vector* states : {&dofs.x, &dofs.xDot}) model_.states().join(*states);
     return dofs;
   }
 
@@ -325,7 +325,7 @@ class Run {
     point.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     point.samples = sampler_.count();
     point.runawaySamples = energy_.wrongSamples;
-    model_.save(point.memory);
+    model_.timed().save(point.memory);
     for (const auto& batch : model_.points()) batch.save(point.memory);
     integrator_->save(point.memory);
     integrator_->carry(point.carried);

@@ -43,11 +43,11 @@ class Trapezoidal final : public FixedStepIntegrator {
     to.q = from.q + 0.5 * h * from.v;      // where v_{n+1} = 0
     to.a = -from.a - 2.0 / h * from.v;     // likewise
     base_ = from.x + 0.5 * h * from.xDot;  // x_{n+1} = base + h/2 x'_{n+1}
-    model_->bindStates(base_.data(), 0.5 * h);
+    model_->states().bind(base_.data(), 0.5 * h);
     if (!equations_.solve(from.t, to, {h, 2.0 / h, 4.0 / (h * h), 0, 0, 1}, counters_))
       throw ConvergenceError("The equations of the step from t = " + formatNumber(from.t) +
                              " s have no solution that Newton finds. " + advice() + ".");
-    model_->completeStates(to.t, to.q.data(), to.v.data(), to.x.data(), to.xDot.data());
+    model_->states().complete(to.t, to.q.data(), to.v.data(), to.x.data(), to.xDot.data());
   }
 
  private:

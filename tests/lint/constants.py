@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 TUNED, PAGE = pathlib.Path("src/transient/Tuned.hpp"), pathlib.Path("docs/step-constants.md")
-LOOP = ("src/transient/contact/*.?pp", "src/transient/compiled/*.?pp",
+LOOP = ("src/transient/contact/*.?pp", "src/transient/compiled/*.?pp", "src/transient/points/*.?pp",
         "src/transient/implicit/*.?pp", "src/transient/schemes/ImplicitStep.?pp",
         "src/transient/schemes/AlphaStep.?pp", "src/transient/schemes/GeneralizedAlpha.cpp")
 JUDGES = ("src/transient/verdict/*.?pp", "src/transient/accuracy/*.?pp")

@@ -64,13 +64,11 @@ MEMBER = "  std::map<int, double> m{0}_{{1, 2}};\n  int f{0}(int a) const {{ ret
 FULL = "class Full {\n" + "".join(MEMBER.format(i) for i in range(sizes.MEMBERS)) + "};\n"
 WIDE = ("class Wide : public Base {\n int a_, b_ = 2;\n struct S {\n  int c;\n } s_;\n" +
         " std::function<void(int)> f_;\n" * (sizes.MEMBERS - 2) + "};\n")
-KERNEL = "struct Kernel {\n" + "".join(f"  int a{i};\n" for i in range(30)) + "};\n"
 PAGE = ("| app | 9,000 | all |\n\n## Recipes\n\n**A long one.**\n" + "a line\n" * sizes.RECIPE +
         "\n**A short one.**\n")
 SIZES = {
     "src/io/W.hpp": (SPDX + FULL, None),
     "src/io/X.hpp": (SPDX + WIDE, "Wide has 26 data members"),
-    "src/transient/compiled/Y.hpp": (SPDX + KERNEL, None),
     "docs/architecture.md": (PAGE, ("lint.py --rooms", "a recipe of 21 lines",
                                     "says that app have 9,000 lines; they have 3")),
     "tests/unit/a/W.py": (PYTHON + "x = 1  # " + "a" * 91 + "\n", None),

@@ -25,14 +25,14 @@ void EnergyLedger::allocate(CompiledModel& model) {
   for (Vector* x : {&q_, &v_, &step_, &change_, &product_, &internal_, &load_}) x->setZero(n);
   dissipative_.clear();
   account_.dampingNames.clear();
-  for (std::size_t i = 0; i < model.damping().terms().size(); ++i) {
-    if (model.damping().terms()[i].skew) continue;
+  for (std::size_t i = 0; i < model.timed().damping().terms().size(); ++i) {
+    if (model.timed().damping().terms()[i].skew) continue;
     dissipative_.push_back(i);
-    account_.dampingNames.push_back(model.damping().terms()[i].name);
+    account_.dampingNames.push_back(model.timed().damping().terms()[i].name);
   }
   account_.damping.resize(dissipative_.size(), 0.0);
   sums_.assign(fewestSums + dissipative_.size(), 0.0);
-  conservative_ = !model.cut().any(!model.stiffness().isConservative());
+  conservative_ = !model.cut().any(!model.timed().stiffness().isConservative());
 }
 
 template <class Power>
@@ -56,14 +56,14 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   allocate(model);
   model.setTime(state.t);
   model.addStiffness(state.q.data(), internal_.data());
-  load_ = Eigen::Map<const Vector>(model.load(), model.size());
+  load_ = Eigen::Map<const Vector>(model.timed().load(), model.size());
   q_ = state.q;
   v_ = state.v;
   x_ = middle_ = rate_ = state.x;
   time_ = reached_ = state.t;
   longest_ = 0;
   strain_ = 0.5 * model.dot(state.q, internal_);
-  model.bindStates(state.x.data());
+  model.states().bind(state.x.data());
   const auto everyPoint = [&](auto& batch) {
     return batch.power(state.t, state.q.data(), state.v.data(), batch.everyPoint());
   };
@@ -90,7 +90,7 @@ void EnergyLedger::book(CompiledModel& model, const State& to) {
 /// dq. For a constant symmetric K this work is the change of q'K q / 2; any difference is
 /// circulatory work. Damping: dq' C_i dq for each term. Results go to sums_, after `loads`.
 void EnergyLedger::formWorks(const CompiledModel& model, const State& to, double loads) {
-  const auto& terms = model.damping().terms();
+  const auto& terms = model.timed().damping().terms();
   double strain = 0, work = 0;
   std::fill(sums_.begin(), sums_.end(), 0.0);
   double* dissipated = sums_.data() + fewestSums;
@@ -98,7 +98,7 @@ void EnergyLedger::formWorks(const CompiledModel& model, const State& to, double
     const int begin = model.pattern().start(run.begin),
               length = model.pattern().start(run.end) - begin;
     if (conservative_) {
-      strain += 0.5 * model.stiffness().form(to.q.data(), run);
+      strain += 0.5 * model.timed().stiffness().form(to.q.data(), run);
     } else {
       const auto step = step_.segment(begin, length);
       auto product = product_.segment(begin, length);
@@ -110,7 +110,7 @@ void EnergyLedger::formWorks(const CompiledModel& model, const State& to, double
     }
     for (std::size_t i = 0; i < dissipative_.size(); ++i) {
       const auto& term = terms[dissipative_[i]];
-      if (model.damping().factor(dissipative_[i]) != 0.0)
+      if (model.timed().damping().factor(dissipative_[i]) != 0.0)
         dissipated[i] += term.product.form(term.values.data(), step_.data(), run);
     }
   }
@@ -121,7 +121,7 @@ void EnergyLedger::formWorks(const CompiledModel& model, const State& to, double
 /// (F_n + F_{n+1}) / 2 . dq
 double EnergyLedger::workOfLoads(CompiledModel& model, double begin, const State& to, bool jumps) {
   const double h = to.t - begin;
-  const double* load = model.load();
+  const double* load = model.timed().load();
   double loads = 0;
   for (int i = 0; i < step_.size(); ++i) {
     step_[i] = to.q[i] - q_[i];
@@ -131,10 +131,10 @@ double EnergyLedger::workOfLoads(CompiledModel& model, double begin, const State
   }
   if (jumps) {
     // velocity varies linearly within the step, up to the one at its end
-    model.setMoment(begin, to.t);
+    model.timed().setMoment(begin, to.t);
     for (int i = 0; i < step_.size(); ++i) loads += 2 * load[i] * (h * to.v[i] - step_[i]);
     model.setTime(to.t);
-    load_ = Eigen::Map<const Vector>(model.load(), model.size());
+    load_ = Eigen::Map<const Vector>(model.timed().load(), model.size());
   }
   return loads;
 }
@@ -143,7 +143,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   skipped_ = 0;
   const double h = to.t - time_;
   const double begin = time_;
-  const bool jumps = model.setMean(begin, to.t);
+  const bool jumps = model.timed().setMean(begin, to.t);
   const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
   double fed = 0;  // by negative damping
   time_ = to.t;
@@ -159,18 +159,19 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   exchanged += std::abs(strain - strain_);
   strain_ = strain;
   for (std::size_t i = 0; i < dissipative_.size(); ++i) {
-    const double taken = model.damping().factor(dissipative_[i]) * sums_[fewestSums + i] / h;
+    const double taken =
+        model.timed().damping().factor(dissipative_[i]) * sums_[fewestSums + i] / h;
     entry(account_.damping[i], taken);
     fed += std::max(0.0, -taken);
   }
   // point laws: mean power of the step times h; friction: FrictionWork
   if (!model.points().empty()) {
-    if (model.stateSize() > 0) bindChord(model, to, h);
+    if (model.states().size() > 0) bindChord(model, to, h);
     change_ = to.v - v_;
     v_ = to.v;
     const auto power = [&](auto& batch) {
       auto each = batch.meanPower(to.t, h, to.q.data(), to.v.data(), step_.data(), change_.data(),
-                                  batch.acted());
+                                  batch.selected().acted());
       if (sliding_.has(static_cast<std::size_t>(&batch - model.points().data())))
         each.friction = each.drive = 0;
       return each;
@@ -181,7 +182,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     entry(account_.friction, h * mean.friction);
     entry(account_.contactDamping, h * mean.damping);
     entry(account_.drive, h * mean.drive);
-    for (auto& batch : model.points()) batch.bookPowers();
+    for (auto& batch : model.points()) batch.selected().book();
     exchanged += std::abs(mean.stored - stored_);
     stored_ = mean.stored;
   }
@@ -192,15 +193,15 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
 
 /// Binds the states in the middle of the chord, and their rates along it.
 void EnergyLedger::bindChord(CompiledModel& model, const State& to, double h) {
-  model.blendStates(x_, to.x, 0.5, to.x, middle_);
+  model.states().blend(x_, to.x, 0.5, to.x, middle_);
   rate_ = (to.x - x_) / h;
   x_ = to.x;
-  model.bindStates(middle_.data(), 0.0, rate_.data());
+  model.states().bind(middle_.data(), 0.0, rate_.data());
 }
 
 /// Inactive points store no energy.
 double EnergyLedger::storedNow(CompiledModel& model, const State& state) {
-  model.bindStates(state.x.data());
+  model.states().bind(state.x.data());
   const auto active = [&](auto& batch) {
     return batch.power(state.t, state.q.data(), state.v.data(), batch.active());
   };
@@ -248,7 +249,7 @@ void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memo
                     &account_.circulatory, &account_.exchanged, &account_.supplied})
     *x = *memory++;
   for (double& x : account_.damping) x = *memory++;
-  x_.setZero(model.stateSize());
+  x_.setZero(model.states().size());
   middle_ = rate_ = x_;
   for (Vector* vector : {&q_, &v_, &internal_, &load_, &x_})
     for (double& x : *vector) x = *memory++;

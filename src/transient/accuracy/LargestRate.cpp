@@ -56,8 +56,8 @@ LargestRate::Rates LargestRate::operator()(const State& state, double end) {
       subtractPoints(points, x, y);
     };
   };
-  const double k = norm(sum(model_.stiffness(), &Tangents::position));
-  const double g = norm(sum(model_.damping(), &Tangents::velocity));
+  const double k = norm(sum(model_.timed().stiffness(), &Tangents::position));
+  const double g = norm(sum(model_.timed().damping(), &Tangents::velocity));
   const double contact = normOfPoints(&Tangents::position), c = normOfPoints(&Tangents::state);
   return {largestRoot(g, k, c) + model_.cut().largest(ofStates_), std::sqrt(contact)};
 }
@@ -93,7 +93,7 @@ std::vector<double> LargestRate::largestLaws(double begin, double end) const {
 }
 
 void LargestRate::evaluatePoints(const State& state, Which which) {
-  model_.bindStates(state.x.data());
+  model_.states().bind(state.x.data());
   tangents_.clear();
   ofStates_ = 0;
   for (auto& batch : model_.points()) {

@@ -7,8 +7,8 @@
 
 #include "common/Index.hpp"
 #include "transient/Tuned.hpp"
-#include "transient/compiled/PointWidth.hpp"
 #include "transient/contact/FewRows.hpp"
+#include "transient/points/PointWidth.hpp"
 
 namespace tooljoint::transient {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "transient/Strategies.hpp"
-#include "transient/compiled/PointBatch.hpp"
 #include "transient/contact/PointSolve.hpp"
+#include "transient/points/PointBatch.hpp"
 
 namespace tooljoint::transient {
 

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "transient/Strategies.hpp"
-#include "transient/compiled/PointBatch.hpp"
+#include "transient/points/PointBatch.hpp"
 
 namespace tooljoint::transient {
 

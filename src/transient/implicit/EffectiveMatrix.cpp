@@ -20,7 +20,7 @@ double rowNorm(const linalg::BlockPattern& pattern, const double* values, const 
 
 void EffectiveMatrix::bind(CompiledModel& model) {
   model_ = &model;
-  laws_.assign(model.lawValues().size(), 0.0);
+  laws_.assign(model.timed().lawValues().size(), 0.0);
   rows_.setZero(model.size());
   factor_ = linalg::BlockFactor(model.pattern());
   if (!model.points().empty()) factor_.reserveInverse();
@@ -30,17 +30,17 @@ void EffectiveMatrix::setWeights(const Vector& weight) {
   const auto& pattern = model_->pattern();
   dampingNorms_.clear();
   stiffnessNorms_.clear();
-  for (const auto& term : model_->damping().terms())
+  for (const auto& term : model_->timed().damping().terms())
     dampingNorms_.push_back(rowNorm(pattern, term.values.data(), weight, rows_));
-  for (const auto& term : model_->stiffness().terms())
+  for (const auto& term : model_->timed().stiffness().terms())
     stiffnessNorms_.push_back(rowNorm(pattern, term.values.data(), weight, rows_));
 }
 
 void EffectiveMatrix::refactor(const StepScheme& scheme) {
   scheme_ = scheme;
-  time_ = model_->time();
-  stamp_ = model_->matrixStamp();
-  laws_ = model_->lawValues();
+  time_ = model_->timed().time();
+  stamp_ = model_->timed().matrixStamp();
+  laws_ = model_->timed().lawValues();
   rebuild();
 }
 
@@ -51,17 +51,17 @@ void EffectiveMatrix::rebuild() {
 }
 
 void EffectiveMatrix::addDrift(const StepScheme& scheme, const Vector& delta, Vector& y) {
-  model_->addChangeSince(laws_, scheme.velocity, delta.data(), y.data());
+  model_->timed().addChangeSince(laws_, scheme.velocity, delta.data(), y.data());
 }
 
 double EffectiveMatrix::driftNorm(const StepScheme& scheme) const {
   double norm = 0;
-  const auto& laws = model_->lawValues();
-  const auto& damping = model_->damping().terms();
+  const auto& laws = model_->timed().lawValues();
+  const auto& damping = model_->timed().damping().terms();
   for (std::size_t i = 0; i < damping.size(); ++i)
     norm += scheme.velocity * std::abs(laws[at(damping[i].law)] - laws_[at(damping[i].law)]) *
             dampingNorms_[i];
-  const auto& stiffness = model_->stiffness().terms();
+  const auto& stiffness = model_->timed().stiffness().terms();
   for (std::size_t i = 0; i < stiffness.size(); ++i)
     norm += std::abs(laws[at(stiffness[i].law)] - laws_[at(stiffness[i].law)]) * stiffnessNorms_[i];
   return norm;

@@ -31,7 +31,7 @@ class EffectiveMatrix {
   linalg::BlockFactor& factor() { return factor_; }
   const StepScheme& scheme() const { return scheme_; }
 
-  bool hasDrifted() const { return stamp_ != model_->matrixStamp(); }
+  bool hasDrifted() const { return stamp_ != model_->timed().matrixStamp(); }
   /// y += (S(now) - S(then)) delta
   void addDrift(const StepScheme& scheme, const Vector& delta, Vector& y);
   /// Bound of max |w (S(now) - S(then)) x| / max |x|.
@@ -44,11 +44,11 @@ class EffectiveMatrix {
   void restore(const double*& memory, const Rebuild& rebuild) {
     const bool current = take(memory);
     if (!factored_) return;
-    const double now = model_->time();
+    const double now = model_->timed().time();
     model_->setTime(time_);
     rebuild();
     model_->setTime(now);
-    stamp_ = current ? model_->matrixStamp() : -1;
+    stamp_ = current ? model_->timed().matrixStamp() : -1;
   }
 
  private:

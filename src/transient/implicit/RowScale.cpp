@@ -25,8 +25,8 @@ void RowScale::find(const StepScheme& scheme, double t) {
   inertia_ = inertia_.cwiseProduct(weight_);
   // Row sums of |K| bound the rounding of K q.
   rounding_.setZero();
-  if (!model_->stiffness().empty())
-    rowSums(model_->pattern(), model_->stiffness().current(), rounding_);
+  if (!model_->timed().stiffness().empty())
+    rowSums(model_->pattern(), model_->timed().stiffness().current(), rounding_);
   rounding_ = 2 * std::numeric_limits<double>::epsilon() * rounding_.cwiseProduct(weight_);
 }
 
@@ -38,7 +38,7 @@ void RowScale::save(std::vector<double>& memory) const {
 /// Restores the weights, which belong to the laws at their time.
 void RowScale::restore(const double*& memory, const StepScheme& scheme) {
   time_ = *memory++;
-  const double now = model_->time();
+  const double now = model_->timed().time();
   if (scheme.h > 0) find(scheme, time_);
   model_->setTime(now);
   for (double& x : weight_) x = *memory++;

@@ -29,7 +29,7 @@ void StepEquations::begin(const State& to, const StepScheme& scheme) {
 /// cache.
 void StepEquations::linearise(const State& to, const StepScheme* rest) {
   const CompiledModel& model = *model_;
-  const Eigen::Map<const Vector> load(model.load(), model.size());
+  const Eigen::Map<const Vector> load(model.timed().load(), model.size());
   const double ahead = rest != nullptr ? rest->acceleration / rest->velocity : 0.0;
   const int interior = model.cut().interior(model.size());
   double sizes[2] = {0, 0};  // largest force, largest rounding error

@@ -20,17 +20,17 @@ StepScheme AlphaStep::scheme(double h) const {
 void AlphaStep::start(CompiledModel& model, double h, State& state, Counters& counters) {
   model_ = &model;
   const int n = model.size();
-  model.setStart(state.t, h);
+  model.timed().setStart(state.t, h);
   mass_ = std::make_shared<MassFactor>(model);
   ++counters.factorisations;
-  model.bindStates(state.x.data());
+  model.states().bind(state.x.data());
   balanceMassless(model, *mass_, h, state);
   for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
   state.a.setZero();
   model.addStiffness(state.q.data(), state.a.data());
   model.addDamping(state.v.data(), state.a.data());
   state.a = -state.a;
-  for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
+  for (int i = 0; i < n; ++i) state.a[i] += model.timed().load()[i];
   model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
   if (mass_->regular()) {
     mass_->solve(state.a);
@@ -41,7 +41,7 @@ void AlphaStep::start(CompiledModel& model, double h, State& state, Counters& co
     state.a.setZero();
   }
   equation_.bind(model, parameters_.equations);
-  model.stateRates(state.xDot.data());
+  model.states().rates(state.xDot.data());
   X_ = nextX_ = base_ = state.xDot;
   bind(state.a);
 }
@@ -76,7 +76,7 @@ void AlphaStep::predict(const State& from, State& to, double h) {
     part(to.a) = c * (part(A_) - alpha_.f * part(from.a)) - ofVelocity * part(to.v);
   }
   lastImpacts_.add(c * alpha_.f / s.impact, to.a);
-  if (model_->stateSize() > 0) bindStates(from, h);
+  if (model_->states().size() > 0) bindStates(from, h);
 }
 
 /// x_{n+1} = x_n + h ((1 - g) X_n + g (af x'_n - am X_n) / (1 - am)) + h g (1 - af) / (1 - am)
@@ -84,12 +84,12 @@ void AlphaStep::predict(const State& from, State& to, double h) {
 void AlphaStep::bindStates(const State& from, double h) {
   base_ = from.x + h * ((1 - alpha_.gamma) * X_ +
                         alpha_.gamma / (1 - alpha_.m) * (alpha_.f * from.xDot - alpha_.m * X_));
-  model_->bindStates(base_.data(), h * alpha_.gamma * (1 - alpha_.f) / (1 - alpha_.m));
+  model_->states().bind(base_.data(), h * alpha_.gamma * (1 - alpha_.f) / (1 - alpha_.m));
 }
 
 /// nextX_ = X_{n+1}, like nextA_ in complete().
 void AlphaStep::completeStates(const State& from, State& to) {
-  model_->completeStates(to.t, to.q.data(), to.v.data(), to.x.data(), to.xDot.data());
+  model_->states().complete(to.t, to.q.data(), to.v.data(), to.x.data(), to.xDot.data());
   nextX_ = ((1 - alpha_.f) * to.xDot + alpha_.f * from.xDot - alpha_.m * X_) / (1 - alpha_.m);
 }
 
@@ -109,7 +109,7 @@ void AlphaStep::complete(const State& from, State& to, double h) {
                last = alpha_.m / (1 - alpha_.m);
   const double s = scheme(h).impact;
   impacts_.find(*model_, *mass_);
-  if (model_->stateSize() > 0) completeStates(from, to);
+  if (model_->states().size() > 0) completeStates(from, to);
   nextA_ = now * to.a + before * from.a - last * A_;
   impacts_.add(-now, nextA_);
   lastImpacts_.add(-before / s, nextA_);
@@ -179,13 +179,13 @@ void AlphaStep::carry(CarriedMemory& memory) const {
   memory.vectors.push_back(A_);
   memory.vectors.emplace_back(Eigen::Map<const Vector>(impacts.data(), A_.size()));
   Vector X = X_;
-  model_->joinStates(X);
+  model_->states().join(X);
   memory.numbers.insert(memory.numbers.end(), X.begin(), X.end());
 }
 
 void AlphaStep::takeUp(const std::vector<Vector>& vectors, const double*& numbers) {
   for (double& x : X_) x = *numbers++;
-  model_->keepOwnStates(X_);
+  model_->states().keepOwn(X_);
   A_ = vectors[0];
   const double* impacts = vectors[1].data();
   lastImpacts_.restore(impacts);

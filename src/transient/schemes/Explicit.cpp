@@ -40,11 +40,11 @@ void ExplicitRightHandSide::evaluate(double t, const Vector& q, const Vector& v,
   a.setZero();
   model_->addStiffness(q.data(), a.data());
   model_->addDamping(v.data(), a.data());
-  const double* load = model_->load();
+  const double* load = model_->timed().load();
   for (int i = 0; i < n; ++i) a[i] = load[i] - a[i];
-  model_->bindStates(x.data());
+  model_->states().bind(x.data());
   model_->addPointForces(t, q.data(), v.data(), a.data());
-  model_->stateRates(xDot.data());
+  model_->states().rates(xDot.data());
   mass_.solve(a.data());
 }
 

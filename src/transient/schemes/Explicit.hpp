@@ -36,7 +36,7 @@ class ExplicitRightHandSide {
   /// The same at t in a step of length h from `begin`, see CompiledModel::setStage().
   void stage(double t, double begin, double h, const Vector& q, const Vector& v, const Vector& x,
              Vector& a, Vector& xDot) {
-    model_->setStage(t, begin, h);
+    model_->timed().setStage(t, begin, h);
     evaluate(t, q, v, x, a, xDot);
   }
   /// The same for a state: a and xDot.
@@ -45,7 +45,7 @@ class ExplicitRightHandSide {
   }
   /// Updates the held states of point laws at the end of a step, then complete().
   void accept(State& state) {
-    model_->acceptStates(state.t, state.q.data(), state.v.data(), state.x.data());
+    model_->states().accept(state.t, state.q.data(), state.v.data(), state.x.data());
     complete(state);
   }
 

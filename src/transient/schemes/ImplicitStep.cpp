@@ -5,7 +5,7 @@ namespace tooljoint::transient {
 
 void ImplicitStep::bind(CompiledModel& model, const Options& options) {
   model_ = &model;
-  predicted_.resize(model.size(), model.stateSize());
+  predicted_.resize(model.size(), model.states().size());
   strategies_.leaveOut(options.without);
   equations_.bind(model, options.tolerance);
   factor_.bind(model);
@@ -26,7 +26,7 @@ void ImplicitStep::prepare(const StepScheme& scheme, double t) {
 bool ImplicitStep::solve(double begin, State& to, const StepScheme& scheme, Counters& counters) {
   strategies_.countIn(counters.strategies);
   prepare(scheme, to.t);
-  model_->setStepEnd(begin, to.t);
+  model_->timed().setStepEnd(begin, to.t);
   equations_.begin(to, scheme_);
   return (relaxation_.isPossible() && relax(to, counters)) ||
          (strategies_.use(Strategy::Newton) && finish(to, counters));

@@ -193,7 +193,7 @@ class Balance {
     const Vector q = state_.q + h * state_.v;
     model_.addStiffness(q.data(), out.data());
     model_.addDamping(state_.v.data(), out.data());
-    out = Eigen::Map<const Vector>(model_.load(), model_.size()) - out;
+    out = Eigen::Map<const Vector>(model_.timed().load(), model_.size()) - out;
     for (auto& batch : model_.points()) batch.addForce(out.data());
     return out;
   }

@@ -94,7 +94,7 @@ class RungeKutta4Adaptive final : public Integrator {
   void advance(const State& from, State& to) override {
     for (;;) {
       // A step ends at the end of the run, or at a corner of a law, without a sliver before it.
-      const double end = rhs_.model().nextCorner(from.t, end_), left = end - from.t;
+      const double end = rhs_.model().timed().nextCorner(from.t, end_), left = end - from.t;
       step_ = std::min(step_, longestOfLaws_);
       const bool last = step_ >= left * (1 - 1e-9);
       const double h = last ? left : step_;
@@ -160,7 +160,7 @@ class RungeKutta4Adaptive final : public Integrator {
       return std::sqrt(rhs_.model().squaredNorm(difference_));
     };
     return (distance(whole_.q, to.q) + distance(whole_.v, to.v) +
-            rhs_.model().stateDistance(whole_.x, to.x)) /
+            rhs_.model().states().distance(whole_.x, to.x)) /
            15.0;
   }
 

@@ -18,7 +18,7 @@ CutOffEnergy::CutOffEnergy(const CompiledModel& model, const std::vector<double>
     : model_(&model) {
   const auto& source = model.source();
   const Vector mass = source.mass.diagonal();
-  const Vector stiffness = source.stiffnessAt(model.time()).diagonal();
+  const Vector stiffness = source.stiffnessAt(model.timed().time()).diagonal();
   const auto& position = model.pattern().partition().position;
   for (Eigen::Index i = 0; i < mass.size(); ++i) {
     const auto& dof = source.dofs[at(i)];

@@ -36,11 +36,11 @@ RetakenWindow::RetakenWindow(CompiledModel& model, const Integrator& run,
 /// Runs `work` on the model with the points of the second object, then restores the model.
 template <class Work>
 void RetakenWindow::withModel(const Work& work) {
-  model_->remember(snapshot_);
+  model_->timed().remember(snapshot_);
   points_.swap(model_->points());
   work();
   points_.swap(model_->points());
-  model_->comeBack(snapshot_);
+  model_->timed().comeBack(snapshot_);
 }
 
 void RetakenWindow::begin(const Integrator& run, const State& from) {

@@ -43,8 +43,8 @@ class RetakenWindow {
 
   CompiledModel* model_;
   std::unique_ptr<Integrator> second_;
-  std::vector<PointBatch> points_;    ///< of the second object
-  CompiledModel::Snapshot snapshot_;  ///< of the run
+  std::vector<PointBatch> points_;  ///< of the second object
+  TimedTerms::Snapshot snapshot_;   ///< of the run
   double h_;
   State from_;                   ///< start of the window
   Vector first_;                 ///< displacement at the end of its first step

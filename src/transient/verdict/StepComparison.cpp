@@ -71,19 +71,19 @@ void StepComparison::begin(Motion& motion, std::unique_ptr<Integrator> scheme, d
   model_->setTime(window.begin);
   motion.scheme->prepare(*model_, window, motion.state);
   motion.points.swap(model_->points());
-  model_->remember(motion.model);
+  model_->timed().remember(motion.model);
 }
 
 /// Advances to the end of the step at t.
 void StepComparison::advance(Motion& motion, double t) {
-  model_->comeBack(motion.model);
+  model_->timed().comeBack(motion.model);
   motion.points.swap(model_->points());
   while (motion.state.t < t - 1e-6 * window_.step) {
     motion.scheme->advance(motion.state, motion.next);
     std::swap(motion.state, motion.next);
   }
   motion.points.swap(model_->points());
-  model_->remember(motion.model);
+  model_->timed().remember(motion.model);
 }
 
 std::unique_ptr<Integrator> StepComparison::sharpened() const {
@@ -94,8 +94,8 @@ std::unique_ptr<Integrator> StepComparison::sharpened() const {
 
 std::optional<StepComparison::Difference> StepComparison::compare(std::unique_ptr<Integrator> first,
                                                                   double step, double kick) {
-  CompiledModel::Snapshot snapshot;
-  model_->remember(snapshot);
+  TimedTerms::Snapshot snapshot;
+  model_->timed().remember(snapshot);
   const long steps = std::lround((window_.end - window_.begin) / window_.step);
   const long between = std::max(1L, steps / disturbances);
   Sums sums;
@@ -136,7 +136,7 @@ std::optional<StepComparison::Difference> StepComparison::compare(std::unique_pt
     }
   } catch (const ConvergenceError&) {
   }
-  model_->comeBack(snapshot);
+  model_->timed().comeBack(snapshot);
   if (stopped) throw InterruptedError("Interrupted while the time step was judged.");
   if (!whole || !sums.isFinite()) return std::nullopt;
   Difference found = differenceOf(sums);

@@ -66,7 +66,7 @@ class StepComparison {
   struct Motion {
     std::unique_ptr<Integrator> scheme;
     std::vector<PointBatch> points;
-    CompiledModel::Snapshot model;
+    TimedTerms::Snapshot model;
     State state, next;
   };
   void begin(Motion& motion, std::unique_ptr<Integrator> scheme, double step);

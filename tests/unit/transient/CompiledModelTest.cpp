@@ -58,10 +58,10 @@ model::SecondOrderModel rich() {
 TEST(CompiledModel, mergesTermsOfOneLaw) {
   const auto source = rich();
   const CompiledModel model(source);
-  ASSERT_EQ(model.damping().terms().size(), 3u);
-  EXPECT_EQ(model.damping().terms()[0].name, "damping + more damping");
-  EXPECT_EQ(model.damping().terms()[1].name, "gyroscopic + swirl");
-  EXPECT_EQ(model.stiffness().terms().size(), 2u);
+  ASSERT_EQ(model.timed().damping().terms().size(), 3u);
+  EXPECT_EQ(model.timed().damping().terms()[0].name, "damping + more damping");
+  EXPECT_EQ(model.timed().damping().terms()[1].name, "gyroscopic + swirl");
+  EXPECT_EQ(model.timed().stiffness().terms().size(), 2u);
 }
 
 TEST(CompiledModel, productsAndLoadsAreThoseOfTheModelAtEveryTime) {
@@ -92,7 +92,7 @@ TEST(CompiledModel, productsAndLoadsAreThoseOfTheModelAtEveryTime) {
                   Matrix(source.dampingAt(t)));
     expectProduct([&](linalg::BlockRange rows) { model.addStiffness(xp.data(), y.data(), rows); },
                   Matrix(source.stiffnessAt(t)));
-    model.toDofs(Eigen::Map<const Vector>(model.load(), n), back);
+    model.toDofs(Eigen::Map<const Vector>(model.timed().load(), n), back);
     EXPECT_LT((back - source.loadAt(t)).cwiseAbs().maxCoeff(), 1e-14);
   }
 }
@@ -142,12 +142,12 @@ TEST(CompiledModel, constantLawsCostNothing) {
   source.laws.own()[2].value = [](double t) { return t < 1 ? std::sqrt(t) : 1.0; };
   CompiledModel model(source);
   model.setTime(0.5);
-  const long changing = model.matrixStamp();
+  const long changing = model.timed().matrixStamp();
   model.setTime(1.5);
-  EXPECT_GT(model.matrixStamp(), changing);
-  const long steady = model.matrixStamp();
+  EXPECT_GT(model.timed().matrixStamp(), changing);
+  const long steady = model.timed().matrixStamp();
   model.setTime(2.5);
-  EXPECT_EQ(model.matrixStamp(), steady);
+  EXPECT_EQ(model.timed().matrixStamp(), steady);
 }
 
 TEST(CompiledModel, changeSinceAnotherTime) {
@@ -155,12 +155,12 @@ TEST(CompiledModel, changeSinceAnotherTime) {
   CompiledModel model(source);
   const int n = source.size();
   model.setTime(0.5);
-  const auto then = model.lawValues();
+  const auto then = model.timed().lawValues();
   model.setTime(2.0);
   const Vector x = sampleVector(n, 0.7);
   Vector xp, y = Vector::Zero(n), back;
   model.toPositions(x, xp);
-  model.addChangeSince(then, 4.0, xp.data(), y.data());
+  model.timed().addChangeSince(then, 4.0, xp.data(), y.data());
   model.toDofs(y, back);
   const Vector expected = 4.0 * ((source.dampingAt(2.0) - source.dampingAt(0.5)) * x) +
                           (source.stiffnessAt(2.0) - source.stiffnessAt(0.5)) * x;
@@ -175,7 +175,7 @@ TEST(CompiledModel, comesBackFromOtherTimes) {
   Vector x;
   model.toPositions(sampleVector(n, 0.7), x);
   const auto products = [&] {
-    Vector y = Eigen::Map<const Vector>(model.load(), n);
+    Vector y = Eigen::Map<const Vector>(model.timed().load(), n);
     model.addDamping(x.data(), y.data());
     model.addStiffness(x.data(), y.data());
     return y;
@@ -183,23 +183,23 @@ TEST(CompiledModel, comesBackFromOtherTimes) {
   for (const bool formed : {false, true}) {
     model.setTime(0.5);
     model.setTime(0.75);
-    if (formed) model.damping().current();
+    if (formed) model.timed().damping().current();
     const Vector before = products();
-    const long stamp = model.matrixStamp();
-    CompiledModel::Snapshot snapshot;
-    model.remember(snapshot);
+    const long stamp = model.timed().matrixStamp();
+    TimedTerms::Snapshot snapshot;
+    model.timed().remember(snapshot);
     model.setTime(2.0);
-    model.damping().current();
+    model.timed().damping().current();
     EXPECT_NE(products(), before);
     model.setTime(0.75);  // not formed
-    model.comeBack(snapshot);
+    model.timed().comeBack(snapshot);
     EXPECT_EQ(products(), before);
     model.setTime(2.0);
-    model.damping().current();
-    model.comeBack(snapshot);
+    model.timed().damping().current();
+    model.timed().comeBack(snapshot);
     EXPECT_EQ(products(), before);
-    EXPECT_EQ(model.matrixStamp(), stamp);
-    EXPECT_EQ(model.time(), 0.75);
+    EXPECT_EQ(model.timed().matrixStamp(), stamp);
+    EXPECT_EQ(model.timed().time(), 0.75);
   }
 }
 
@@ -208,10 +208,10 @@ TEST(CompiledModel, recognisesTermsThatDoNoWork) {
   Matrix G(2, 2);
   G << 0, 3, -3, 0;
   source.damping.push_back({"gyroscopic", G.sparseView(), 0});
-  EXPECT_TRUE(CompiledModel(source).damping().terms()[0].skew);
+  EXPECT_TRUE(CompiledModel(source).timed().damping().terms()[0].skew);
   G(0, 0) = 0.1;
   source.damping.own()[0].matrix = G.sparseView();
-  EXPECT_FALSE(CompiledModel(source).damping().terms()[0].skew);
+  EXPECT_FALSE(CompiledModel(source).timed().damping().terms()[0].skew);
 }
 
 TEST(CompiledModel, nodesStayTogetherAndNamesAreKept) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// No inactive point closes its clearance, and most points are inactive.
-#include "transient/compiled/ContactBroadPhase.hpp"
+#include "transient/points/ContactBroadPhase.hpp"
 
 #include <algorithm>
 #include <cmath>

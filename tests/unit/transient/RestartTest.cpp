@@ -346,11 +346,11 @@ TEST(Restarts, keepHowSumsAreFormed) {
   ASSERT_NE(products(unformed), expected);
   for (CompiledModel* model : {&formed, &unformed}) {
     std::vector<double> memory;
-    model->save(memory);
+    model->timed().save(memory);
     const double* at = memory.data();
-    restored.restore(at);
+    restored.timed().restore(at);
     EXPECT_EQ(at, memory.data() + memory.size());
-    EXPECT_EQ(restored.time(), 0.3);
+    EXPECT_EQ(restored.timed().time(), 0.3);
     EXPECT_EQ(products(restored), products(*model));
   }
 }

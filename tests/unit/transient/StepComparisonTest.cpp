@@ -41,7 +41,7 @@ struct Compared {
             Window{0, span, 0, wh / w}, span, start(source), stop) {}
   State start(const model::SecondOrderModel& source) const {
     State state;
-    state.resize(model.size(), model.stateSize());
+    state.resize(model.size(), model.states().size());
     model.toPositions(source.initialDisplacement, state.q);
     return state;
   }
@@ -316,7 +316,7 @@ TEST(StepComparison, halvesTheStepsOfImpactsToo) {
     const auto scheme = IntegratorRegistry::instance().make("Generalized-alpha", own);
     if (sharp) scheme->sharpen();
     State from, to;
-    from.resize(model.size(), model.stateSize());
+    from.resize(model.size(), model.states().size());
     to = from;
     model.toPositions(balls.initialDisplacement, from.q);
     scheme->prepare(model, Window{0, 0.5, 0, 2e-3}, from);

@@ -34,7 +34,7 @@ void FirstOrderForm::bind(CompiledModel& model, const std::string& integrator) {
                      "that degree of freedom a mass.");
   right_.setZero(n_);
   product_.setZero(n_);
-  x_.setZero(model.stateSize());
+  x_.setZero(model.states().size());
   xDot_ = x_;
   rated_ = 0;
   int widest = 0;
@@ -42,7 +42,7 @@ void FirstOrderForm::bind(CompiledModel& model, const std::string& integrator) {
     rated_ += states.points() * states.rated();
     widest = std::max(widest, batch.points() * batch.width());
   });
-  holds_ = rated_ < model.stateSize();
+  holds_ = rated_ < model.states().size();
   for (Vector* rows : {&rows_, &dRows_, &vRows_}) rows->setZero(widest);
   for (Vector* each : {&y_, &yDot_, &before_}) each->setZero(size());
 }
@@ -87,7 +87,7 @@ bool FirstOrderForm::accept(State& state, double tolerance) {
   if (!holds_) return false;
   complete(state);
   before_ = yDot_;
-  model_->acceptStates(state.t, state.q.data(), state.v.data(), state.x.data());
+  model_->states().accept(state.t, state.q.data(), state.v.data(), state.x.data());
   x_ = state.x;
   complete(state);
   const double size = std::max(before_.cwiseAbs().maxCoeff(), yDot_.cwiseAbs().maxCoeff());
@@ -123,13 +123,13 @@ void FirstOrderForm::rightHandSide(double t, const double* y, double* yDot) {
   std::fill(a, a + n_, 0.0);
   model_->addStiffness(q, a);
   model_->addDamping(v, a);
-  const double* load = model_->load();
+  const double* load = model_->timed().load();
   for (int i = 0; i < n_; ++i) a[i] = load[i] - a[i];
   bindStates(y);
-  model_->bindStates(x_.data());
+  model_->states().bind(x_.data());
   model_->addPointForces(t, q, v, a);
   mass_.solve(a);
-  model_->stateRates(xDot_.data());
+  model_->states().rates(xDot_.data());
   forStates([&](auto&, const PointStates& states, int x, int z) {
     for (int p = 0; p < states.points(); ++p)
       std::copy_n(xDot_.data() + x + p * states.states(), states.rated(),
@@ -141,7 +141,7 @@ void FirstOrderForm::rightHandSide(double t, const double* y, double* yDot) {
 bool FirstOrderForm::factor(double t, const double* y, double gamma) {
   touch(t, y);
   bindStates(y);
-  model_->bindKnownStates(x_.data(), gamma);
+  model_->states().bindKnown(x_.data(), gamma);
   gamma_ = gamma;
   ++factorisations_;
   // M + g (C - R' df/dv R) + g^2 (K - R' df/dd R)

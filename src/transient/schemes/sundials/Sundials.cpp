@@ -239,7 +239,7 @@ class Sundials final : public Integrator {
       throw ConvergenceError(text.str());
     }
     const double before = stepper_->time();
-    stepper_->stopAt(form_.model().nextCorner(before, window_.end));
+    stepper_->stopAt(form_.model().timed().nextCorner(before, window_.end));
     const SundialsTrouble trouble = stepper_->step();
     count();
     if (trouble != SundialsTrouble::None) giveUp(from, trouble);

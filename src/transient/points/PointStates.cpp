@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/compiled/PointStates.hpp"
+#include "transient/points/PointStates.hpp"
 
 #include <algorithm>
 #include <cmath>

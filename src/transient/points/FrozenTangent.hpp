@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "transient/compiled/PointRows.hpp"
+#include "transient/points/PointRows.hpp"
 
 namespace tooljoint::transient {
 

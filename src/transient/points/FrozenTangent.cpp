@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/compiled/FrozenTangent.hpp"
+#include "transient/points/FrozenTangent.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -12,10 +12,11 @@
 
 #include "linalg/blocks/BlockSparse.hpp"
 #include "model/SecondOrderModel.hpp"
-#include "transient/compiled/FrozenTangent.hpp"
-#include "transient/compiled/PointClearances.hpp"
-#include "transient/compiled/PointRows.hpp"
-#include "transient/compiled/PointStates.hpp"
+#include "transient/points/ActivePoints.hpp"
+#include "transient/points/FrozenTangent.hpp"
+#include "transient/points/PointClearances.hpp"
+#include "transient/points/PointRows.hpp"
+#include "transient/points/PointStates.hpp"
 
 namespace tooljoint::transient {
 
@@ -27,7 +28,10 @@ class PointBatch {
 
   int points() const { return points_; }
   int width() const { return rows_.width(); }
-  const std::vector<int>& active() const { return active_; }
+  /// Points that are evaluated; all points of this rank.
+  const std::vector<int>& active() const { return selected_.active(); }
+  const std::vector<int>& everyPoint() const { return selected_.all(); }
+  ActivePoints& selected() { return selected_; }
   long evaluations() const { return evaluations_; }
   const model::PointLaw& law() const { return *law_; }
   const std::string& name() const { return name_; }
@@ -99,14 +103,14 @@ class PointBatch {
   template <class Act>
   void forActiveIn(int block, const Act& act) const {
     rows_.forPointsIn(block, [&](int p) {
-      if (isActive_[static_cast<std::size_t>(p)]) act(p);
+      if (selected_.isMarked(p)) act(p);
     });
   }
 
   /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the calls below
   /// (FrozenTangent).
   void freezeTangent(double cd, double cv) {
-    frozen_.freeze(active_, dfdd_.data(), dfdv_.data(), cd, cv);
+    frozen_.freeze(active(), dfdd_.data(), dfdv_.data(), cd, cv);
   }
   void takeOutPush() { frozen_.takeOutPush(); }
   /// Evaluates df/dd of the active points at q + h v (time t), for leaveOutTurning(). Before
@@ -145,11 +149,6 @@ class PointBatch {
   model::PointLaw::Power meanPower(double t, double h, const double* q, const double* v,
                                    const double* dq, const double* dv,
                                    const std::vector<int>& points);
-  /// All points of this batch; points that were active since the last bookPowers().
-  const std::vector<int>& everyPoint() const { return all_; }
-  const std::vector<int>& acted();
-  /// Closes the booking up to now.
-  void bookPowers();
   /// Gathers position and velocity of all points, for recording.
   void gatherAll(const double* q, const double* v);
   const double* d() const { return d_.data(); }
@@ -163,7 +162,6 @@ class PointBatch {
 
  private:
   void gatherThese(const std::vector<int>& points, const double* q, const double* v);
-  void listActive();
   /// Function that evaluates the clearances at q, for PointClearances.
   auto measure(const double* q);
   void applyScale(const std::vector<int>& points, bool tangent);
@@ -181,10 +179,7 @@ class PointBatch {
   PointRows rows_;
   std::vector<double> offset_;
 
-  std::vector<int> active_;
-  std::vector<char> isActive_;
-  std::vector<char> hasActed_;  ///< active since the last bookPowers()
-  std::vector<int> acted_, all_;
+  ActivePoints selected_;
   PointClearances clearances_;
   std::vector<double> d_, v_, f_, dfdd_, dfdv_, ahead_;
   std::vector<double> scale_;

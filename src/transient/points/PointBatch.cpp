@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/compiled/PointBatch.hpp"
+#include "transient/points/PointBatch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,17 +36,13 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
       points_(set.law->size()),
       width_(set.law->width()),
       rows_(set, pattern),
-      all_(allOr(own, points_)),
-      clearances_(points_, watchOf(all_, set, pattern)),
+      selected_(points_, allOr(own, points_)),
+      clearances_(points_, watchOf(selected_.all(), set, pattern)),
       frozen_(points_, width_) {
   if (const auto* law = model::stateful(*law_)) states_ = std::make_unique<PointStates>(*law);
   const int rows = points_ * width_;
   offset_.assign(set.offset.data(), set.offset.data() + rows);
   own_.assign(at(2 * width_), 0.0);
-  active_.reserve(at(points_));
-  isActive_.assign(at(points_), 0);
-  hasActed_.assign(at(points_), 0);
-  acted_.reserve(at(points_));
   scale_.assign(at(points_), 1.0);
   for (auto* array : {&d_, &v_, &f_, &dd_, &dv_}) array->assign(at(rows), 0.0);
   for (auto* array : {&dfdd_, &dfdv_, &ahead_}) array->assign(at(rows) * at(width_), 0.0);
@@ -78,17 +74,11 @@ auto PointBatch::measure(const double* q) {
 }
 
 void PointBatch::look(double t, double h, const double* q) {
-  for (int p : active_) isActive_[at(p)] = 0;
-  clearances_.look(t, h, q, measure(q), [&](int p, bool acts) { isActive_[at(p)] = acts ? 1 : 0; });
+  for (int p : active()) selected_.mark(p, false);
+  clearances_.look(t, h, q, measure(q), [&](int p, bool acts) { selected_.mark(p, acts); });
   // A point with a tangent in the factored matrix must be evaluated as long as it is frozen.
-  for (int p : frozen_.points()) isActive_[at(p)] = 1;
-  listActive();
-}
-
-void PointBatch::listActive() {
-  active_.clear();
-  for (int p : all_)
-    if (isActive_[at(p)]) active_.push_back(p), hasActed_[at(p)] = 1;
+  for (int p : frozen_.points()) selected_.mark(p, true);
+  selected_.update();
 }
 
 model::PointLaw::Power PointBatch::power(double t, const double* q, const double* v,
@@ -137,22 +127,13 @@ model::PointLaw::Power PointBatch::callPower(double t, const std::vector<int>& p
   return law_->power(t, points, d_.data(), v_.data());
 }
 
-const std::vector<int>& PointBatch::acted() {
-  acted_.clear();
-  for (int p : all_)
-    if (hasActed_[at(p)]) acted_.push_back(p);
-  return acted_;
-}
-
-void PointBatch::bookPowers() { hasActed_ = isActive_; }
-
 bool PointBatch::addMissed(const double* q, double t) {
-  if (active_.size() == all_.size()) return false;
+  if (active().size() == everyPoint().size()) return false;
   bool any = false;
   clearances_.check(q, t, measure(q), [&](int p) {
-    if (isActive_[at(p)] == 0) isActive_[at(p)] = 1, any = true;
+    if (!selected_.isMarked(p)) selected_.mark(p, true), any = true;
   });
-  if (any) listActive();
+  if (any) selected_.update();
   return any;
 }
 
@@ -161,23 +142,23 @@ bool PointBatch::meetsOrLeavesWall(const double* q) {
 }
 
 void PointBatch::evaluate(double t, const double* q, const double* v) {
-  if (active_.empty()) return;
-  gatherThese(active_, q, v);
-  evaluateHere(t, active_, false);
+  if (active().empty()) return;
+  gatherThese(active(), q, v);
+  evaluateHere(t, active(), false);
 }
 
 void PointBatch::evaluateWithTangent(double t, const double* q, const double* v) {
-  if (active_.empty()) return;
-  gatherThese(active_, q, v);
-  evaluateHere(t, active_, true);
+  if (active().empty()) return;
+  gatherThese(active(), q, v);
+  evaluateHere(t, active(), true);
 }
 
 void PointBatch::lookAheadAlong(double t, double h, const double* q, const double* v) {
-  if (active_.empty()) return;
-  gatherThese(active_, q, v);
-  for (int p : active_)
+  if (active().empty()) return;
+  gatherThese(active(), q, v);
+  for (int p : active())
     for (int r = p * width_; r < (p + 1) * width_; ++r) d_[at(r)] += h * v_[at(r)];
-  evaluateHere(t, active_, true);
+  evaluateHere(t, active(), true);
   std::swap(ahead_, dfdd_);
 }
 
@@ -197,7 +178,7 @@ void PointBatch::scalePoint(int p, bool tangent) {
 }
 
 void PointBatch::addScaledForce(double* y, std::vector<int>& blocks) const {
-  for (int p : active_) {
+  for (int p : active()) {
     if (scale_[at(p)] == 1.0) continue;
     for (int r = p * width_; r < (p + 1) * width_; ++r) rows_.add(r, f_[at(r)], y);
     rows_.appendBlocks(p, blocks);
@@ -208,7 +189,7 @@ void PointBatch::applyScale(const std::vector<int>& points, bool tangent) {
   for (int p : points) scalePoint(p, tangent);
 }
 
-void PointBatch::addForce(double* y) const { rows_.scatter(active_, f_.data(), y); }
+void PointBatch::addForce(double* y) const { rows_.scatter(active(), f_.data(), y); }
 
 void PointBatch::callLaw(double t, const std::vector<int>& points, bool tangent) {
   const double *d = d_.data(), *v = v_.data();
@@ -264,17 +245,14 @@ void PointBatch::evaluateElsewhere(double t, int point, const double* d, const d
 
 void PointBatch::save(std::vector<double>& memory) const {
   clearances_.save(memory);
-  for (const auto* flags : {&isActive_, &hasActed_})
-    memory.insert(memory.end(), flags->begin(), flags->end());
+  selected_.save(memory);
   memory.insert(memory.end(), scale_.begin(), scale_.end());
   frozen_.save(memory);
 }
 
 void PointBatch::restore(const double*& memory) {
   clearances_.restore(memory);
-  for (char& on : isActive_) on = *memory++ != 0.0 ? 1 : 0;
-  listActive();
-  for (char& on : hasActed_) on = *memory++ != 0.0 ? 1 : 0;
+  selected_.restore(memory);
   for (int p = 0; p < points_; ++p) setScale(p, *memory++);
   frozen_.restore(memory);
 }

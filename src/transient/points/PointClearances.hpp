@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/Index.hpp"
-#include "transient/compiled/ContactBroadPhase.hpp"
+#include "transient/points/ContactBroadPhase.hpp"
 
 namespace tooljoint::transient {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/compiled/PointRows.hpp"
+#include "transient/points/PointRows.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/compiled/ContactBroadPhase.hpp"
+#include "transient/points/ContactBroadPhase.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/compiled/PointClearances.hpp"
+#include "transient/points/PointClearances.hpp"
 
 #include <utility>
 
