@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "common/Error.hpp"
@@ -102,6 +103,12 @@ std::optional<CellNumber> cellNumber(const std::string& cell) {
 bool isUsualNull(double number) {
   constexpr double nulls[] = {-999.25, -9999.0, -9999.25, -99999.0};
   return std::find(std::begin(nulls), std::end(nulls), number) != std::end(nulls);
+}
+
+bool isAbsent(const std::string& cell) {
+  static const std::set<std::string> words{"",    "nan", "null", "nil", "none",
+                                           "n/a", "na",  "#n/a", "-",   "--"};
+  return words.count(lower(cell)) > 0;
 }
 
 std::string DecimalMarks::fault(const CellNumber& number, int line) {

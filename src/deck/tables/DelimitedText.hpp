@@ -44,6 +44,10 @@ std::optional<CellNumber> cellNumber(const std::string& cell);
 /// True for numbers that loggers write for missing measurements: -999.25, -9999 and the like.
 bool isUsualNull(double number);
 
+/// True for a cell without a number: empty, or a word of loggers and spreadsheets for a missing
+/// measurement ("NaN", "null", "N/A", "-" and the like, in any case).
+bool isAbsent(const std::string& cell);
+
 /// Consistency of the decimal marks of one file: commas or points, and no commas if they separate
 /// cells.
 class DecimalMarks {

@@ -115,7 +115,7 @@ class Reader {
   /// The number of a cell; none for an empty cell or the null value of loggers.
   std::optional<double> number(const deck::DelimitedRow& row, Kind k) {
     const std::string text = cell(row, k);
-    if (text.empty()) return std::nullopt;
+    if (deck::isAbsent(text)) return std::nullopt;
     const auto read = deck::cellNumber(text);
     if (!read) {
       fault(row.line,
