@@ -4,6 +4,7 @@
 /// or tabs.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,16 @@ struct DelimitedText {
 /// Latin-1 degree sign is converted to UTF-8. Throws DeckError for UTF-16, whose bytes contain
 /// zeros.
 DelimitedText splitDelimited(const std::string& text);
+
+/// Number of wanted columns that the cells of a line name.
+using NamedColumns = std::function<std::size_t(const std::vector<std::string>&)>;
+
+/// The text with the lines above its header (title, well, rig) turned into comments. The header is
+/// the line that names most of the `all` wanted columns, the first of several, among the first 200
+/// lines.
+/// \param above  optional; the cells of the last line above the header
+std::string fromHeader(const std::string& text, std::size_t all, const NamedColumns& named,
+                       std::vector<std::string>* above = nullptr);
 
 /// The number of a cell; `comma` is true for a decimal comma.
 struct CellNumber {

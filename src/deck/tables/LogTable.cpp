@@ -21,8 +21,6 @@ namespace {
 constexpr std::uint64_t largestLog = 1U << 26U;  // bytes
 /// Largest number of printed faults; the others are counted.
 constexpr std::size_t mostFaults = 10;
-/// Lines that are searched for the header.
-constexpr std::size_t mostLinesAbove = 200;
 /// Headings of the time, if the deck names none.
 const std::vector<std::string> timeNames{"time",     "elapsed time", "etim",     "t",
                                          "datetime", "date time",    "timestamp"};
@@ -88,7 +86,9 @@ class Reader {
     }
     DelimitedText table;
     try {
-      table = splitDelimited(fromHeader(text));
+      table = splitDelimited(fromHeader(
+          text, columns_.size(),
+          [this](const std::vector<std::string>& cells) { return wantedNames(cells); }, &above_));
     } catch (const DeckError& error) {
       throw DeckError("The measured log " + file_ + " " + error.what());
     }
@@ -96,30 +96,6 @@ class Reader {
     rows_ = std::move(table.rows);
     marks_ = DecimalMarks(table.separator);
     header();
-  }
-
-  /// The text with the lines above its header (title, well, rig) turned into comments. The header
-  /// is the line with the most wanted columns, the first of several, among the first lines.
-  std::string fromHeader(const std::string& text) {
-    std::vector<std::string> lines = split(text, '\n');
-    std::size_t header = lines.size(), most = 0, looked = 0;
-    for (std::size_t i = 0; i < lines.size() && looked < mostLinesAbove; ++i) {
-      const auto rows = splitDelimited(lines[i]).rows;
-      if (rows.empty()) continue;
-      ++looked;
-      const std::size_t named = wantedNames(rows[0].cells);
-      if (header < lines.size() && named <= most) continue;
-      header = i;
-      most = named;
-      if (most == columns_.size()) break;
-    }
-    if (most == 0) return text;
-    for (std::size_t i = 0; i < header; ++i) {
-      const auto rows = splitDelimited(lines[i]).rows;
-      if (!rows.empty()) above_ = rows[0].cells;
-      lines[i].insert(0, 1, '#');
-    }
-    return join(lines, "\n");
   }
 
   static bool names(const WantedColumn& wanted, const std::string& heading) {
