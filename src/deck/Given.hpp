@@ -12,7 +12,8 @@ struct Given {
   std::string unit;     ///< "in"; the SI unit if the deck gives none
   double factor = 1.0;  ///< SI value for one unit; half of it for a radius given by its diameter
 
-  /// "12.125 in": an SI value in the unit of the deck, with nine digits at most.
+  /// "12.125 in": an SI value in the unit of the deck. A number of at most nine digits, as of a
+  /// parameter, is complete; a computed one has five digits, and all before the point.
   std::string text(double si) const;
 };
 

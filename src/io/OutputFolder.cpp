@@ -187,9 +187,18 @@ void OutputFolder::publish() {
 }
 
 bool OutputFolder::publishUnfinished() {
-  if (!active_ || finished_) return false;
-  renameAll();
-  return true;
+  if (!active_) return false;
+  if (!finished_) {
+    renameAll();
+    return true;
+  }
+  const auto staged = [this](const std::string& name) {
+    return std::filesystem::exists(folder_ + "/" + name + ".part");
+  };
+  if (std::none_of(names_.begin(), names_.end(),
+                   [&](const auto& name) { return name != summaryName && staged(name); }))
+    ::unlink((folder_ + "/" + summaryName + ".part").c_str());
+  return false;
 }
 
 }  // namespace tooljoint::io

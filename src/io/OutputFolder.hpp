@@ -55,7 +55,8 @@ class OutputFolder {
   void publish();
 
   /// After a failure or an interrupt. Without finished results in the folder, the files are renamed
-  /// (their summary describes the failure); otherwise they stay NAME.part next to the old results.
+  /// (their summary describes the failure); otherwise they stay NAME.part next to the old results,
+  /// and a summary without other files is removed.
   /// Returns true in the first case.
   bool publishUnfinished();
 

@@ -256,7 +256,9 @@ class Mesher {
     const auto& length = solid(out_.instances.front().component).length;
     if (out_.length() > well_.length() + samePlace)
       fault(where_, "The string is " + length.text(out_.length()) + " long, but the well ends at " +
-                        length.text(well_.length()) + ". Shorten the string or lengthen the well.");
+                        length.text(well_.length()) +
+                        ". Shorten the string or lengthen the well. It is " +
+                        length.text(out_.length() - well_.length()) + " too long.");
   }
 
   /// The smaller clearance of both sides of a node; the bore is evaluated slightly inside the

@@ -90,6 +90,7 @@ class SurveyReader {
   SurveyTable read() {
     const deck::DelimitedText text = split();
     marks_ = deck::DecimalMarks(text.separator);
+    noteNumbers(text.rows);
     for (const deck::DelimitedRow& row : text.rows) take(row);
     finish();
     remark(text);
@@ -230,20 +231,40 @@ class SurveyReader {
     }
     while (cells.size() > columns_ && cells.back().empty())
       cells.pop_back();  // empty cells from separators at the end of a row
-    if (cells.size() != columns_) {
-      fault("found " + std::to_string(cells.size()) + " columns where " + std::to_string(columns_) +
-            " are expected (measured depth, inclination, azimuth; separated by commas, semicolons "
-            "or tabs).");
-      return;
-    }
+    if (cells.size() > columns_ || cells.size() < fewestCells()) return wrongCount(cells.size());
+    if (cells.size() < columns_) ++shortRows_;
+    cells.resize(columns_);
     if (afterHeader_ && unitRow(cells)) return;
     afterHeader_ = false;
     station(cells);
   }
 
+  /// Notes the last column that holds a number in any row.
+  void noteNumbers(const std::vector<deck::DelimitedRow>& rows) {
+    for (const deck::DelimitedRow& row : rows)
+      for (std::size_t i = columnsWithNumbers_; i < row.cells.size(); ++i)
+        if (deck::cellNumber(row.cells[i])) columnsWithNumbers_ = i + 1;
+  }
+
+  /// A row may end before columns of text that are not read. It may not end before columns with
+  /// numbers, because a number inside the row may be the missing one.
+  std::size_t fewestCells() const {
+    const std::size_t read = *std::max_element(position_.begin(), position_.end()) + 1;
+    return std::min(columns_, std::max(read, columnsWithNumbers_));
+  }
+
+  void wrongCount(std::size_t found) {
+    const std::string names =
+        names_.empty() ? "measured depth, inclination, azimuth" : join(names_, ", ");
+    fault("found " + std::to_string(found) + " columns where " + std::to_string(columns_) +
+          " are expected (" + names +
+          "; separated by commas, semicolons or tabs). Write an empty cell for each missing one.");
+  }
+
   void header(std::vector<std::string> cells) {
     while (!cells.empty() && cells.back().empty()) cells.pop_back();
     columns_ = cells.size();
+    names_ = cells;
     afterHeader_ = true;
     std::array<bool, 3> seen = {false, false, false};
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -372,7 +393,9 @@ class SurveyReader {
           "the first station must be at measured depth 0 (add the line of the surface, for example "
           "\"0, 0, 0\").");
     if (!stations.empty() && !(value[0] > stations.back().depth))
-      fault("the measured depth does not increase from the station before.");
+      fault(
+          "the measured depth does not increase from the station before. Sort the stations by "
+          "depth, and remove those that are there twice.");
     if (value[1] < 0.0 || value[1] > pi)
       fault("the inclination must lie between 0 and 180 degrees.");
     if (std::abs(value[2]) > 2.0 * pi * (1.0 + 1e-12))
@@ -405,6 +428,10 @@ class SurveyReader {
     if (const auto comments = text.comments - static_cast<int>(preamble_); comments > 0)
       left.push_back(std::to_string(comments) +
                      (comments == 1 ? " comment line" : " comment lines"));
+    if (shortRows_ > 0)
+      how.push_back(std::to_string(shortRows_) + (shortRows_ == 1
+                                                      ? " row without its last columns"
+                                                      : " rows without their last columns"));
     if (text.emptyRows > 0)
       left.push_back(std::to_string(text.emptyRows) +
                      (text.emptyRows == 1 ? " empty row" : " empty rows"));
@@ -419,7 +446,10 @@ class SurveyReader {
   std::array<bool, 3> given_ = {false, false, false};  ///< the file gives the unit
   std::array<std::size_t, 3> position_ = {0, 1, 2};
   std::size_t columns_ = kinds.size();
-  std::size_t preamble_ = 0;  ///< lines of text above the header
+  std::size_t columnsWithNumbers_ = 0;  ///< up to the last column with a number in any row
+  std::size_t shortRows_ = 0;           ///< rows that end before columns of text
+  std::vector<std::string> names_;      ///< of the columns in the header
+  std::size_t preamble_ = 0;            ///< lines of text above the header
   bool started_ = false, afterHeader_ = false;
   int line_ = 0;
   deck::DecimalMarks marks_;

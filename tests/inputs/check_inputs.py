@@ -316,6 +316,39 @@ def a_mistyped_depth_is_told():
                (sentence in " ".join(said.split())) == told, said[-500:])
 
 
+BIT_AT_A_STATION = """<ParameterList name="kink">
+  <ParameterList name="Well">
+    <Parameter name="Trajectory" type="string" value="Survey"/>
+    <ParameterList name="Survey">
+      <Parameter name="Stations" type="Array(double)" value="{0, 0, 0, 300, 3, 0, 400, 53, 0}"/>
+    </ParameterList>
+    <Parameter name="Bore Diameter" type="string" value="8.5 in"/>
+  </ParameterList>
+  <ParameterList name="Drillstring">
+    <Parameter name="Bit Depth" type="string" value="300 m"/>
+    <Parameter name="Assembly" type="Array(string)" value="{fill*pipe}"/>
+    <ParameterList name="Components">
+      <ParameterList name="pipe">
+        <Parameter name="Length" type="string" value="10 m"/>
+        <Parameter name="Elements" type="int" value="2"/>
+        <Parameter name="Outer Diameter" type="string" value="5 in"/>
+        <Parameter name="Inner Diameter" type="string" value="4.276 in"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+</ParameterList>
+"""
+
+
+def a_dogleg_below_the_bit_is_not_counted():
+    """The string bends by 3 deg in 300 m; 15 deg/30 m begin where it ends."""
+    pathlib.Path("kink.xml").write_text(BIT_AT_A_STATION, encoding="utf-8")
+    said = subprocess.run([PROGRAM, "check", "kink.xml"], stdout=subprocess.PIPE, text=True,
+                          check=False).stdout
+    expect("the dogleg of a string is that of its own interval", "largest dogleg 0.3 deg/30 m"
+           in " ".join(said.split()), said[:600])
+
+
 def main():
     shutil.rmtree("inputs", ignore_errors=True)  # of an earlier run of this test
     pathlib.Path("inputs").mkdir()
@@ -327,6 +360,7 @@ def main():
     check_refuses_what_run_refuses()
     absurd_counts_are_told()
     a_mistyped_depth_is_told()
+    a_dogleg_below_the_bit_is_not_counted()
     return finish()
 
 

@@ -206,6 +206,8 @@ def refusals():
         ("unit of something else", "bit depth [m],operation,hook load [bar]\n400,Trip in,100\n",
          "\"bar\""),
         ("unknown operation", table + "400,Trip uot,100,\n", "Did you mean \"Trip out\"?"),
+        ("unknown operation below a title and gaps",
+         "Well A; Rig 7\n" + table + "400,Trip in,NaN,null\n400,Trip uot,1,\n", ".csv:4:"),
         ("no number", table + "400,Trip out,many,\n", "is not a finite number"),
         ("no measured column", "bit depth [m],operation\n400,Trip in\n", "nothing was measured"),
         ("no line", table, "no measurement follows"),

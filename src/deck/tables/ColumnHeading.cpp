@@ -2,6 +2,7 @@
 #include "deck/tables/ColumnHeading.hpp"
 
 #include <cctype>
+#include <map>
 #include <set>
 
 #include "common/Constants.hpp"
@@ -37,6 +38,17 @@ std::string inTheCaseOfTheTable(const std::string& unit) {
   return text;
 }
 
+/// Revolutions per minute or second as "per minute" or as cycles; none for other texts. "1/s" may
+/// be rad/s as well as rev/s.
+std::optional<double> revolutions(const std::string& unit) {
+  static const std::map<std::string, double> spellings{
+      {"1/min", constants::rpm},    {"min-1", constants::rpm}, {"min^-1", constants::rpm},
+      {"c/min", constants::rpm},    {"cpm", constants::rpm},   {"cycles/min", constants::rpm},
+      {"revs/min", constants::rpm}, {"c/s", constants::twoPi}, {"cycles/s", constants::twoPi}};
+  const auto found = spellings.find(lower(unit));
+  return found == spellings.end() ? std::nullopt : std::optional(found->second);
+}
+
 }  // namespace
 
 ColumnHeading splitHeading(const std::string& cell) {
@@ -51,6 +63,8 @@ std::optional<double> unitFactor(const std::string& unit, const std::string& si)
   std::string fault;
   if (unit.empty()) return std::nullopt;
   if (si == "m/s2" && lower(unit) == "g") return constants::standardGravity;
+  if (si == "rad/s")
+    if (const auto factor = revolutions(unit)) return factor;
   if (const auto factor = toSi("1 " + unit, si, fault)) return factor;
   return toSi("1 " + inTheCaseOfTheTable(unit), si, fault);
 }

@@ -16,7 +16,8 @@ struct ColumnHeading {
 ColumnHeading splitHeading(const std::string& cell);
 
 /// Value in `si` of one `unit` in the spellings of measurement files: "klbf", "KLBF", "ft.lbf",
-/// "rpm"; "g" is the standard gravity if an acceleration is expected. Case matters only if several
+/// "rpm"; "g" is the standard gravity if an acceleration is expected, "1/min" and "c/min" are
+/// revolutions per minute if a rotary speed is. Case matters only if several
 /// units would match. None for a unit that is unknown or of another quantity.
 std::optional<double> unitFactor(const std::string& unit, const std::string& si);
 

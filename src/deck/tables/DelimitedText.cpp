@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "common/Error.hpp"
@@ -85,6 +86,28 @@ DelimitedText splitDelimited(const std::string& text) {
   return result;
 }
 
+std::string fromHeader(const std::string& text, std::size_t all, const NamedColumns& named,
+                       std::vector<std::string>* above) {
+  constexpr std::size_t mostLinesAbove = 200;
+  std::vector<std::string> lines = split(text, '\n');
+  std::size_t header = 0, most = 0, looked = 0;
+  for (std::size_t i = 0; i < lines.size() && looked < mostLinesAbove && most < all; ++i) {
+    const auto rows = splitDelimited(lines[i]).rows;
+    if (rows.empty()) continue;
+    ++looked;
+    const std::size_t count = named(rows[0].cells);
+    if (count <= most) continue;
+    header = i;
+    most = count;
+  }
+  for (std::size_t i = 0; i < header; ++i) {
+    const auto rows = splitDelimited(lines[i]).rows;
+    if (!rows.empty() && above != nullptr) *above = rows[0].cells;
+    lines[i].insert(0, 1, '#');
+  }
+  return header == 0 ? text : join(lines, "\n");
+}
+
 std::optional<CellNumber> cellNumber(const std::string& cell) {
   CellNumber number;
   std::string text = cell.size() > 1 && cell[0] == '+' && cell[1] != '-' ? cell.substr(1) : cell;
@@ -102,6 +125,12 @@ std::optional<CellNumber> cellNumber(const std::string& cell) {
 bool isUsualNull(double number) {
   constexpr double nulls[] = {-999.25, -9999.0, -9999.25, -99999.0};
   return std::find(std::begin(nulls), std::end(nulls), number) != std::end(nulls);
+}
+
+bool isAbsent(const std::string& cell) {
+  static const std::set<std::string> words{"",    "nan", "null", "nil", "none",
+                                           "n/a", "na",  "#n/a", "-",   "--"};
+  return words.count(lower(cell)) > 0;
 }
 
 std::string DecimalMarks::fault(const CellNumber& number, int line) {

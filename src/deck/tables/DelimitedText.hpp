@@ -4,6 +4,7 @@
 /// or tabs.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,16 @@ struct DelimitedText {
 /// zeros.
 DelimitedText splitDelimited(const std::string& text);
 
+/// Number of wanted columns that the cells of a line name.
+using NamedColumns = std::function<std::size_t(const std::vector<std::string>&)>;
+
+/// The text with the lines above its header (title, well, rig) turned into comments. The header is
+/// the line that names most of the `all` wanted columns, the first of several, among the first 200
+/// lines.
+/// \param above  optional; the cells of the last line above the header
+std::string fromHeader(const std::string& text, std::size_t all, const NamedColumns& named,
+                       std::vector<std::string>* above = nullptr);
+
 /// The number of a cell; `comma` is true for a decimal comma.
 struct CellNumber {
   double value = 0.0;
@@ -43,6 +54,10 @@ std::optional<CellNumber> cellNumber(const std::string& cell);
 
 /// True for numbers that loggers write for missing measurements: -999.25, -9999 and the like.
 bool isUsualNull(double number);
+
+/// True for a cell without a number: empty, or a word of loggers and spreadsheets for a missing
+/// measurement ("NaN", "null", "N/A", "-" and the like, in any case).
+bool isAbsent(const std::string& cell);
 
 /// Consistency of the decimal marks of one file: commas or points, and no commas if they separate
 /// cells.

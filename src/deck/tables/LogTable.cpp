@@ -44,9 +44,9 @@ class Reader {
   explicit Reader(std::string file) : file_(std::move(file)) {}
 
   std::vector<LogSignal> read(const WantedColumn& time, const std::vector<WantedColumn>& wanted) {
-    load();
     columns_.push_back({time});
     for (const auto& one : wanted) columns_.push_back({one});
+    load();
     for (auto& column : columns_) find(column);
     raise();
     signals_.resize(wanted.size());
@@ -86,7 +86,9 @@ class Reader {
     }
     DelimitedText table;
     try {
-      table = splitDelimited(text);
+      table = splitDelimited(fromHeader(
+          text, columns_.size(),
+          [this](const std::vector<std::string>& cells) { return wantedNames(cells); }, &above_));
     } catch (const DeckError& error) {
       throw DeckError("The measured log " + file_ + " " + error.what());
     }
@@ -94,6 +96,23 @@ class Reader {
     rows_ = std::move(table.rows);
     marks_ = DecimalMarks(table.separator);
     header();
+  }
+
+  static bool names(const WantedColumn& wanted, const std::string& heading) {
+    const std::string name = plain(heading);
+    return wanted.name.empty() ? std::count(timeNames.begin(), timeNames.end(), name) > 0
+                               : name == plain(wanted.name);
+  }
+
+  /// Number of wanted columns that the cells of a line name.
+  std::size_t wantedNames(const std::vector<std::string>& cells) const {
+    std::size_t count = 0;
+    for (const Column& column : columns_)
+      if (std::any_of(cells.begin(), cells.end(), [&](const std::string& cell) {
+            return names(column.wanted, splitHeading(cell).name);
+          }))
+        ++count;
+    return count;
   }
 
   /// Reads the first row of a CSV file, and units in the next row if that contains no number.
@@ -118,32 +137,37 @@ class Reader {
   }
 
   void find(Column& column) {
-    std::vector<std::string> names;
+    std::vector<std::string> known;
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < headings_.size(); ++i) {
-      names.push_back(headings_[i].name);
-      const bool sought =
-          column.wanted.name.empty()
-              ? (las_ ? i == 0
-                      : std::count(timeNames.begin(), timeNames.end(), plain(names.back())) > 0)
-              : plain(names.back()) == plain(column.wanted.name);
-      if (sought) places.push_back(i);
+      known.push_back(headings_[i].name);
+      const bool isIndex = las_ && column.wanted.name.empty();
+      if (isIndex ? i == 0 : names(column.wanted, headings_[i].name)) places.push_back(i);
     }
-    if (places.empty()) return missing(column.wanted, names);
+    if (places.empty()) return missing(column.wanted, known);
     if (places.size() > 1)
-      return fault(headerLine_, "the column " + inQuotes(names[places[0]]) +
+      return fault(headerLine_, "the column " + inQuotes(known[places[0]]) +
                                     " occurs more than once in the header. Rename one.");
     column.place = places[0];
-    if (column.wanted.name.empty()) column.wanted.name = names[places[0]];
+    if (column.wanted.name.empty()) column.wanted.name = known[places[0]];
     if (&column == &columns_[0] && hasClock(column)) return;
-    unit(column, headings_[column.place].unit);
+    unit(column, unitOf(column));
+  }
+
+  /// The unit in the header or below it, otherwise that of a line of units above the header.
+  std::string unitOf(const Column& column) const {
+    const std::string& given = headings_[column.place].unit;
+    if (!given.empty() || above_.size() != headings_.size()) return given;
+    const auto cell = splitHeading(above_[column.place]);
+    const std::string& unit = cell.unit.empty() ? cell.name : cell.unit;
+    return unitFactor(unit, column.wanted.si) ? unit : "";
   }
 
   /// True if the first nonempty time cell is a time of day, even in an unsupported form, such as a
   /// date with an ambiguous order of day and month.
   bool hasClock(const Column& time) {
     for (std::size_t i = firstRow_; i < rows_.size(); ++i) {
-      if (time.place >= rows_[i].cells.size() || rows_[i].cells[time.place].empty()) continue;
+      if (time.place >= rows_[i].cells.size() || isAbsent(rows_[i].cells[time.place])) continue;
       const std::string& first = rows_[i].cells[time.place];
       clock_ = clockTime(first).has_value();
       const bool otherForm = !clock_ && first.find(':') != std::string::npos;
@@ -203,11 +227,11 @@ class Reader {
     if (cells.size() != headings_.size())
       return fault(row.line, "found " + std::to_string(cells.size()) +
                                  " cells where the header has " + std::to_string(headings_.size()) +
-                                 ".");
+                                 ". Write an empty cell where nothing was measured.");
     const auto time = clock_ ? sinceFirst(row.line, cells[columns_[0].place])
                              : number(row.line, cells, columns_[0]);
     if (!time) {
-      if (cells[columns_[0].place].empty() || isNull(cells[columns_[0].place]))
+      if (isGap(cells[columns_[0].place]))
         fault(row.line, "the time is missing. Leave out rows without one.");
       return;
     }
@@ -229,7 +253,7 @@ class Reader {
   /// A time of day counts from the first one. Without a date, a time earlier by more than half a
   /// day belongs to the next day. None for a gap, and for a fault that has been collected.
   std::optional<double> sinceFirst(int line, const std::string& cell) {
-    if (cell.empty() || isNull(cell)) return std::nullopt;
+    if (isGap(cell)) return std::nullopt;
     const auto read = clockTime(cell);
     if (!read || read->dated != firstClock_.value_or(*read).dated) {
       fault(line, "the value " + inQuotes(cell) + " of the column " +
@@ -247,16 +271,17 @@ class Reader {
     return time;
   }
 
-  bool isNull(const std::string& cell) const {
+  bool isGap(const std::string& cell) const {
     const auto read = cellNumber(cell);
-    return read && (null_ ? read->value == *null_ : !las_ && isUsualNull(read->value));
+    if (!read) return isAbsent(cell);
+    return (null_ && read->value == *null_) || isUsualNull(read->value);
   }
 
   /// The value in SI; none for a gap, and for a fault that has been collected.
   std::optional<double> number(int line, const std::vector<std::string>& cells,
                                const Column& column) {
     const std::string& cell = cells[column.place];
-    if (cell.empty() || isNull(cell)) return std::nullopt;
+    if (isGap(cell)) return std::nullopt;
     const auto read = cellNumber(cell);
     if (!read) {
       fault(line, "the value " + inQuotes(cell) + " of the column " + inQuotes(column.wanted.name) +
@@ -274,6 +299,7 @@ class Reader {
   bool las_ = false;
   int headerLine_ = 1;
   std::vector<ColumnHeading> headings_;
+  std::vector<std::string> above_;  ///< cells of the line above the header
   std::vector<DelimitedRow> rows_;
   std::size_t firstRow_ = 0;
   std::optional<double> null_, lastTime_;

@@ -22,13 +22,15 @@ struct LogSignal {
   std::vector<double> value;  ///< SI
 };
 
-/// The signals of the wanted columns, in their order. A CSV file begins with a header, with units
-/// in brackets or in the next row; separators and decimal commas as in surveys, an empty cell is a
-/// gap. A LAS file is recognised by its first section; NULL is a gap. Times of day (ClockTime.hpp)
-/// count from the first one and have no unit. DeckError, a line for each fault, with file, line,
-/// text found and text expected: missing or duplicate columns; units that are missing, unknown, of
-/// another quantity or different from the deck's; cells that are not finite numbers; times that do
-/// not increase; rows of different length; fewer than two values in a column.
+/// The signals of the wanted columns, in their order. A CSV file has a header, with units in
+/// brackets or in the row below or above it; other lines above it are ignored. Separators and
+/// decimal commas as in surveys; an empty cell, "NaN", "null", "N/A", "-" and the usual null
+/// numbers are gaps. A LAS file is recognised by its first section; NULL is a gap. Times of day
+/// (ClockTime.hpp) count from the first one and have no unit. DeckError, a line for each fault,
+/// with file, line, text found and text expected: missing or duplicate columns; units that are
+/// missing, unknown, of another quantity or different from the deck's; cells that are not finite
+/// numbers; times that do not increase; rows of different length; fewer than two values in a
+/// column.
 std::vector<LogSignal> readLog(const std::string& file, const WantedColumn& time,
                                const std::vector<WantedColumn>& wanted);
 

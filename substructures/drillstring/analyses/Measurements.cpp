@@ -35,7 +35,8 @@ class Reader {
       : file_(std::move(file)), operations_(operations) {}
 
   std::vector<Measurement> read() {
-    const auto text = deck::splitDelimited(readInput(file_, largestFile));
+    const auto text =
+        deck::splitDelimited(deck::fromHeader(readInput(file_, largestFile), kinds, namedColumns));
     if (text.rows.empty()) throw DeckError(file_ + ": the table of measurements is empty.");
     marks_ = deck::DecimalMarks(text.separator);
     header(text.rows.front());
@@ -50,16 +51,28 @@ class Reader {
     faults_.push_back(file_ + ":" + std::to_string(line) + ": " + sentence);
   }
 
+  /// The measured column with this heading; the end of measuredColumns if there is none.
+  static auto kindOf(const deck::ColumnHeading& heading) {
+    std::string name = lower(heading.name);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return std::find_if(
+        measuredColumns.begin(), measuredColumns.end(), [&](const MeasuredColumn& column) {
+          return std::count(column.headings.begin(), column.headings.end(), name) > 0;
+        });
+  }
+
+  static std::size_t namedColumns(const std::vector<std::string>& cells) {
+    return static_cast<std::size_t>(
+        std::count_if(cells.begin(), cells.end(), [](const std::string& cell) {
+          return kindOf(deck::splitHeading(cell)) != measuredColumns.end();
+        }));
+  }
+
   void header(const deck::DelimitedRow& row) {
     position_.fill(-1);
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       const auto heading = deck::splitHeading(row.cells[i]);
-      std::string name = lower(heading.name);
-      std::replace(name.begin(), name.end(), '_', ' ');
-      const auto kind = std::find_if(
-          measuredColumns.begin(), measuredColumns.end(), [&](const MeasuredColumn& column) {
-            return std::count(column.headings.begin(), column.headings.end(), name) > 0;
-          });
+      const auto kind = kindOf(heading);
       if (kind == measuredColumns.end()) continue;
       const auto k = static_cast<std::size_t>(kind - measuredColumns.begin());
       if (position_[k] >= 0)
@@ -115,7 +128,7 @@ class Reader {
   /// The number of a cell; none for an empty cell or the null value of loggers.
   std::optional<double> number(const deck::DelimitedRow& row, Kind k) {
     const std::string text = cell(row, k);
-    if (text.empty()) return std::nullopt;
+    if (deck::isAbsent(text)) return std::nullopt;
     const auto read = deck::cellNumber(text);
     if (!read) {
       fault(row.line,

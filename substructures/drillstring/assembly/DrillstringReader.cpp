@@ -66,7 +66,9 @@ std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit, bo
       throw DeckError(settings.bitAt(bit) + ", but the string below " +
                       inQuotes("fill*" + assembly.front().name) + " is " +
                       settings.depth.text(below) +
-                      " long. Give a deeper Bit Depth, or leave components out.");
+                      " long. The uppermost component fills the hole above it: give a Bit Depth "
+                      "of more than " +
+                      settings.depth.text(below) + ", or take components out of the Assembly.");
     }
     assembly.front().count =
         std::max(1, static_cast<int>(std::ceil((bit - below) / lengths.front() - roundOff)));

@@ -283,6 +283,8 @@ std::string describeWell(const Scene& scene) {
                                       // length
   const double bit = scene.string.length();
   auto depths = scene.string.depths();
+  // at a jump of the curvature below the bit, that of the interval above counts
+  depths.back() = bit - beside;
   for (const double s : scene.well.trajectory().breaks())
     for (const double place : {s - beside, s + beside})
       if (place > 0.0 && place < bit) depths.push_back(place);

@@ -60,6 +60,11 @@ TEST(Given, IsTheUnitOfTheDeckOrSi) {
   };
   EXPECT_EQ(given("3 in").text(0.1539875), "6.0625 in");
   EXPECT_EQ(given("+3.5e1 mm").text(0.1), "100 mm");
+  EXPECT_EQ(given("3 ft").text(168.65), "553.31 ft");  // computed: 553.3136483 ft
+  EXPECT_EQ(given("3 ft").text(0.3048 * 10312.625), "10312.625 ft");
+  EXPECT_EQ(given("3 ft").text(0.3048 / 3.0 * 370371.0), "123457 ft");
+  EXPECT_EQ(given("3 m").text(100000.0 / 0.3), "333333 m");
+  EXPECT_EQ(given("3 m").text(0.0), "0 m");
   EXPECT_EQ(given("3in").name, "Outer Radius");
   const Deck plain = parsed(parameter("Outer Radius", "double", "0.1"));
   EXPECT_EQ(plain.given("a/Outer Radius", "m").text(0.3048 / 3), "0.1016 m");

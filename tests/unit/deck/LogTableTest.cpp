@@ -52,6 +52,45 @@ TEST(LogTable, TheUsualNullOfLoggersIsAGap) {
   EXPECT_EQ(found[0].value, (std::vector<double>{60, -999}));
 }
 
+TEST(LogTable, WordsForMissingValuesAreGaps) {
+  const auto found = read("Time [s],x [N]\n0,60\n1,NaN\n2,null\n3,N/A\n4,-\n5,-999.2500\n6,1e2\n",
+                          {{"x", "N", ""}});
+  EXPECT_EQ(found[0].time, (std::vector<double>{0, 6}));
+  EXPECT_EQ(found[0].value, (std::vector<double>{60, 100}));
+  const auto text = tooljoint::errorText([] {
+    read("Time [s],x [N]\n0,60\n1,inf\n2,bad\n", {{"x", "N", ""}});
+  });
+  EXPECT_NE(text.find(":3: the value \"inf\""), std::string::npos) << text;
+  EXPECT_NE(text.find(":4: the value \"bad\""), std::string::npos) << text;
+}
+
+TEST(LogTable, LinesAboveTheHeaderAreIgnored) {
+  for (const std::string above : {"Well A; Rig 7\nStart,2026-11-24 10:00:00\n", "Torque, Well A\n",
+                                  "s,kN m\n", "Export of 24.11.2026\n(s),(kN.m)\n"}) {
+    const bool units = above.find("(s)") != std::string::npos || above[0] == 's';
+    const auto found =
+        read(above + (units ? "Time,Torque\n" : "Time [s],Torque [kN m]\n") + "0,1.5\n1,2.5\n",
+             {{"torque", "N m", ""}});
+    EXPECT_EQ(found[0].time, (std::vector<double>{0, 1})) << above;
+    EXPECT_EQ(found[0].value, (std::vector<double>{1500, 2500})) << above;
+  }
+  const auto text = tooljoint::errorText([] {
+    read("Well A\nTime [s],Torque [kN m]\n0,1\n", {{"Torqe", "N m", ""}});
+  });
+  EXPECT_NE(text.find(":2: the header has no column \"Torqe\". Did you mean \"Torque\"?"),
+            std::string::npos)
+      << text;
+}
+
+TEST(LogTable, RevolutionsPerMinuteHaveSeveralSpellings) {
+  constexpr double rpm = 0.10471975511965977;
+  for (const char* unit : {"1/min", "rev/min", "c/min", "C/MIN", "r/min", "min-1", "cpm"})
+    EXPECT_DOUBLE_EQ(unitFactor(unit, "rad/s").value_or(0.0), rpm) << unit;
+  EXPECT_DOUBLE_EQ(*unitFactor("c/s", "rad/s"), 60.0 * rpm);
+  EXPECT_FALSE(unitFactor("1/s", "rad/s"));
+  EXPECT_FALSE(unitFactor("c/min", "Hz"));
+}
+
 TEST(LogTable, UnitsOfTheDeckFillIn) {
   const auto found = read("t,x\n0,1\n1,2\n", {{"x", "N", "klbf"}}, {"t", "s", "min"});
   EXPECT_EQ(found[0].time[1], 60.0);
@@ -116,6 +155,13 @@ TEST(LasFile, WrappedLinesAreJoined) {
       read(std::string(head) + "0\n1 2\n1\n-999.25 4\n2\n5 6\n", {{"a", "m", ""}, {"B", "N", ""}});
   EXPECT_EQ(found[0].time, (std::vector<double>{0, 2}));
   EXPECT_EQ(found[1].value, (std::vector<double>{2000, 4000, 6000}));
+}
+
+TEST(LasFile, TheUsualNullsAreGapsBesideItsOwn) {
+  const std::string text =
+      "~Version\nVERS. 2.0 : x\nWRAP. NO : x\n~Well\nNULL. -1 : x\n~Curve\nTIME.S : t\nB.KN : b\n"
+      "~A\n0 2\n1 -1\n2 -999.25\n3 NaN\n4 3\n";
+  EXPECT_EQ(read(text, {{"B", "N", ""}})[0].value, (std::vector<double>{2000, 3000}));
 }
 
 TEST(LasFile, FaultsNameTheirLine) {

@@ -108,6 +108,16 @@ TEST_F(Io, AFailedRunLeavesFinishedResultsAlone) {
     stage(folder, "failed", "bad");
     EXPECT_FALSE(folder.publishUnfinished());
   }
+  EXPECT_TRUE(fs::exists(at("run/table.csv.part")));
+  EXPECT_TRUE(fs::exists(at("run/summary.json.part")));
+  {
+    io::OutputFolder folder(at("run"));
+    io::Summary summary;
+    summary.set("status", "failed");
+    summary.stage(folder.file("summary.json"));
+    EXPECT_FALSE(folder.publishUnfinished());
+  }
+  EXPECT_FALSE(fs::exists(at("run/summary.json.part"))) << "a refused run left its summary alone";
   EXPECT_EQ(io::readText(at("run/table.csv")), "good");
   EXPECT_EQ(io::readPreviousRun(at("run/summary.json")).status, "finished");
 }

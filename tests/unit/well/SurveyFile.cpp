@@ -57,6 +57,21 @@ TEST(SurveyFile, WithoutHeaderIsDepthInclinationAzimuthInMetresAndDegrees) {
   EXPECT_DOUBLE_EQ(stations[2].inclination, 25.0 * degree);
 }
 
+TEST(SurveyFile, RowsMayEndBeforeColumnsOfText) {
+  const CsvFile file("MD,Inc,Azi,Comment\n0,0,0,tie-in\n100,10,350\n200,20,340,MWD\n");
+  const auto table = readSurveyTable(file.name());
+  ASSERT_EQ(table.stations.size(), 3u);
+  EXPECT_DOUBLE_EQ(table.stations[1].azimuth, 350.0 * degree);
+  ASSERT_EQ(table.remarks.size(), 1u);
+  EXPECT_NE(table.remarks[0].find("1 row without its last columns"), std::string::npos);
+  EXPECT_NE(errorOf("MD,Inc,Azi,TVD\n0,0,0,0\n100,10,99\n")
+                .find("F:3: found 3 columns where 4 are expected (MD, Inc, Azi, TVD; separated by "
+                      "commas, semicolons or tabs). Write an empty cell for each missing one."),
+            std::string::npos);
+  EXPECT_NE(errorOf("0,0,0\n100,10,99\n100,10,99\n").find("Sort the stations by depth"),
+            std::string::npos);
+}
+
 TEST(SurveyFile, HeaderNamesColumnsInAnyOrderWithUnits) {
   const CsvFile file(
       "Azimuth [deg], TVD, MD (ft), Inclination [rad]\n90, 0, 0, 0\n90, 99, 1000, 0.5\n");
