@@ -98,8 +98,8 @@ model::SecondOrderModel roundTheBore(double offset) {
 
 /// The acceleration of such a mass is centripetal, so the phase correction must leave it out: the
 /// mass would gain speed. The wall turns by 0.033 rad in a step, so the scheme itself misses the
-/// angle by (0.033)^2 / 12 of it, up to 5e-4 where it damps. The mass starts in equilibrium, but not
-/// in that of the scheme, so the force keeps an undamped vibration of 1.2 %.
+/// angle by (0.033)^2 / 12 of it, up to 5e-4 where it damps. The mass starts in equilibrium, but
+/// not in that of the scheme, so the force keeps an undamped vibration of 1.2 %.
 TEST(AlphaStep, TheWallCarriesTheCentrifugalForceOfAPointThatSlidesAlongIt) {
   for (const double offset : {0.0, 0.01})
     for (const double radius : {0.2, 0.8, 1.0}) {
